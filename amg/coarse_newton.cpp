@@ -1,0 +1,211 @@
+#include "amg/coarse_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "amg/masked_cg.hpp"
+#include "core/algebra/products.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr int max_newton_steps = 12;
+constexpr int max_cg_iterations = 500;
+constexpr int worn_out = 6;      // iterations above which a new factorisation pays
+constexpr double enough = 1e-3;  // energy decrease of a step, relative to all so far, that ends the loop
+constexpr int max_sweeps = 60;   // of Gauss-Seidel alone
+template <int B>
+constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
+
+template <int B>
+double decrease(const Level<B>& level, const std::vector<double>& before) {
+  // J(before) - J(x) = d'(r_before + r_after) / 2 needs two residuals; r_after and A d give the same.
+  std::vector<double> d(before.size()), Ad(before.size()), r(before.size());
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] = level.x[i] - before[i];
+  product<B>(*level.A, d.data(), Ad.data());
+  residual<B>(*level.A, level.x, level.b, r.data());
+  double sum = 0;
+  for (std::size_t i = 0; i < d.size(); ++i) sum += d[i] * (r[i] + 0.5 * Ad[i]);
+  return sum;
+}
+
+// Bounds of component k at a slot, on x
+template <int B>
+struct Bound {
+  double lower, upper;
+  Bound(const Level<B>& level, Index slot, int k)
+      : lower(level.constraints.lower[Offset{slot} * B + k]), upper(level.constraints.upper[Offset{slot} * B + k]) {}
+};
+
+template <int B>
+void mask_contact(const Level<B>& level, std::vector<Flags>& mask) {
+  mask = level.off;
+  for (Index slot = 0; slot < level.constraints.size(); ++slot) {
+    const Index p = level.constraints.vector[slot];
+    for (int k = 0; k < B; ++k) {
+      const Bound<B> bound(level, slot, k);
+      const double x = level.x[Offset{p} * B + k];
+      if (x <= bound.lower || x >= bound.upper) mask[p] |= static_cast<Flags>(1u << k);
+    }
+  }
+}
+
+// Largest step <= limit along d that stays within the bounds.
+template <int B>
+double admissible_step(const Level<B>& level, const std::vector<double>& d, double limit) {
+  double step = limit;
+  for (Index slot = 0; slot < level.constraints.size(); ++slot) {
+    const Index p = level.constraints.vector[slot];
+    for (int k = 0; k < B; ++k) {
+      const Bound<B> bound(level, slot, k);
+      const Offset i = Offset{p} * B + k;
+      if (d[i] > 0) step = std::min(step, (bound.upper - level.x[i]) / d[i]);
+      if (d[i] < 0) step = std::min(step, (bound.lower - level.x[i]) / d[i]);
+    }
+  }
+  return std::max(step, 0.0);
+}
+
+template <int B>
+void clamp(const Level<B>& level) {
+  for (Index slot = 0; slot < level.constraints.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Bound<B> bound(level, slot, k);
+      double& x = level.x[Offset{level.constraints.vector[slot]} * B + k];
+      x = x < bound.lower ? bound.lower : x > bound.upper ? bound.upper : x;
+    }
+}
+
+}  // namespace
+
+template <int B>
+bool CoarseNewton<B>::solve(const Level<B>& level) {
+  const bool constrained = level.constraints.size() > 0;
+  double total = 0;
+  for (int step = 0; step < max_newton_steps; ++step) {
+    const std::vector<double> before(level.x, level.x + static_cast<std::size_t>(level.vectors) * B);
+    if (constrained) {
+      level.sweep(Order::forward);
+      level.sweep(Order::backward);
+    }
+    if (!newton_step(level)) return false;
+    if (!constrained) break;
+    const double gained = decrease<B>(level, before);
+    total += gained;
+    if (!(gained > enough * total)) break;
+  }
+  return true;
+}
+
+template <int B>
+bool CoarseNewton<B>::newton_step(const Level<B>& level) {
+  mask_contact<B>(level, mask_);
+  r_.resize(static_cast<std::size_t>(level.vectors) * B);
+  residual<B>(*level.A, level.x, level.b, r_.data());
+  apply_mask<B>(mask_, r_);
+  const bool direct = level.vectors <= max_direct<B>;
+  if (direct && worn_) factorise(level, mask_);
+  const Precondition precondition_masked = [&](const std::vector<double>& r, std::vector<double>& z) {
+    precondition(level, r, z);
+    apply_mask<B>(mask_, z);
+  };
+  const CgResult cg =
+      masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations, r_, d_);
+  worn_ = cg.iterations > worn_out;
+  return move(level, cg.singular);
+}
+
+// The full step cut off component by component where that lowers the energy, else as far as the bounds allow. Along a
+// direction without energy the obstacle must end the fall.
+template <int B>
+bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
+  const double step = admissible_step<B>(level, d_, singular ? infinity : 1.0);
+  if (step == infinity) return false;
+  const auto n = d_.size();
+  const std::vector<double> before(level.x, level.x + n);
+  if (!singular && step < 1) {
+    for (std::size_t i = 0; i < n; ++i) level.x[i] += d_[i];
+    clamp<B>(level);
+    const double projected = decrease<B>(level, before);
+    std::vector<double> cut(level.x, level.x + n);
+    for (std::size_t i = 0; i < n; ++i) level.x[i] = before[i] + step * d_[i];
+    if (projected >= decrease<B>(level, before)) std::copy(cut.begin(), cut.end(), level.x);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) level.x[i] += step * d_[i];
+  }
+  clamp<B>(level);  // rounding
+  return true;
+}
+
+template <int B>
+void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>& mask) {
+  const BlockMatrix<B>& A = *level.A;
+  const Index n = A.size() * B;
+  scale_.assign(static_cast<std::size_t>(n), 0.0);
+  for (Index p = 0; p < A.size(); ++p)
+    for (int k = 0; k < B; ++k)
+      if (!(mask[p] >> k & 1u)) scale_[p * B + k] = 1 / std::sqrt(A.diagonal(p)[k * B + k]);
+  Eigen::SparseMatrix<double> S(n, n);
+  const auto fill = [&](double regularisation) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(A.value.size() / 2 + static_cast<std::size_t>(n));
+    for (Index p = 0; p < A.size(); ++p)
+      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+        for (int i = 0; i < B; ++i)
+          for (int j = 0; j < B; ++j) {
+            const Index row = p * B + i, column = A.column[k] * B + j;
+            if (row < column) continue;
+            const bool diagonal = row == column;
+            const double value = A.at(k)[i * B + j] * scale_[row] * scale_[column];
+            entries.emplace_back(row, column, diagonal ? 1 + regularisation : value);
+          }
+    S.setFromTriplets(entries.begin(), entries.end());
+  };
+  fill(0);
+  factor_.compute(S);
+  if (factor_.info() != Eigen::Success || factor_.vectorD().minCoeff() < 1e-11) {
+    fill(1e-9);
+    factor_.compute(S);
+  }
+  factorised_ = true;
+}
+
+template <int B>
+void CoarseNewton<B>::precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const {
+  if (factorised_) {
+    Eigen::VectorXd s(static_cast<Eigen::Index>(r.size()));
+    for (std::size_t i = 0; i < r.size(); ++i) s[static_cast<Eigen::Index>(i)] = scale_[i] * r[i];
+    s = factor_.solve(s);
+    for (std::size_t i = 0; i < r.size(); ++i) z[i] = scale_[i] * s[static_cast<Eigen::Index>(i)];
+    // Components that were masked when it was made are unknown to the factorisation.
+    for (Index p = 0; p < level.vectors; ++p)
+      for (int k = 0; k < B; ++k)
+        if (const Offset i = Offset{p} * B + k; scale_[i] == 0) z[i] = r[i] / level.A->diagonal(p)[k * B + k];
+    return;
+  }
+  symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
+}
+
+template <int B>
+bool CoarseGaussSeidel<B>::solve(const Level<B>& level) {
+  double total = 0;
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    const std::vector<double> before(level.x, level.x + static_cast<std::size_t>(level.vectors) * B);
+    level.sweep(Order::forward);
+    level.sweep(Order::backward);
+    const double gained = decrease<B>(level, before);
+    total += gained;
+    if (!(gained > 1e-2 * enough * total)) break;
+  }
+  return true;
+}
+
+template class CoarseNewton<1>;
+template class CoarseNewton<2>;
+template class CoarseNewton<3>;
+template class CoarseGaussSeidel<1>;
+template class CoarseGaussSeidel<2>;
+template class CoarseGaussSeidel<3>;
+
+}  // namespace signorini

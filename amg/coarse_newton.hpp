@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "core/solver/components.hpp"
+
+namespace signorini {
+
+/// Coarsest level: projected Gauss-Seidel sweeps settle the phases, a Newton step on the free components does the rest.
+/// The step is solved by conjugate gradients with a Cholesky factorisation that is renewed only when it has become a
+/// bad preconditioner (one iteration while it is fresh), or with symmetric Gauss-Seidel where the level is too large to
+/// factorise. Semidefinite matrices are allowed.
+template <int B>
+class CoarseNewton final : public CoarseSolver<B> {
+ public:
+  bool solve(const Level<B>& level) override;
+
+ private:
+  bool newton_step(const Level<B>& level);
+  void factorise(const Level<B>& level, const std::vector<Flags>& mask);
+  void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
+  bool move(const Level<B>& level, bool singular);
+
+  std::vector<Flags> mask_;
+  std::vector<double> r_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  bool factorised_ = false;
+  bool worn_ = true;
+};
+
+/// Coarsest level by projected symmetric Gauss-Seidel alone.
+template <int B>
+class CoarseGaussSeidel final : public CoarseSolver<B> {
+ public:
+  bool solve(const Level<B>& level) override;
+};
+
+}  // namespace signorini

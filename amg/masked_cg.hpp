@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+
+namespace signorini {
+
+/// What conjugate gradients on the unmasked components found.
+struct CgResult {
+  int iterations = 0;
+  bool singular = false;  ///< d ends in a direction without energy along which the functional falls: no minimum
+};
+
+/// Preconditioner: z from r, both zero on masked components.
+using Precondition = std::function<void(const std::vector<double>& r, std::vector<double>& z)>;
+
+/// Conjugate gradients for A d = r on the components whose bit is not set in `mask` (per vector), from d = 0. Stops at
+/// `reduction` of the preconditioned residual. A may be semidefinite.
+/// @param r on entry the right-hand side, zero on masked components; overwritten
+template <int B>
+CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
+                   double reduction, int limit, std::vector<double>& r, std::vector<double>& d);
+
+/// z = M^-1 r with M symmetric Gauss-Seidel on the unmasked components.
+template <int B>
+void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const std::vector<double>& r,
+                            std::vector<double>& z);
+
+/// Sets the masked components of v to zero.
+template <int B>
+void apply_mask(const std::vector<Flags>& mask, std::vector<double>& v);
+
+}  // namespace signorini

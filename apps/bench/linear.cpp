@@ -1,0 +1,84 @@
+#include "apps/bench/linear.hpp"
+
+#include <cmath>
+
+#include "apps/signorini/progress.hpp"
+#include "core/algebra/products.hpp"
+#include "core/solver/convergence.hpp"
+
+namespace signorini::bench {
+namespace {
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  double s = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
+  return s;
+}
+
+// max over the vectors of ||A_pp^-1 r_p||
+template <int B>
+double natural_residual(const Level<B>& level, const std::vector<double>& r) {
+  double largest = 0;
+  for (Index p = 0; p < level.vectors; ++p) {
+    double d[B];
+    block::product<B>(level.inverse.data() + Offset{p} * B * B, r.data() + Offset{p} * B, d);
+    largest = std::max(largest, block::norm<B>(d));
+  }
+  return largest;
+}
+
+template <int B>
+Components<B> symmetric_cycle(const Registry& registry) {
+  return {registry.create<Smoother<B>>("smoother", "adjoint"),
+          [&registry] { return registry.create<Transfer<B>>("transfer", "min_merge"); },
+          registry.create<CoarseSolver<B>>("coarse", "newton")};
+}
+
+}  // namespace
+
+template <int B>
+LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                         const Registry& registry, double tolerance) {
+  LinearSolve result;
+  Stopwatch watch;
+  DiscreteProblem<B> correction = problem;  // its right-hand side is the residual
+  const auto n = problem.b.size();
+  MonotoneMultigrid<B> multigrid(correction, prolongations, symmetric_cycle<B>(registry), {});
+  std::vector<double> x = problem.start, r(n), z(n), p(n), Ap(n);
+  residual<B>(problem.A, x.data(), problem.b.data(), r.data());
+  const double reference = natural_residual(multigrid.finest(), r);
+  const auto precondition = [&] {
+    std::copy(r.begin(), r.end(), correction.b.begin());
+    std::fill(z.begin(), z.end(), 0.0);
+    multigrid.cycle(z.data());
+  };
+  result.setup = watch.lap();
+  precondition();
+  double rz = dot(r, z);
+  p = z;
+  ErrorEstimate estimate;
+  for (bool done = rz == 0; !done && result.iterations < 200; ++result.iterations) {
+    product<B>(problem.A, p.data(), Ap.data());
+    const double alpha = rz / dot(p, Ap);
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] += alpha * p[i];
+      r[i] -= alpha * Ap[i];
+    }
+    estimate.add(0.5 * alpha * rz, std::sqrt(alpha * rz));
+    result.residual = natural_residual(multigrid.finest(), r) / reference;
+    result.algebraic_error = estimate.error() / std::sqrt(energy_norm_squared(problem, x, r));
+    done = result.residual <= tolerance && result.algebraic_error <= tolerance;
+    precondition();
+    const double next = dot(r, z);
+    for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + next / rz * p[i];
+    rz = next;
+  }
+  result.solve = watch.lap();
+  return result;
+}
+
+template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
+template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
+template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
+
+}  // namespace signorini::bench

@@ -1,0 +1,22 @@
+#pragma once
+#include "core/component/registry.hpp"
+#include "core/fem/discretize.hpp"
+#include "core/solver/multigrid.hpp"
+
+namespace signorini::bench {
+
+/// What conjugate gradients, preconditioned by one symmetric V(1,1) cycle of the project's own linear multigrid,
+/// needed.
+struct LinearSolve {
+  double setup = 0, solve = 0;
+  int iterations = 0;
+  double residual = 0, algebraic_error = 0;
+};
+
+/// Solves a problem without obstacles from zero until the natural residual and the estimated relative algebraic error
+/// are at most `tolerance`, as the nonlinear solver does.
+template <int B>
+LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                         const Registry& registry, double tolerance);
+
+}  // namespace signorini::bench

@@ -1,0 +1,168 @@
+// The figures of docs/performance.md, as ratios within one run. `signorini_bench` prints the tables in Markdown;
+// `signorini_bench --quick` leaves out the largest sizes.
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "apps/bench/linear.hpp"
+#include "apps/bench/problems.hpp"
+#include "apps/bench/traffic.hpp"
+#include "core/fem/nested.hpp"
+
+namespace signorini::bench {
+namespace {
+
+struct Case {
+  const char* name;
+  const char* scene;
+  std::vector<int> uniform;  // refinements, smallest problem first
+  std::vector<std::string> overrides;
+  std::vector<double> load;  // of the linear comparison, which without it may be trivial
+};
+
+std::vector<std::string> with(std::vector<std::string> overrides, int uniform) {
+  overrides.push_back(fmt::format("refine.uniform={}", uniform));
+  return overrides;
+}
+
+void row(const std::string& text) { fmt::print("{}\n", text), std::fflush(stdout); }
+
+template <int D>
+std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy) {
+  std::vector<Prolongation> all;
+  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
+    all.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
+  return all;
+}
+
+// Whole nonlinear solve over linear multigrid-CG without the obstacle, both with set-up and without assembly of the
+// finest matrix, which they share.
+template <int D, int B>
+void compare_with_linear(const Case& c, const Problem& problem) {
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
+  const Solved nonlinear = solve_nonlinear<D, B>(problem, hierarchy);
+  Model<B> free = build_model<B>(problem.scene, D, problem.registry, 1);
+  free.obstacles.clear();
+  if (!c.load.empty()) {
+    Load<B> load;
+    for (int k = 0; k < B; ++k) load.value[k] = c.load[k];
+    free.loads.push_back(load);
+  }
+  const auto discretization = discretize<D, B>(hierarchy.finest(), free);
+  const LinearSolve linear = multigrid_cg<B>(discretization.problem, prolongations(hierarchy), problem.registry,
+                                             problem.scene.solver.tolerance);
+  Stopwatch watch;
+  (void)discretize<D, B>(hierarchy.finest(), build_model<B>(problem.scene, D, problem.registry, 1));
+  const double finest_assembly = watch.elapsed();
+  const double ours = nonlinear.whole() - finest_assembly;
+  row(fmt::format("| {} | {:.0f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |", c.name, nonlinear.unknowns(),
+                  nonlinear.summary.iterations, linear.iterations, nonlinear.times.solve / linear.solve,
+                  ours / (linear.setup + linear.solve), finest_assembly / (linear.setup + linear.solve)));
+}
+
+template <int D, int B>
+void cycle_traffic(const Case& c, const Problem& problem, double bandwidth) {
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
+  const auto discretization =
+      discretize<D, B>(hierarchy.finest(), build_model<B>(problem.scene, D, problem.registry, 1));
+  const auto P = prolongations(hierarchy);
+  Components<B> components{problem.registry.create<Smoother<B>>("smoother", "forward"),
+                           [&] { return problem.registry.create<Transfer<B>>("transfer", "min_merge"); },
+                           problem.registry.create<CoarseSolver<B>>("coarse", "newton")};
+  MonotoneMultigrid<B> multigrid(discretization.problem, P, components, {});
+  std::vector<double> x = discretization.problem.start;
+  for (int warm = 0; warm < 12; ++warm) multigrid.cycle(x.data());
+  double best = 1e300;
+  for (int run = 0; run < 5; ++run) {
+    Stopwatch watch;
+    multigrid.cycle(x.data());
+    best = std::min(best, watch.elapsed());
+  }
+  const double bytes = cycle_bytes<B>(multigrid.levels(), P);
+  row(fmt::format("| {} | {} | {:.1f} | {:.2f} |", c.name, Offset{hierarchy.finest().vertices()} * B, bytes / 1e6,
+                  best * bandwidth / bytes));
+}
+
+template <int D, int B>
+void growth(const Case& c) {
+  double first = 0;
+  for (const int uniform : c.uniform) {
+    const Problem problem(c.name, c.scene, with(c.overrides, uniform));
+    const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
+    const Solved solved = solve_nonlinear<D, B>(problem, hierarchy);
+    const double each = solved.whole() / solved.unknowns();
+    if (first == 0) first = each;
+    row(fmt::format("| {} | {:.0f} | {} | {:.3f} | {:.2f} |", c.name, solved.unknowns(), solved.summary.iterations,
+                    solved.summary.rate, each / first));
+  }
+}
+
+template <int D, int B>
+void largest(const Case& c, double bandwidth, bool traffic) {
+  const Problem problem(c.name, c.scene, with(c.overrides, c.uniform.back()));
+  if (traffic)
+    cycle_traffic<D, B>(c, problem, bandwidth);
+  else
+    compare_with_linear<D, B>(c, problem);
+}
+
+void run(bool quick) {
+  const int less = quick ? 2 : 0;
+  const auto upto = [&](int from, int to) {
+    std::vector<int> sizes;
+    for (int k = from; k <= to - less; ++k) sizes.push_back(k);
+    return sizes;
+  };
+  const Case radial2{"radial 2D", "obstacle_radial_2d.toml", upto(4, 8), {}, {}};
+  const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(1, 3), {}, {}};
+  const Case spiral{"spiral", "obstacle_spiral.toml", upto(5, 8), {}, {0.0}};
+  const Case ball{"ball on plane", "ball_on_plane.toml", upto(1, 3), {}, {0, 0, -1}};
+  const Case fine{"radial 2D, V(2,2) symmetric",
+                  "obstacle_radial_2d.toml",
+                  upto(4, 7),
+                  {"solver.smoother=symmetric", "solver.pre=2", "solver.post=2"},
+                  {}};
+  const Case ball_fine{"ball on plane, V(2,2) symmetric",
+                       "ball_on_plane.toml",
+                       upto(1, 3),
+                       {"solver.smoother=symmetric", "solver.pre=2", "solver.post=2"},
+                       {}};
+  const double bandwidth = stream_bandwidth();
+
+  fmt::print(
+      "## Nonlinear over linear\n\n| problem | unknowns | cycles | CG iterations | solve | set-up and solve | "
+      "assembly |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  largest<2, 1>(radial2, bandwidth, false);
+  largest<3, 1>(radial3, bandwidth, false);
+  largest<3, 3>(ball, bandwidth, false);
+
+  fmt::print(
+      "\n## V(1,1) cycle over its memory traffic\n\nTriad: {:.1f} GB/s.\n\n| problem | unknowns | MB | time over "
+      "traffic |\n| --- | --- | --- | --- |\n",
+      bandwidth / 1e9);
+  largest<2, 1>(radial2, bandwidth, true);
+  largest<3, 1>(radial3, bandwidth, true);
+  largest<3, 3>(ball, bandwidth, true);
+
+  fmt::print(
+      "\n## Iterations, rate and time per unknown as the mesh is refined\n\n| problem | unknowns | cycles | rate | "
+      "time per unknown over the first row's |\n| --- | --- | --- | --- | --- |\n");
+  growth<2, 1>(radial2);
+  growth<2, 1>(spiral);
+  growth<3, 3>(ball);
+  growth<2, 1>(fine);
+  growth<3, 3>(ball_fine);
+}
+
+}  // namespace
+}  // namespace signorini::bench
+
+int main(int argc, char** argv) {
+  const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
+  try {
+    signorini::bench::run(quick);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "signorini_bench: error: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/signorini/build_model.hpp"
+#include "apps/signorini/components.hpp"
+#include "apps/signorini/nested_solver.hpp"
+#include "apps/signorini/problem.hpp"
+
+namespace signorini::bench {
+
+/// A scene of apps/scenes, changed by overrides as `--set` takes them.
+struct Problem {
+  std::string name;
+  Scene scene;
+  Registry registry;
+
+  Problem(std::string title, const std::string& file, std::vector<std::string> overrides);
+};
+
+/// One solve of the whole nonlinear problem.
+struct Solved {
+  Times times;
+  Summary summary;
+  Index vertices = 0;
+  double unknowns() const { return summary.level_unknowns.back(); }
+  double whole() const { return times.assemble + times.setup + times.solve; }
+};
+
+template <int D, int B>
+Solved solve_nonlinear(const Problem& problem, const MeshHierarchy<D>& hierarchy) {
+  const Progress quiet(true);
+  Solved result;
+  NestedSolver<D, B> solver(hierarchy, problem.scene.solver, problem.registry, quiet, result.times);
+  result.summary = solver.solve(build_model<B>(problem.scene, D, problem.registry, 1)).summary;
+  result.vertices = hierarchy.finest().vertices();
+  return result;
+}
+
+}  // namespace signorini::bench

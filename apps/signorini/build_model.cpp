@@ -1,0 +1,75 @@
+#include "apps/signorini/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/component/settings.hpp"
+#include "core/scene/rigid_shape.hpp"
+
+namespace signorini {
+namespace {
+
+template <int B>
+auto constructor(const ObstacleType& type) {
+  if constexpr (B == 1) return type.create1;
+  if constexpr (B == 2) return type.create2;
+  if constexpr (B == 3) return type.create3;
+}
+
+/// The obstacle with the settings it holds on to.
+template <int B>
+std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene, int dimension,
+                                                   const Registry& registry, double t) {
+  const ObstacleType& type = registry.obstacle(scene.type);
+  const std::string& origin = scene.source.table;
+  const auto create = constructor<B>(type);
+  if (!create)
+    input_error(origin, fmt::format("the obstacle type '{}' knows no problem with {} unknown{} per vertex", scene.type,
+                                    B, B == 1 ? "" : "s"));
+  if (scene.shape && !type.takes_shape)
+    input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
+  std::shared_ptr<const DistanceFunction> shape;
+  if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
+  auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},
+                                   scene.options, scene.core_keys(), shape, t);
+  Status status;
+  std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
+  if (!status.ok()) throw Error(static_cast<Exit>(status.code), fmt::format("{}: {}", origin, status.message));
+  if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
+  Obstacle<B>* raw = obstacle.get();
+  return {raw, [obstacle = std::shared_ptr<Obstacle<B>>(std::move(obstacle)), settings](const Obstacle<B>*) {}};
+}
+
+template <int B>
+Fix<B> fix(const Scene::Fix& scene) {
+  Fix<B> result{scene.on, {}, scene.frame};
+  std::copy_n(scene.value.begin(), B, result.value.begin());
+  return result;
+}
+
+template <int B>
+Load<B> load(const Scene::Load& scene) {
+  Load<B> result{scene.on, {}};
+  std::copy_n(scene.value.begin(), B, result.value.begin());
+  return result;
+}
+}  // namespace
+
+template <int B>
+Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t) {
+  const Scene::Body& body = scene.bodies.front();
+  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t};
+  for (const auto& entry : scene.fixes) model.fixes.push_back(fix<B>(entry));
+  for (const auto& entry : scene.loads) model.loads.push_back(load<B>(entry));
+  for (const auto& entry : scene.obstacles)
+    model.obstacles.push_back({create_obstacle<B>(entry, dimension, registry, t), entry.on, entry.source.table});
+  return model;
+}
+
+template Model<1> build_model(const Scene&, int, const Registry&, double);
+template Model<2> build_model(const Scene&, int, const Registry&, double);
+template Model<3> build_model(const Scene&, int, const Registry&, double);
+
+}  // namespace signorini

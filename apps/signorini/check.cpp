@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <set>
+
+#include "apps/signorini/build_model.hpp"
+#include "apps/signorini/commands.hpp"
+#include "apps/signorini/components.hpp"
+#include "apps/signorini/problem.hpp"
+#include "apps/signorini/results.hpp"
+#include "core/fem/bounds.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D, int B>
+Offset free_unknowns(const Mesh<D>& mesh, const Model<B>& model) {
+  Offset count = Offset{mesh.vertices()} * B;
+  for (const auto& fixed : collect_fixes<D, B>(mesh, model)) count -= fixed.count;
+  return count;
+}
+
+template <int D>
+void print_parts(const Mesh<D>& mesh) {
+  fmt::print("parts of the coarsest mesh:\n");
+  for (const Part& part : mesh.parts) fmt::print("  {:<16} {} faces\n", part.name, part.faces.size());
+  fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
+}
+
+template <int D, int B>
+void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
+  fmt::print("levels:\n");
+  for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
+    const Mesh<D>& mesh = hierarchy.levels[k];
+    const bool finest = k + 1 == hierarchy.levels.size();
+    std::string unknowns = "no start: ";
+    try {
+      unknowns = fmt::format("{} unknowns", free_unknowns(mesh, model));
+    } catch (const Error& error) {  // only the finest level has to hold the whole problem
+      if (finest) throw;
+      unknowns += error.what();
+    }
+    fmt::print("  {} {:>10} vertices {:>10} elements  {}\n", k, mesh.vertices(), mesh.elements.size(), unknowns);
+  }
+}
+
+template <int D, int B>
+void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& model) {
+  std::vector<std::set<Index>> candidates(scene.obstacles.size());
+  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model)) candidates[bound.obstacle].insert(bound.vertex);
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", k, scene.obstacles[k].type,
+               candidates[k].size());
+}
+
+template <int D, int B>
+void check(const Scene& scene, const Registry& registry) {
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B);
+  const Model<B> model = build_model<B>(scene, D, registry, 1);
+  locate_probes(hierarchy.finest(), scene);
+  print_parts(hierarchy.levels.front());
+  print_levels(hierarchy, model);
+  print_contacts(hierarchy.finest(), scene, model);
+  for (const std::string& warning : scene_warnings(scene, hierarchy.levels.front()))
+    fmt::print("warning: {}\n", warning);
+}
+}  // namespace
+
+void check_command(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const Scene scene = read_scene(file, overrides);
+  Registry registry = own_components();
+  const auto plugins = load_plugins(scene, registry);
+  const auto& body = scene.bodies.front();
+  fmt::print("{}: {}\ndimension: {}\nequation: {}\n", file.string(), scene.title, dimension_of(scene),
+             body.equation == Scene::Equation::diffusion ? "diffusion" : "elasticity");
+  for (const auto& plugin : plugins) fmt::print("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
+  dispatch(scene, [&]<int D, int B>() { check<D, B>(scene, registry); });
+}
+
+}  // namespace signorini

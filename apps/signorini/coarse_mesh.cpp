@@ -1,0 +1,63 @@
+#include "apps/signorini/coarse_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <type_traits>
+
+#include "apps/signorini/memory.hpp"
+#include "core/base/error.hpp"
+#include "core/fem/element.hpp"
+#include "core/io/mesh_file.hpp"
+#include "core/mesh/structured.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D>
+geometry::Size<D> target_size(const Scene::Body& body) {
+  return [field = *body.size](const Point<D>& x) { return field(site<D>(x, 1)); };
+}
+
+Mesh<2> structured(const Scene::Block<2>& block) { return rectangle(block.from, block.to, block.cells); }
+Mesh<3> structured(const Scene::Block<3>& block) { return box(block.from, block.to, block.cells); }
+
+template <int D, class Shape>
+constexpr bool is_free_shape =
+    D == 2 ? std::is_constructible_v<geometry::Shape2, Shape> : std::is_constructible_v<geometry::Shape3, Shape>;
+
+/// One overload per kind of shape; those of the other dimension are never reached.
+template <int D>
+struct Mesher {
+  const Scene::Body& body;
+  int block;
+
+  Mesh<D> operator()(const Scene::MeshFile& mesh) const { return read_mesh<D>(mesh.file); }
+  Mesh<D> operator()(const Scene::Block<D>& cells) const {
+    check_memory(cells, block, body.source.of("cells"));
+    return structured(cells);
+  }
+  template <class Shape>
+  Mesh<D> operator()(const Shape& shape) const {
+    if constexpr (is_free_shape<D, Shape>) return geometry::engine().mesh(shape, target_size<D>(body));
+    input_error(body.source.table, fmt::format("this shape has not {} dimensions", D));
+  }
+};
+}  // namespace
+
+int dimension_of(const Scene& scene) {
+  if (scene.dimension != 0) return scene.dimension;
+  const int dimension = mesh_dimension(std::get<Scene::MeshFile>(scene.bodies.front().shape).file);
+  check_dimension(scene, dimension);
+  return dimension;
+}
+
+template <int D>
+Mesh<D> coarsest_mesh(const Scene& scene, int block) {
+  const Scene::Body& body = scene.bodies.front();
+  return std::visit(Mesher<D>{body, block}, body.shape);
+}
+
+template Mesh<2> coarsest_mesh(const Scene&, int);
+template Mesh<3> coarsest_mesh(const Scene&, int);
+
+}  // namespace signorini

@@ -1,0 +1,15 @@
+#pragma once
+#include "core/mesh/mesh.hpp"
+#include "core/scene/scene.hpp"
+
+namespace signorini {
+
+/// 2 or 3; where only a mesh file tells it, the scene is checked against it.
+int dimension_of(const Scene& scene);
+
+/// The coarsest mesh of the scene's body: structured, meshed from its shape, or read from its file.
+/// @param block unknowns per vertex, to refuse meshes that would not fit into memory
+template <int D>
+Mesh<D> coarsest_mesh(const Scene& scene, int block);
+
+}  // namespace signorini

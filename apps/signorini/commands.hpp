@@ -1,0 +1,29 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+
+/// `signorini solve`.
+struct SolveArguments {
+  std::filesystem::path scene;
+  std::filesystem::path out;  ///< empty: the scene's name in the current folder
+  std::vector<std::string> overrides;
+  bool quiet = false;
+};
+
+Exit solve_command(const SolveArguments& arguments);
+
+/// `signorini check`: says what would be solved.
+void check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+
+/// `signorini list`: the components of a kind ("obstacles", "smoothers"...), or all when `kinds` is empty.
+void list_command(const std::string& kinds);
+
+/// What `signorini list` can be asked for.
+const std::vector<std::string>& listable_kinds();
+
+}  // namespace signorini

@@ -1,0 +1,14 @@
+#pragma once
+#include "core/component/registry.hpp"
+#include "core/io/report.hpp"
+#include "core/scene/scene.hpp"
+
+namespace signorini {
+
+/// What the program itself provides: smoothers, transfers and coarse solvers.
+Registry own_components();
+
+/// Loads the plugins of the obstacles that a scene names, and says which file each came from.
+std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry);
+
+}  // namespace signorini

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace signorini {
+
+/// From now on the first SIGINT or SIGTERM asks the program to end, a second one ends it at once.
+void catch_interrupts();
+
+/// Whether the user asked to end.
+bool interrupted() noexcept;
+
+/// Error(Exit::interrupted) when the user asked to end; for the time between two phases.
+void stop_if_interrupted();
+
+}  // namespace signorini

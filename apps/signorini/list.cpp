@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+
+#include "apps/signorini/commands.hpp"
+#include "apps/signorini/components.hpp"
+#include "core/component/plugin_loader.hpp"
+
+namespace signorini {
+namespace {
+
+const char* type_name(OptionType type) {
+  switch (type) {
+    case OptionType::boolean:
+      return "true or false";
+    case OptionType::integer:
+      return "integer";
+    case OptionType::number:
+      return "number";
+    case OptionType::text:
+      return "text";
+    case OptionType::field:
+      return "number or expression";
+    case OptionType::vector:
+      return "list of numbers or expressions";
+  }
+  return "";
+}
+
+void print_option(const OptionSpec& option) {
+  std::string type = type_name(option.type);
+  if (*option.range) type += fmt::format(" in {}", option.range);
+  if (*option.fallback) type += fmt::format(", default {}", option.fallback);
+  fmt::print("      {:<14} {} ({})\n", option.name, option.help, type);
+}
+
+void print_entry(const Entry& entry) {
+  fmt::print("  {:<16} {}\n", entry.id, entry.help);
+  for (const OptionSpec& option : entry.options) print_option(option);
+  fmt::print("      from {}{}{}\n", entry.file, entry.version.empty() ? "" : ", version ", entry.version);
+}
+
+struct Kind {
+  const char* plural;
+  const char* kind;
+};
+constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},
+                                {"smoothers", "smoother"},
+                                {"transfers", "transfer"},
+                                {"coarse", "coarse"},
+                                {"amg", "amg"},
+                                {"estimators", "estimator"}};
+
+void print_kind(const Kind& kind, const Catalogue& all) {
+  fmt::print("{}\n", kind.plural);
+  bool none = true;
+  for (const Entry& entry : all.entries)
+    if (entry.kind == kind.kind) {
+      print_entry(entry);
+      none = false;
+    }
+  if (none) fmt::print("  none in this version\n");
+}
+}  // namespace
+
+const std::vector<std::string>& listable_kinds() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const Kind& kind : kinds_table) result.emplace_back(kind.plural);
+    return result;
+  }();
+  return names;
+}
+
+void list_command(const std::string& kinds) {
+  Registry registry = own_components();
+  PluginLoader loader(registry);
+  const Catalogue all = catalogue(registry, loader);
+  for (const Kind& kind : kinds_table)
+    if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);
+  if (!kinds.empty() && kinds != "obstacles") return;
+  for (const auto& rejected : all.rejected) fmt::print("rejected: {}\n  {}\n", rejected.file, rejected.reason);
+}
+
+}  // namespace signorini

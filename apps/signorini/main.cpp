@@ -1,0 +1,116 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "apps/signorini/commands.hpp"
+#include "apps/signorini/interrupt.hpp"
+#include "core/base/version.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr const char* footer = R"(Exit status:
+  0    solved to the tolerance
+  1    wrong usage
+  2    bad input (file, scene, matrix); nothing is written but the message
+  3    the iteration limit was reached; results are written, marked "converged": false
+  4    no solution exists (infeasible bounds, unbounded energy)
+  5    a plugin could not be loaded
+  130  interrupted (Ctrl-C); nothing is written)";
+
+struct Arguments {
+  SolveArguments solve;
+  std::string list_kinds;
+};
+
+void add_scene(CLI::App& command, Arguments& arguments) {
+  command.add_option("SCENE", arguments.solve.scene, "the scene, a TOML file")->required();
+  command
+      .add_option("--set", arguments.solve.overrides,
+                  "override a key of the scene by its dotted path, such as solver.tolerance=1e-6, "
+                  "obstacle.0.point=[0,0,-1] or refine.uniform=3; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+CLI::App* add_solve(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand("solve", "read a scene, solve it and write the results");
+  add_scene(*command, arguments);
+  command
+      ->add_option("--out", arguments.solve.out,
+                   "folder for report.json, solution.vtu, convergence.csv and pictures; "
+                   "default: the scene's name in the current folder")
+      ->type_name("DIR");
+  command->add_flag("--quiet", arguments.solve.quiet, "print nothing but errors");
+  command->footer(
+      "Progress is shown when standard error is a terminal; the convergence table goes to standard output.");
+  return command;
+}
+
+CLI::App* add_check(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand(
+      "check", "validate a scene and say what would be solved, with which plugins and how many unknowns");
+  add_scene(*command, arguments);
+  return command;
+}
+
+CLI::App* add_list(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand("list", "show registered components, their options and the files they come from");
+  command->add_option("KIND", arguments.list_kinds, "one kind of component only; default: all")
+      ->check(CLI::IsMember(listable_kinds()));
+  return command;
+}
+
+/// Commands of the interface that a later version brings.
+void add_future(CLI::App& app, const std::string& name, const std::string& help) {
+  auto* command = app.add_subcommand(name, help + " (not available in this version)");
+  command->prefix_command();
+  command->callback(
+      [name] { throw Error(Exit::input, "the command '" + name + "' is not available in this version"); });
+}
+
+int report_error(const std::string& message, Exit status) {
+  std::fprintf(stderr, "signorini: error: %s\n", message.c_str());
+  return static_cast<int>(status);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Obstacle and contact problems by monotone multigrid.", "signorini");
+  Arguments arguments;
+  app.set_version_flag("--version", std::string("signorini ") + version);
+  app.require_subcommand(1);
+  app.footer(footer);
+  auto* solve = add_solve(app, arguments);
+  auto* check = add_check(app, arguments);
+  auto* list = add_list(app, arguments);
+  add_future(app, "qp", "minimise a quadratic function within bounds, from Matrix Market files");
+  add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
+  add_future(app, "plugin", "start a plugin project, or check a plugin");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return report_error(std::string(error.what()) + "; see 'signorini --help'", Exit::usage);
+  }
+  if (*solve) return static_cast<int>(solve_command(arguments.solve));
+  if (*check) check_command(arguments.solve.scene, arguments.solve.overrides);
+  if (*list) list_command(arguments.list_kinds);
+  return 0;
+}
+}  // namespace
+}  // namespace signorini
+
+int main(int argc, char** argv) {
+  using namespace signorini;
+  catch_interrupts();
+  try {
+    return run(argc, argv);
+  } catch (const Error& error) {
+    return report_error(error.what(), error.status());
+  } catch (const std::bad_alloc&) {
+    return report_error("there is not enough memory", Exit::input);
+  } catch (const std::exception& error) {
+    return report_error(std::string("internal: ") + error.what(), Exit::input);
+  }
+}

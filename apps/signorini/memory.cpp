@@ -1,0 +1,61 @@
+#include "apps/signorini/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace {
+
+/// Bytes that the machine can still give, infinity if it does not say.
+double available_memory() {
+  std::ifstream info("/proc/meminfo");
+  std::string key;
+  double kilobytes;
+  while (info >> key >> kilobytes) {
+    if (key == "MemAvailable:") return kilobytes * 1024;
+    info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return infinity;
+}
+
+/// The matrix twice on all levels (the discretised problem's and the solver's), some twenty vectors, and the meshes. By
+/// Euler's formula there are about as many edges as vertices and elements together.
+double bytes_needed(const HierarchySize& size, int block) {
+  const double blocks = 3 * size.vertices + 2 * size.elements;
+  const double matrix = blocks * (8.0 * block * block + 4);
+  const double all_levels = 1.25;
+  return all_levels * (2 * matrix + 20 * 8.0 * block * size.vertices) + size.bytes;
+}
+
+std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", bytes / 1e9); }
+}  // namespace
+
+void check_memory(const HierarchySize& size, int block, const std::string& origin) {
+  constexpr double most = std::numeric_limits<Index>::max();
+  const double unknowns = size.vertices * block, bytes = bytes_needed(size, block), available = available_memory();
+  const std::string need = fmt::format("{:.4g} unknowns need about {} of memory", unknowns, gigabytes(bytes));
+  if (bytes > available) input_error(origin, fmt::format("{}, and {} are available", need, gigabytes(available)));
+  if (std::max(size.elements, unknowns) > most)
+    input_error(origin, fmt::format("{}, and more than {} are beyond this version", need, most));
+}
+
+template <int D>
+void check_memory(const Scene::Block<D>& cells, int block, const std::string& origin) {
+  HierarchySize size{1, D == 2 ? 2.0 : 6.0, 0};
+  for (const Index count : cells.cells) {
+    size.vertices *= count + 1.0;
+    size.elements *= count;
+  }
+  size.bytes = size.vertices * 8 * D + size.elements * 4 * (D + 1);
+  check_memory(size, block, origin);
+}
+
+template void check_memory(const Scene::Block<2>&, int, const std::string&);
+template void check_memory(const Scene::Block<3>&, int, const std::string&);
+
+}  // namespace signorini

@@ -1,0 +1,110 @@
+#include "apps/signorini/nested_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/signorini/interrupt.hpp"
+#include "core/base/error.hpp"
+#include "core/fem/nested.hpp"
+#include "core/solver/solve.hpp"
+
+namespace signorini {
+namespace {
+
+/// A start for the next finer level need not be better than the discretisation error.
+SolverOptions loose(SolverOptions options) {
+  options.tolerance = std::max(options.tolerance, 1e-3);
+  options.max_iterations = std::min(options.max_iterations, 5);
+  return options;
+}
+}  // namespace
+
+template <int D, int B>
+NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
+                                 const Registry& registry, const Progress& progress, Times& times)
+    : hierarchy_(hierarchy), options_(options), registry_(registry), progress_(progress), times_(times) {
+  Stopwatch watch;
+  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
+    prolongations_.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
+  times_.setup += watch.elapsed();
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::size_t level) {
+  stop_if_interrupted();
+  Stopwatch watch;
+  const Mesh<D>& mesh = hierarchy_.levels[level];
+  progress_.phase(fmt::format("level {}: {} unknowns", level, Offset{mesh.vertices()} * B));
+  Solution<B> solution{discretize<D, B>(mesh, model), {}, {}};
+  solution.x = solution.discretization.problem.start;
+  times_.assemble += watch.elapsed();
+  return solution;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::solve_level(std::size_t level, Solution<B>& solution) {
+  stop_if_interrupted();
+  const bool finest = level + 1 == hierarchy_.levels.size();
+  const auto monitor = [this](const IterationRecord& record) {
+    progress_.cycle(record);
+    return !interrupted();
+  };
+  solution.summary = signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(level),
+                                         solution.x, finest ? options_ : loose(options_), registry_, monitor);
+  times_.setup += solution.summary.setup_seconds;
+  times_.solve += solution.summary.solve_seconds;
+  stop_if_interrupted();
+  if (solution.summary.outcome == Outcome::unbounded) throw Error(Exit::no_solution, solution.summary.reason);
+}
+
+/// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
+/// finest one, which alone decides: such a level gives no start.
+template <int D, int B>
+bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+  try {
+    Solution<B> solution = discretize_level(model, level);
+    if (!coarse.x.empty())
+      solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[level - 1],
+                               solution.discretization.problem);
+    solve_level(level, solution);
+    coarse = std::move(solution);
+    return true;
+  } catch (const Error& error) {
+    if (error.status() == Exit::interrupted) throw;
+    progress_.phase(fmt::format("level {} gives no start: {}", level, error.what()));
+    return false;
+  }
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
+  const std::size_t finest = hierarchy_.levels.size() - 1;
+  Solution<B> coarse;
+  if (options_.start == "nested")
+    for (std::size_t level = 0; level < finest; ++level)
+      if (!try_level(model, level, coarse)) coarse = {};
+  Solution<B> solution = discretize_level(model, finest);
+  if (!coarse.x.empty())
+    solution.x =
+        interpolate(coarse.discretization.problem, coarse.x, prolongations_.back(), solution.discretization.problem);
+  coarse = {};
+  solve_level(finest, solution);
+  return solution;
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve_from(const Model<B>& model, const std::vector<double>& start) {
+  const std::size_t finest = hierarchy_.levels.size() - 1;
+  Solution<B> solution = discretize_level(model, finest);
+  solution.x = to_local(solution.discretization.problem, start);
+  solve_level(finest, solution);
+  return solution;
+}
+
+template class NestedSolver<2, 1>;
+template class NestedSolver<3, 1>;
+template class NestedSolver<2, 2>;
+template class NestedSolver<3, 3>;
+
+}  // namespace signorini

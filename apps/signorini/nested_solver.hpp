@@ -1,0 +1,51 @@
+#pragma once
+#include <vector>
+
+#include "apps/signorini/progress.hpp"
+#include "core/component/registry.hpp"
+#include "core/fem/discretize.hpp"
+#include "core/io/report.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/scene/scene.hpp"
+#include "core/solver/prolongation.hpp"
+#include "core/solver/summary.hpp"
+
+namespace signorini {
+
+/// A problem on the finest level with its solution in local coordinates.
+template <int B>
+struct Solution {
+  Discretization<B> discretization;
+  std::vector<double> x;
+  Summary summary;
+};
+
+/// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
+/// only.
+template <int D, int B>
+class NestedSolver {
+ public:
+  /// Keeps references to all but the options; adds to `times` what is spent on assembly, setup and solve.
+  NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, const Registry& registry,
+               const Progress& progress, Times& times);
+
+  /// Starts as `solver.start` says. Error(Exit::interrupted) when the user asked to end, Error(Exit::no_solution) where
+  /// none exists; without convergence the summary says so.
+  Solution<B> solve(const Model<B>& model);
+  /// Starts from the solution of another step, in global coordinates.
+  Solution<B> solve_from(const Model<B>& model, const std::vector<double>& start);
+
+ private:
+  Solution<B> discretize_level(const Model<B>& model, std::size_t level);
+  void solve_level(std::size_t level, Solution<B>& solution);
+  bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+
+  const MeshHierarchy<D>& hierarchy_;
+  Scene::Solver options_;
+  const Registry& registry_;
+  const Progress& progress_;
+  Times& times_;
+  std::vector<Prolongation> prolongations_;
+};
+
+}  // namespace signorini

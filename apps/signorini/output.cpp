@@ -1,0 +1,131 @@
+#include "apps/signorini/output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "apps/signorini/show.hpp"
+#include "core/io/convergence.hpp"
+#include "core/io/picture.hpp"
+
+namespace signorini {
+namespace {
+
+std::vector<double> equivalent(const std::vector<Stress>& stress) {
+  std::vector<double> values(stress.size());
+  std::transform(stress.begin(), stress.end(), values.begin(), [](const Stress& s) { return von_mises(s); });
+  return values;
+}
+
+std::vector<double> full_tensors(const std::vector<Stress>& stress) {
+  std::vector<double> values;
+  values.reserve(9 * stress.size());
+  for (const auto& [xx, yy, zz, xy, yz, xz] : stress) values.insert(values.end(), {xx, xy, xz, xy, yy, yz, xz, yz, zz});
+  return values;
+}
+
+struct ContactFields {
+  std::vector<double> gap, pressure, contact;
+};
+
+template <int B>
+ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices) {
+  ContactFields fields{std::vector<double>(vertices, infinity), std::vector<double>(vertices),
+                       std::vector<double>(vertices)};
+  for (const ContactNode<B>& node : state.nodes) {
+    fields.gap[node.vertex] = std::min(fields.gap[node.vertex], node.gap);
+    fields.pressure[node.vertex] += node.pressure;
+    if (node.contact) fields.contact[node.vertex] = 1;
+  }
+  std::replace(fields.gap.begin(), fields.gap.end(), infinity, 0.0);
+  return fields;
+}
+
+template <int D, int B>
+Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results) {
+  const std::size_t vertices = hierarchy.finest().points.size();
+  ContactFields contact = contact_fields(results.contact, vertices);
+  Shown<D> out{hierarchy, {}, {}, {}, std::vector<Flags>(contact.contact.begin(), contact.contact.end()), {}, {}};
+  for (const auto& node : results.contact.nodes)
+    if (out.touched.empty() || out.touched.back() != node.vertex) out.touched.push_back(node.vertex);
+  if constexpr (B == 1) {
+    out.value = results.u;
+    out.label = "u";
+  } else {
+    out.displacement = results.u;
+    out.value = equivalent(results.stress);
+    out.label = "von Mises stress";
+    out.pressure = std::move(contact.pressure);
+  }
+  return out;
+}
+
+void finish(Gnuplot& gnuplot, const char* picture, std::vector<std::string>& warnings) {
+  const std::string problem = gnuplot.finish();
+  if (!problem.empty()) warnings.push_back(fmt::format("{} was not drawn: {}", picture, problem));
+}
+
+std::string csv(const Report& report) {
+  std::vector<const Summary*> summaries;
+  for (const StepReport& step : report.steps) summaries.push_back(&step.summary);
+  return convergence_csv(summaries);
+}
+}  // namespace
+
+template <int D, int B>
+std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results) {
+  std::vector<VtuField> fields;
+  fields.push_back({B == 1 ? "u" : "displacement", B, results.u});
+  if constexpr (B > 1) {
+    fields.push_back({"stress", 9, full_tensors(results.stress)});
+    fields.push_back({"von_mises", 1, equivalent(results.stress)});
+  }
+  ContactFields contact = contact_fields(results.contact, mesh.points.size());
+  fields.push_back({"gap", 1, std::move(contact.gap)});
+  fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
+  if (B > 1) fields.push_back({"tangential_traction", 3, std::vector<double>(3 * mesh.points.size())});
+  fields.push_back({"contact", 1, std::move(contact.contact)});
+  return fields;
+}
+
+template <int D>
+void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t) {
+  if (!wanted_) return;
+  const std::string name = steps_ == 1 ? "solution.vtu" : fmt::format("solution_{:03}.vtu", entries_.size() + 1);
+  write_vtu(files_.stage(name), mesh, fields);
+  entries_.push_back({t, name});
+}
+
+void SolutionFiles::finish() const {
+  if (wanted_ && steps_ > 1) write_pvd(files_.stage("solution.pvd"), entries_);
+}
+
+template <int D, int B>
+void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
+                  const Results<D, B>& results, Report& report) {
+  if (wanted.convergence) write_text(files.stage("convergence.csv"), csv(report));
+  if (!wanted.pictures) return;
+  Gnuplot convergence, result;  // both at once
+  draw_convergence(convergence, files.stage("convergence.png"), report.last().summary.history);
+  const auto panels = result_panels(shown(hierarchy, results), report.warnings);
+  if (!panels.empty()) {
+    draw_panels(result, files.stage("result.png"), panels);
+    finish(result, "result.png", report.warnings);
+  }
+  finish(convergence, "convergence.png", report.warnings);
+}
+
+#define SIGNORINI_OUTPUT(D, B)                                                                                  \
+  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&);                            \
+  template void write_charts(AtomicFiles&, const Scene::Output&, const MeshHierarchy<D>&, const Results<D, B>&, \
+                             Report&);
+SIGNORINI_OUTPUT(2, 1)
+SIGNORINI_OUTPUT(3, 1)
+SIGNORINI_OUTPUT(2, 2)
+SIGNORINI_OUTPUT(3, 3)
+
+template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, double);
+template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, double);
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+#pragma once
+#include "apps/signorini/results.hpp"
+#include "core/io/atomic_files.hpp"
+#include "core/io/vtu_writer.hpp"
+
+namespace signorini {
+
+/// Values at the vertices as solution.vtu holds them. Contact quantities are zero off the contact boundary.
+template <int D, int B>
+std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results);
+
+/// Writes the meshes with the solution, step by step, and lists the steps for ParaView when there are several.
+class SolutionFiles {
+ public:
+  SolutionFiles(AtomicFiles& files, bool wanted, int steps) : files_(files), wanted_(wanted), steps_(steps) {}
+
+  template <int D>
+  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t);
+  void finish() const;
+
+ private:
+  AtomicFiles& files_;
+  bool wanted_;
+  int steps_;
+  std::vector<PvdEntry> entries_;
+};
+
+/// convergence.csv and the pictures, as far as they are wanted; what could not be drawn goes to `warnings`.
+template <int D, int B>
+void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
+                  const Results<D, B>& results, Report& report);
+
+}  // namespace signorini

@@ -1,0 +1,23 @@
+#pragma once
+#include <utility>
+
+#include "apps/signorini/coarse_mesh.hpp"
+#include "core/mesh/refine.hpp"
+#include "core/scene/scene.hpp"
+
+namespace signorini {
+
+/// Calls function.operator()<D, B>() with the scene's dimension and its number of unknowns per vertex.
+template <class Function>
+decltype(auto) dispatch(const Scene& scene, Function&& function) {
+  const bool scalar = scene.bodies.front().equation == Scene::Equation::diffusion;
+  if (dimension_of(scene) == 2)
+    return scalar ? function.template operator()<2, 1>() : function.template operator()<2, 2>();
+  return scalar ? function.template operator()<3, 1>() : function.template operator()<3, 3>();
+}
+
+/// The scene's meshes, after making sure that a problem with B unknowns per vertex on them fits into memory.
+template <int D>
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block);
+
+}  // namespace signorini

@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+
+#include "core/solver/summary.hpp"
+
+namespace signorini {
+
+/// Lines on standard error while long work goes on, if that is a terminal.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+
+  void phase(const std::string& what) const;
+  void cycle(const IterationRecord& record) const;
+
+ private:
+  bool shown_;
+};
+
+/// Seconds since its construction or the last lap().
+class Stopwatch {
+ public:
+  Stopwatch();
+  double elapsed() const;
+  double lap();
+
+ private:
+  double start_;
+};
+
+/// Largest memory the program has had so far.
+double peak_memory_mb();
+
+}  // namespace signorini

@@ -1,0 +1,103 @@
+#include "apps/signorini/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fem/element.hpp"
+
+namespace signorini {
+
+template <int D, int B>
+Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution) {
+  Results<D, B> out{to_global(solution.discretization.problem, solution.x),
+                    contact_state(mesh, model, solution.discretization, solution.x),
+                    {}};
+  if constexpr (B == D) out.stress = nodal_stress(mesh, element_stress(mesh, model, out.u));
+  return out;
+}
+
+template <int D>
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene) {
+  Probes<D> probes;
+  for (const auto& probe : scene.probes) {
+    Point<D> at;
+    std::copy_n(probe.at.begin(), D, at.begin());
+    probes.names.push_back(probe.name);
+    probes.places.push_back(locate<D>(mesh, at, probe.source.of("at")));
+  }
+  return probes;
+}
+
+template <int D, int B>
+StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
+                       const Summary& summary) {
+  StepReport report{t, summary, {}, {}};
+  for (const ContactSummary<B>& contact : results.contact.obstacles)
+    report.contact.push_back({static_cast<int>(report.contact.size()),
+                              contact.nodes,
+                              contact.area,
+                              {contact.force.begin(), contact.force.end()},
+                              contact.max_pressure});
+  for (std::size_t k = 0; k < probes.names.size(); ++k) {
+    const auto value = evaluate<B>(mesh, probes.places[k], results.u);
+    report.probes.push_back({probes.names[k], {value.begin(), value.end()}});
+  }
+  return report;
+}
+
+template <int D, int B>
+std::vector<std::string> violated_contacts(const Mesh<D>& mesh, const Model<B>& model,
+                                           const Discretization<B>& discretization, const std::vector<double>& u) {
+  struct Worst {
+    double by = 0;
+    Index vertex = -1, count = 0;
+  };
+  std::vector<Worst> worst(model.obstacles.size());
+  double size = 0;
+  for (const double value : u) size = std::max(size, std::abs(value));
+  for (const Bound<B>& bound : discretization.dropped) {
+    const double by = violation(bound, u);
+    Worst& entry = worst[bound.obstacle];
+    if (by > 1e-8 * size) ++entry.count;
+    if (by > std::max(entry.by, 1e-8 * size)) entry = {by, bound.vertex, entry.count};
+  }
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < worst.size(); ++k)
+    if (worst[k].count > 0)
+      warnings.push_back(fmt::format(
+          "{}: this obstacle is violated at {} vertices where another one is nearer, most by {:.3g} at ({})",
+          model.obstacles[k].origin, worst[k].count, worst[k].by, fmt::join(mesh.points[worst[k].vertex], ", ")));
+  return warnings;
+}
+
+template <int D>
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh) {
+  const Scene::Body& body = scene.bodies.front();
+  if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
+  double poisson = body.poisson.constant().value_or(0);
+  if (!body.poisson.constant())
+    for (const auto& element : mesh.elements)
+      poisson = std::max(poisson, body.poisson(site<D>(centroid<D>(mesh, element), 1)));
+  if (poisson <= 0.45) return {};
+  return {fmt::format("linear elements lock for nearly incompressible material (poisson = {})", poisson)};
+}
+
+#define SIGNORINI_RESULTS(D, B)                                                                                        \
+  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                                 \
+  template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&);     \
+  template std::vector<std::string> violated_contacts<D, B>(const Mesh<D>&, const Model<B>&, const Discretization<B>&, \
+                                                            const std::vector<double>&);
+SIGNORINI_RESULTS(2, 1)
+SIGNORINI_RESULTS(3, 1)
+SIGNORINI_RESULTS(2, 2)
+SIGNORINI_RESULTS(3, 3)
+
+template Probes<2> locate_probes(const Mesh<2>&, const Scene&);
+template Probes<3> locate_probes(const Mesh<3>&, const Scene&);
+template std::vector<std::string> scene_warnings(const Scene&, const Mesh<2>&);
+template std::vector<std::string> scene_warnings(const Scene&, const Mesh<3>&);
+
+}  // namespace signorini

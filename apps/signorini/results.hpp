@@ -1,0 +1,48 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/signorini/nested_solver.hpp"
+#include "core/fem/contact.hpp"
+#include "core/fem/probe.hpp"
+#include "core/fem/stress.hpp"
+
+namespace signorini {
+
+/// A solution in the user's terms, on the finest mesh.
+template <int D, int B>
+struct Results {
+  std::vector<double> u;  ///< global coordinates, B per vertex
+  ContactState<B> contact;
+  std::vector<Stress> stress;  ///< per vertex; elasticity only
+};
+
+template <int D, int B>
+Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution);
+
+/// Probes with the places where they lie.
+template <int D>
+struct Probes {
+  std::vector<std::string> names;
+  std::vector<Place<D>> places;
+};
+
+/// Error(Exit::input) for a probe outside the body.
+template <int D>
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene);
+
+template <int D, int B>
+StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
+                       const Summary& summary);
+
+/// Contacts that were left out of the problem and do not hold in its solution, one sentence per obstacle.
+template <int D, int B>
+std::vector<std::string> violated_contacts(const Mesh<D>& mesh, const Model<B>& model,
+                                           const Discretization<B>& discretization, const std::vector<double>& u);
+
+/// What is known beforehand to spoil the result, seen on the coarsest mesh.
+template <int D>
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh);
+
+}  // namespace signorini

@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/io/picture.hpp"
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// What a picture of the result needs, on the vertices of the finest mesh.
+template <int D>
+struct Shown {
+  const MeshHierarchy<D>& hierarchy;
+  std::vector<double> displacement;  ///< D per vertex, empty for scalar problems
+  std::vector<double> value;         ///< von Mises stress, or u
+  std::string label;
+  std::vector<Flags> contact;    ///< 0 where the vertex is free
+  std::vector<double> pressure;  ///< contact pressure, empty for scalar problems
+  std::vector<Index> touched;    ///< vertices that an obstacle may reach
+};
+
+/// The panels of result.png: elasticity: the deformed body coloured by `value`, and the contact pressure from below
+/// (3D) or as a profile (2D); scalar problems: the graph of u and the coincidence set (2D) or a section through both
+/// (3D). Meshes too fine to be seen are drawn on a coarser level; a note in `notes` says when even the coarsest is too
+/// fine.
+template <int D>
+std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes);
+
+}  // namespace signorini

@@ -1,0 +1,38 @@
+# The targets signorini::core (the library) and signorini::sdk (what a plugin is built with), and the installed tree,
+# whose layout is that of the build tree: bin/, lib/, lib/signorini/plugins/.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# Where Eigen aligns would depend on the processor's flags of each build; pinned, it agrees between all of them.
+target_compile_definitions(signorini_settings INTERFACE EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MALLOC_ALREADY_ALIGNED=0)
+
+add_library(signorini_sdk INTERFACE)
+target_link_libraries(signorini_sdk INTERFACE signorini_core)
+add_library(signorini::core ALIAS signorini_core)
+add_library(signorini::sdk ALIAS signorini_sdk)
+
+target_include_directories(signorini_settings INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/signorini>)
+set_target_properties(signorini_settings PROPERTIES EXPORT_NAME settings)
+set_target_properties(signorini_core PROPERTIES EXPORT_NAME core)
+set_target_properties(signorini_sdk PROPERTIES EXPORT_NAME sdk)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/signorini)
+install(TARGETS signorini_settings signorini_core signorini_sdk EXPORT signorini COMPONENT sdk)
+install(EXPORT signorini NAMESPACE signorini:: FILE signoriniTargets.cmake DESTINATION ${package} COMPONENT sdk)
+configure_package_config_file(cmake/signoriniConfig.cmake.in ${PROJECT_BINARY_DIR}/signoriniConfig.cmake
+  INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/signoriniConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/signoriniConfigVersion.cmake
+  cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
+install(DIRECTORY core ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
+  COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE)
+
+get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
+install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
+
+install(TARGETS signorini_geometry LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+if(TARGET signorini)
+  file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  install(TARGETS signorini RUNTIME COMPONENT program)
+endif()

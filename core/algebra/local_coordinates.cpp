@@ -1,0 +1,115 @@
+#include "core/algebra/local_coordinates.hpp"
+
+#include <algorithm>
+
+#include "core/sdk/block.hpp"
+
+namespace signorini {
+namespace {
+
+// Q <- Q H with the reflection H in the coordinates i..B-1 that takes axis i to Q'd. The columns before i stay,
+// provided that d is orthogonal to them. 1 - c_i is computed without cancellation.
+template <int B>
+void reflect(const double* d, int i, double* Q) {
+  double w[B] = {}, tail = 0, c[B];
+  block::transposed_product<B>(Q, d, c);
+  for (int j = i + 1; j < B; ++j) {
+    w[j] = -c[j];
+    tail += c[j] * c[j];
+  }
+  w[i] = c[i] > 0 ? tail / (1 + c[i]) : 1 - c[i];
+  const double norm = w[i] * w[i] + tail;
+  if (norm == 0) return;
+  for (int row = 0; row < B; ++row) {
+    double s = 0;
+    for (int j = i; j < B; ++j) s += Q[row * B + j] * w[j];
+    for (int j = i; j < B; ++j) Q[row * B + j] -= 2 * s / norm * w[j];
+  }
+}
+
+// The block with entry M[i][j] kept where both components are free.
+template <int B>
+void erase_fixed(double* M, Flags row, Flags column) {
+  for (int i = 0; i < B; ++i)
+    for (int j = 0; j < B; ++j)
+      if ((row >> i | column >> j) & 1) M[i * B + j] = 0;
+}
+
+}  // namespace
+
+template <int B>
+void local_basis(const double* leading, int leading_count, const double* trailing, int trailing_count, double* Q) {
+  const int given = leading_count + trailing_count;
+  double H[B * B] = {};
+  for (int i = 0; i < B; ++i) H[i * B + i] = 1;
+  // Trailing vectors are brought to their place one by one: first all given vectors in front, then a cyclic shift of
+  // the columns behind the leading ones.
+  for (int i = 0; i < given; ++i) {
+    const double* d = i < leading_count ? leading + i * B : trailing + (i - leading_count) * B;
+    reflect<B>(d, i, H);
+    for (int row = 0; row < B; ++row) H[row * B + i] = d[row];
+  }
+  for (int row = 0; row < B; ++row) {
+    std::rotate(H + row * B + leading_count, H + row * B + given, H + row * B + B);
+    std::copy_n(H + row * B, B, Q + row * B);
+  }
+}
+
+template <int B>
+void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames) {
+  if (frames.slot.empty()) return;
+  for (Index p = 0; p < A.size(); ++p) {
+    const double* Qp = frames.at(p);
+    double M[B * B];
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+      if (Qp) {
+        block::transposed_multiply<B>(Qp, A.at(k), M);
+        std::copy_n(M, B * B, A.at(k));
+      }
+      if (const double* Qq = frames.at(A.column[k])) {
+        block::multiply<B>(A.at(k), Qq, M);
+        std::copy_n(M, B * B, A.at(k));
+      }
+    }
+    if (!Qp) continue;
+    block::transposed_product<B>(Qp, b.data() + Offset{p} * B, M);
+    std::copy_n(M, B, b.data() + Offset{p} * B);
+  }
+}
+
+template <int B>
+double eliminate(BlockMatrix<B>& A, std::vector<double>& b, const std::vector<Flags>& fixed,
+                 const std::vector<double>& value) {
+  double energy = 0;
+  for (Index p = 0; p < A.size(); ++p) {
+    const double* vp = value.data() + Offset{p} * B;
+    double* bp = b.data() + Offset{p} * B;
+    double Av[B] = {};
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+      const Index q = A.column[k];
+      if (!(fixed[p] | fixed[q])) continue;
+      if (fixed[q]) block::add_product<B>(A.at(k), value.data() + Offset{q} * B, Av);
+      erase_fixed<B>(A.at(k), fixed[p], fixed[q]);
+    }
+    for (int i = 0; i < B; ++i) {
+      energy += (0.5 * Av[i] - bp[i]) * vp[i];
+      bp[i] -= Av[i];
+      if (!(fixed[p] >> i & 1)) continue;
+      bp[i] = vp[i];
+      A.at(A.row[p])[i * B + i] = 1;
+    }
+  }
+  return energy;
+}
+
+#define SIGNORINI_INSTANTIATE(B)                                                              \
+  template void local_basis<B>(const double*, int, const double*, int, double*);              \
+  template void rotate(BlockMatrix<B>&, std::vector<double>&, const Frames<B>&);              \
+  template double eliminate(BlockMatrix<B>&, std::vector<double>&, const std::vector<Flags>&, \
+                            const std::vector<double>&);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,181 @@
+#include "core/component/plugin_loader.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "core/component/handshake.hpp"
+#include "core/component/staging.hpp"
+
+namespace signorini {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view prefix = "libsignorini_obstacle_", suffix = ".so";
+
+[[noreturn]] void reject(const fs::path& file, std::string_view reason) {
+  throw Error(Exit::plugin, fmt::format("{}: {}", file.string(), reason));
+}
+
+// The id in the name of a library, or "" for any other file.
+std::string id_of(const fs::path& file) {
+  const std::string name = file.filename().string();
+  if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) || !name.ends_with(suffix)) return {};
+  return name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+}
+
+std::vector<fs::path> folders_of_environment() {
+  std::vector<fs::path> folders;
+  const char* list = std::getenv("SIGNORINI_PLUGIN_PATH");
+  for (std::string_view rest = list ? list : ""; !rest.empty();) {
+    const std::size_t colon = std::min(rest.find(':'), rest.size());
+    const fs::path folder(rest.substr(0, colon));
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+    if (folder.empty()) continue;  // elsewhere an empty entry means the current folder; here it means nothing
+    if (folder.is_relative())
+      throw Error(Exit::plugin, fmt::format("SIGNORINI_PLUGIN_PATH: '{}' is no absolute path; the current folder is "
+                                            "never searched",
+                                            folder.string()));
+    folders.push_back(folder);
+  }
+  return folders;
+}
+
+// An exception that passes through dlopen leaves it broken: one that leaves a static constructor ends the program, but
+// it shall say why.
+class StaticConstructors {
+ public:
+  explicit StaticConstructors(const fs::path& file) : before_(std::set_terminate(&die)) { loading_ = file; }
+  ~StaticConstructors() { std::set_terminate(before_); }
+
+ private:
+  [[noreturn]] static void die() {
+    std::fprintf(stderr, "%s: an exception left its static constructors\n", loading_.c_str());
+    std::_Exit(static_cast<int>(Exit::plugin));
+  }
+
+  static inline fs::path loading_;
+  std::terminate_handler before_;
+};
+
+// Called through a pointer, for dlopen is declared not to throw and a compiler then may leave out what noexcept
+// promises.
+void* dlopen_or_die(const char* file) noexcept {
+  void* (*volatile function)(const char*, int) = &dlopen;
+  return function(file, RTLD_NOW | RTLD_LOCAL);
+}
+
+void* open(const fs::path& file) {
+  const StaticConstructors guard(file);
+  if (void* library = dlopen_or_die(file.c_str())) return library;
+  const char* reason = dlerror();
+  std::string text = reason ? reason : "it cannot be loaded";
+  if (text.starts_with(file.string() + ": ")) text.erase(0, file.string().size() + 2);
+  reject(file, text);
+}
+
+const sdk::Plugin& handshake(void* library, const fs::path& file) {
+  const auto* plugin = static_cast<const sdk::Plugin*>(dlsym(library, "signorini_plugin"));
+  if (!plugin) reject(file, "it exports no symbol 'signorini_plugin', so it is no signorini plugin");
+  if (const std::string reason = incompatibilities(*plugin); !reason.empty()) reject(file, reason);
+  return *plugin;
+}
+
+}  // namespace
+
+PluginLoader::PluginLoader(Registry& registry, std::vector<fs::path> scene_folders)
+    : registry_(registry), folders_(std::move(scene_folders)) {
+  for (fs::path& folder : folders_) folder = fs::absolute(folder);
+  for (const fs::path& folder : folders_of_environment()) folders_.push_back(folder);
+  folders_.push_back(fs::path(file_of(reinterpret_cast<const void*>(&file_of))).parent_path() / "signorini" /
+                     "plugins");
+}
+
+void PluginLoader::load(const fs::path& name) {
+  const fs::path file = fs::absolute(name);  // a bare name would send dlopen through its own search path
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) reject(file, "there is no such file");
+  const sdk::Plugin& plugin = handshake(open(file), file);
+  StagingRegistrar staging;
+  Status status;
+  plugin.register_all(staging, status);
+  if (!status.ok()) reject(file, fmt::format("its registration failed: {}", status.message));
+  try {
+    staging.commit(registry_, file.string(), plugin.version);
+  } catch (const Error& error) {
+    reject(file, fmt::format("its registration failed: {}", error.what()));
+  }
+}
+
+void PluginLoader::require(const std::string& id) {
+  if (registry_.has("obstacle", id)) return;
+  for (const fs::path& file : found()) {
+    if (id_of(file) != id) continue;
+    load(file);
+    if (registry_.has("obstacle", id)) return;
+    reject(file, fmt::format("it provides no obstacle '{}'", id));
+  }
+  not_found(id);
+}
+
+std::vector<PluginLoader::Rejected> PluginLoader::load_all() {
+  std::set<std::string> loaded;
+  for (const Entry& entry : registry_.entries("obstacle")) loaded.insert(entry.file);
+  std::vector<Rejected> rejected;
+  for (const fs::path& file : found()) {
+    try {
+      if (loaded.count(file.string()) == 0) load(file);
+    } catch (const Error& error) {
+      rejected.push_back({file.string(), std::string(error.what()).substr(file.string().size() + 2)});
+    }
+  }
+  return rejected;
+}
+
+// The libraries in all folders, those of one name only where they come first; within a folder by name.
+std::vector<fs::path> PluginLoader::found() const {
+  std::vector<fs::path> files;
+  std::set<std::string> seen;
+  for (const fs::path& folder : folders_) {
+    std::vector<fs::path> here;
+    std::error_code ignored;
+    for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+      if (!id_of(entry->path()).empty()) here.push_back(entry->path());
+    std::sort(here.begin(), here.end());
+    for (const fs::path& file : here)
+      if (seen.insert(id_of(file)).second) files.push_back(file);
+  }
+  return files;
+}
+
+void PluginLoader::not_found(const std::string& id) const {
+  std::vector<std::string> ids, places;
+  for (const Entry& entry : registry_.entries("obstacle")) ids.push_back(entry.id);
+  for (const fs::path& file : found()) ids.push_back(id_of(file));
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::error_code ignored;
+  for (const fs::path& folder : folders_)
+    places.push_back(folder.string() + (fs::is_directory(folder, ignored) ? "" : " (no such folder)"));
+  throw Error(Exit::plugin,
+              fmt::format("there is no obstacle plugin '{}'{} (available: {}); looked for {}{}{} in {}", id,
+                          did_you_mean(id, ids), ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", ")), prefix,
+                          id, suffix, fmt::join(places, ", ")));
+}
+
+Catalogue catalogue(Registry& registry, PluginLoader& loader, std::string_view kind) {
+  Catalogue result;
+  result.rejected = loader.load_all();
+  result.entries = registry.entries(kind);
+  return result;
+}
+
+}  // namespace signorini

@@ -1,0 +1,154 @@
+#include "core/component/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <charconv>
+#include <map>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/fem/field.hpp"
+#include "core/scene/values.hpp"
+
+namespace signorini {
+namespace {
+
+// The typed value of an option; a field is a list of one.
+using Value = std::variant<std::monostate, bool, long, double, std::string, std::vector<Field>>;
+
+Value typed(const RawValue& raw, const OptionSpec& spec) {
+  switch (spec.type) {
+    case OptionType::boolean:
+      return to_flag(raw);
+    case OptionType::integer:
+      return static_cast<long>(to_integer(raw, spec.range));
+    case OptionType::number:
+      return to_number(raw, spec.range);
+    case OptionType::text:
+      return to_text(raw, spec.range);
+    case OptionType::field:
+      return std::vector<Field>{to_field(raw, spec.range)};
+    case OptionType::vector:
+      return to_fields(raw, spec.range);
+  }
+  return {};
+}
+
+RawValue scalar_default(std::string_view text, OptionType type, const std::string& origin) {
+  if (type == OptionType::text) return {std::string(text), origin};
+  if (type == OptionType::boolean && (text == "true" || text == "false")) return {text == "true", origin};
+  if (type == OptionType::integer) {
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
+    if (error == std::errc() && end == text.end()) return {number, origin};
+  }
+  return {std::string(text), origin};  // numbers may be expressions
+}
+
+// The default of a specification as if a user had written it. A vector is "[a, b, c]", its entries without commas.
+RawValue default_value(const OptionSpec& spec, const std::string& component) {
+  const std::string origin = fmt::format("default of '{}' of {}", spec.name, component);
+  std::string_view text = spec.fallback;
+  if (spec.type != OptionType::vector) return scalar_default(text, spec.type, origin);
+  RawValue::List list;
+  if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+  while (!text.empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    list.push_back({std::string(text.substr(0, comma)), origin});
+    text.remove_prefix(std::min(comma + 1, text.size()));
+  }
+  return {list, origin};
+}
+
+void reject_unknown_keys(const std::string& component, std::span<const OptionSpec> specs, const RawTable& given,
+                         std::span<const std::string> other_keys) {
+  std::vector<std::string> valid(other_keys.begin(), other_keys.end());
+  for (const OptionSpec& spec : specs) valid.emplace_back(spec.name);
+  for (const auto& [key, raw] : given.entries) {
+    bool known = false;
+    for (const OptionSpec& spec : specs) known = known || key == spec.name;
+    if (!known)
+      input_error(raw.origin, fmt::format("{} has no option '{}'{}", component, key, did_you_mean(key, valid)));
+  }
+}
+
+class CompiledSettings final : public Settings {
+ public:
+  CompiledSettings(const std::string& component, std::span<const OptionSpec> specs, const RawTable& given,
+                   std::shared_ptr<const DistanceFunction> shape, double t)
+      : shape_(std::move(shape)), t_(t) {
+    for (const OptionSpec& spec : specs) {
+      const RawValue* raw = given.find(spec.name);
+      Option& option = options_[spec.name];
+      option.given = raw != nullptr;
+      if (raw)
+        option.value = typed(*raw, spec);
+      else if (*spec.fallback)
+        option.value = typed(default_value(spec, component), spec);
+    }
+  }
+
+  bool has(const char* name) const noexcept override {
+    const auto found = options_.find(name);
+    return found != options_.end() && found->second.given;
+  }
+  bool flag(const char* name) const noexcept override { return get<bool>(name); }
+  long integer(const char* name) const noexcept override { return get<long>(name); }
+  double number(const char* name) const noexcept override { return get<double>(name); }
+  const char* text(const char* name) const noexcept override { return get<std::string>(name).c_str(); }
+  std::size_t length(const char* name) const noexcept override { return get<std::vector<Field>>(name).size(); }
+  const DistanceFunction* shape() const noexcept override { return shape_.get(); }
+
+  double value(const char* name, std::size_t k, const double* point, const double* normal,
+               Status& status) const noexcept override {
+    const auto& fields = get<std::vector<Field>>(name);
+    if (k >= fields.size()) {
+      status.fail(static_cast<int>(Exit::input), "a field without a value was asked for");
+      return 0;
+    }
+    try {
+      return fields[k]({{point[0], point[1], point[2]}, {normal[0], normal[1], normal[2]}, t_});
+    } catch (const Error& error) {
+      status.fail(static_cast<int>(error.status()), error.what());
+    } catch (const std::exception& error) {
+      status.fail(static_cast<int>(Exit::input), error.what());
+    }
+    return 0;
+  }
+
+ private:
+  struct Option {
+    bool given = false;
+    Value value;
+  };
+
+  // An option without value or default reads as zero or empty. Names and types come from the component's own table, so
+  // any other name is a bug of the component.
+  template <class T>
+  const T& get(const char* name) const noexcept {
+    static const T nothing{};
+    const auto found = options_.find(name);
+    assert(found != options_.end() && "a component asked for an option that is not in its table");
+    if (found == options_.end()) return nothing;
+    const T* value = std::get_if<T>(&found->second.value);
+    return value ? *value : nothing;
+  }
+
+  std::map<std::string, Option, std::less<>> options_;
+  std::shared_ptr<const DistanceFunction> shape_;
+  double t_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Settings> compile_settings(const std::string& component, std::span<const OptionSpec> specs,
+                                                 const RawTable& given, std::span<const std::string> other_keys,
+                                                 std::shared_ptr<const DistanceFunction> shape, double t) {
+  reject_unknown_keys(component, specs, given, other_keys);
+  return std::make_shared<CompiledSettings>(component, specs, given, std::move(shape), t);
+}
+
+}  // namespace signorini

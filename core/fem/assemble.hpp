@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+#include "core/fem/model.hpp"
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// Stiffness matrix of linear elements, without any boundary condition: B = 1 diffusion, B = D elasticity. Symmetric to
+/// the last bit; time and memory are linear in the mesh. Coefficients that are expressions are taken at the centroids.
+/// Errors (Exit::input): a coefficient out of range, an element without positive measure.
+template <int D, int B>
+BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model);
+
+/// Load vector, B per vertex: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
+/// exact for quartic fields. An Error(Exit::input) names the origin of a selection without faces.
+template <int D, int B>
+std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model);
+
+}  // namespace signorini

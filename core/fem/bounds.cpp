@@ -1,0 +1,246 @@
+#include "core/fem/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/select.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double same_direction = 1e-6;  // sine of the angle below which two directions are one
+constexpr Index batch = 4096;            // vertices per call of a plugin
+
+template <int D>
+std::string position(const Mesh<D>& mesh, Index p) {
+  return fmt::format("({})", fmt::join(mesh.points[p], ", "));
+}
+
+// The vertices an obstacle may touch; on the boundary with normals of the faces it may touch.
+template <int D>
+struct Candidates {
+  Surface<D> surface;
+  std::vector<Point<D>> normals;
+  bool everywhere;
+
+  template <int B>
+  Candidates(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t)
+      : surface(term.on ? signorini::surface(mesh, select_faces(mesh, *term.on, t)) : signorini::surface(mesh)),
+        normals(vertex_normals(mesh, surface)),
+        everywhere(!term.on) {}
+
+  // Calls use(vertex, normal) by ascending vertex.
+  template <class Use>
+  void each(const Mesh<D>& mesh, const Use& use) const {
+    const auto on_surface = static_cast<Index>(surface.vertices.size());
+    Index next = 0;
+    for (Index p = 0; p < (everywhere ? mesh.vertices() : on_surface); ++p) {
+      const Index vertex = everywhere ? p : surface.vertices[p];
+      const bool here = next < on_surface && surface.vertices[next] == vertex;
+      use(vertex, here ? normals[next] : Point<D>{});
+      next += here;
+    }
+  }
+};
+
+template <int D, int B>
+class Collector {
+ public:
+  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds)
+      : mesh_(mesh), model_(model), bounds_(bounds), constraints_(batch) {}
+
+  void collect(Index obstacle) {
+    obstacle_ = obstacle;
+    Candidates<D>(mesh_, model_.obstacles[obstacle], model_.t)
+        .each(mesh_, [this](Index vertex, const Point<D>& normal) { push(vertex, normal); });
+    flush();
+  }
+
+ private:
+  void push(Index vertex, const Point<D>& normal) {
+    SurfaceVertex v{};
+    std::copy_n(mesh_.points[vertex].data(), D, v.position);
+    std::copy_n(normal.data(), D, v.normal);
+    numbers_.push_back(vertex);
+    if (vertices_.emplace_back(v); vertices_.size() == batch) flush();
+  }
+
+  void flush() {
+    const ObstacleTerm<B>& term = model_.obstacles[obstacle_];
+    std::fill(constraints_.begin(), constraints_.end(), LocalConstraint<B>{});
+    Status status;
+    term.obstacle->assemble(vertices_.data(), vertices_.size(), constraints_.data(), status);
+    if (!status.ok()) throw Error(static_cast<Exit>(status.code), fmt::format("{}: {}", term.origin, status.message));
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], constraints_[i], k);
+    numbers_.clear();
+    vertices_.clear();
+  }
+
+  void add(Index vertex, const LocalConstraint<B>& constraint, int k) {
+    Bound<B> bound{vertex, obstacle_, {}, constraint.lower[k], constraint.upper[k]};
+    std::copy_n(constraint.direction[k], B, bound.direction.begin());
+    const double length = normalise(bound.direction);
+    const std::string& origin = model_.obstacles[obstacle_].origin;
+    if (!(std::fabs(length - 1) < same_direction))
+      input_error(origin,
+                  fmt::format("direction of length {} at {}, expected a unit vector", length, position(mesh_, vertex)));
+    if (std::isnan(bound.lower) || std::isnan(bound.upper))
+      input_error(origin, fmt::format("bound that is not a number at {}", position(mesh_, vertex)));
+    if (bound.lower == infinity || bound.upper == -infinity)
+      throw Error(Exit::no_solution, fmt::format("{}: no solution: bounds [{}, {}] at {} leave nothing admissible",
+                                                 origin, bound.lower, bound.upper, position(mesh_, vertex)));
+    if (bound.lower > -infinity || bound.upper < infinity) bounds_.push_back(bound);
+  }
+
+  const Mesh<D>& mesh_;
+  const Model<B>& model_;
+  std::vector<Bound<B>>& bounds_;
+  Index obstacle_ = 0;
+  std::vector<Index> numbers_;
+  std::vector<SurfaceVertex> vertices_;
+  std::vector<LocalConstraint<B>> constraints_;
+};
+
+}  // namespace
+
+template <int D, int B>
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model) {
+  std::vector<Bound<B>> bounds;
+  Collector<D, B> collector(mesh, model, bounds);
+  for (std::size_t k = 0; k < model.obstacles.size(); ++k) collector.collect(static_cast<Index>(k));
+  if (model.obstacles.size() > 1)
+    std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  return bounds;
+}
+
+template <int D, int B>
+BoundCombiner<D, B>::BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, const std::vector<Bound<B>>& bounds,
+                                   const std::vector<FixedDirections<B>>& fixes)
+    : mesh_(mesh), model_(model), bounds_(bounds), size_(0), rounding_(model.obstacles.size(), -1) {
+  for (const FixedDirections<B>& fixed : fixes)
+    for (int k = 0; k < fixed.count; ++k) size_ = std::max(size_, std::fabs(fixed.value[k]));
+  if (B > 1)
+    for (const Point<D>& x : mesh.points)
+      for (const double c : x) size_ = std::max(size_, std::fabs(c));
+}
+
+template <int D, int B>
+const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>* first, const Bound<B>* last,
+                                                                  const FixedDirections<B>* fixed,
+                                                                  std::vector<Bound<B>>& dropped) {
+  reduced_.clear();
+  combined_.clear();
+  for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed);
+  std::stable_sort(reduced_.begin(), reduced_.end(),
+                   [](const Reduced& a, const Reduced& b) { return a.distance() < b.distance(); });
+  for (const Reduced& bound : reduced_)
+    if (!merge(bound)) dropped.push_back(*bound.from);
+  for (CombinedBound<B>& bound : combined_) check_order(bound, first->vertex);
+  return combined_;
+}
+
+// Takes out of a bound what is prescribed: direction . v = prescribed + |rest| (rest / |rest|) . v.
+template <int D, int B>
+void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>* fixed) {
+  Reduced out{bound.direction, bound.lower, bound.upper, &bound};
+  if (!fixed) {
+    reduced_.push_back(out);
+    return;
+  }
+  double prescribed = 0;
+  for (int k = 0; k < fixed->count; ++k) {
+    double c = 0;
+    for (int i = 0; i < B; ++i) c += out.direction[i] * fixed->direction[k][i];
+    for (int i = 0; i < B; ++i) out.direction[i] -= c * fixed->direction[k][i];
+    prescribed += c * fixed->value[k];
+  }
+  const double length = normalise(out.direction);
+  if (length > same_direction) {
+    out.lower = (bound.lower - prescribed) / length;
+    out.upper = (bound.upper - prescribed) / length;
+    reduced_.push_back(out);
+    return;
+  }
+  const double violation = std::max(bound.lower - prescribed, prescribed - bound.upper);
+  if (violation > 0 && violation > rounding(bound.obstacle))
+    no_solution(bound.obstacle, bound.vertex,
+                fmt::format("obstacle beyond the fixed boundary: the fixed value {} lies outside the bounds [{}, {}]",
+                            prescribed, bound.lower, bound.upper));
+}
+
+// Takes a bound into the combined ones; false where it fits with none of them.
+template <int D, int B>
+bool BoundCombiner<D, B>::merge(const Reduced& bound) {
+  const Index obstacle = bound.from->obstacle;
+  CombinedBound<B> candidate{bound.direction, bound.lower, bound.upper, obstacle, obstacle};
+  if (!combined_.empty()) {
+    const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
+    if (obstacle != combined_[0].lower_obstacle && !type(obstacle).same_type(type(combined_[0].lower_obstacle)))
+      return false;
+  }
+  for (CombinedBound<B>& other : combined_) {
+    const double cosine = dot(bound.direction, other.direction);
+    if (std::fabs(cosine) > 1 - same_direction * same_direction) {
+      const double lower = cosine > 0 ? bound.lower : -bound.upper, upper = cosine > 0 ? bound.upper : -bound.lower;
+      if (lower > other.lower) other.lower = lower, other.lower_obstacle = obstacle;
+      if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle;
+      return true;
+    }
+    if (std::fabs(cosine) > same_direction) return false;
+    for (int i = 0; i < B; ++i) candidate.direction[i] -= cosine * other.direction[i];
+  }
+  normalise(candidate.direction);
+  combined_.push_back(candidate);
+  return true;
+}
+
+template <int D, int B>
+void BoundCombiner<D, B>::check_order(CombinedBound<B>& bound, Index vertex) {
+  if (bound.lower <= bound.upper) return;
+  if (bound.lower - bound.upper > std::max(rounding(bound.lower_obstacle), rounding(bound.upper_obstacle)))
+    no_solution(bound.lower_obstacle, vertex,
+                fmt::format("lower bound {} above the upper bound {}{}", bound.lower, bound.upper,
+                            bound.lower_obstacle == bound.upper_obstacle
+                                ? ""
+                                : " of " + model_.obstacles[bound.upper_obstacle].origin));
+  bound.lower = bound.upper = 0.5 * (bound.lower + bound.upper);
+}
+
+// 1e-12 of the numbers that bounds are compared with and computed from. The median, for users write 1e30 for infinity.
+template <int D, int B>
+double BoundCombiner<D, B>::rounding(Index obstacle) {
+  double& rounding = rounding_[obstacle];
+  if (rounding >= 0) return rounding;
+  std::vector<double> sizes;
+  for (const Bound<B>& bound : bounds_)
+    if (bound.obstacle == obstacle)
+      for (const double value : {bound.lower, bound.upper})
+        if (std::isfinite(value)) sizes.push_back(std::fabs(value));
+  double median = 0;
+  if (const auto middle = sizes.begin() + static_cast<Offset>(sizes.size() / 2); middle != sizes.end()) {
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    median = *middle;
+  }
+  return rounding = 1e-12 * (median + size_);
+}
+
+template <int D, int B>
+void BoundCombiner<D, B>::no_solution(Index obstacle, Index vertex, const std::string& why) const {
+  throw Error(Exit::no_solution, fmt::format("{}: no solution at {}: {}", model_.obstacles[obstacle].origin,
+                                             position(mesh_, vertex), why));
+}
+
+template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&);
+template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&);
+template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&);
+template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&);
+template class BoundCombiner<2, 1>;
+template class BoundCombiner<3, 1>;
+template class BoundCombiner<2, 2>;
+template class BoundCombiner<3, 3>;
+
+}  // namespace signorini

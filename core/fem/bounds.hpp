@@ -1,0 +1,66 @@
+#pragma once
+#include "core/fem/fixes.hpp"
+
+namespace signorini {
+
+/// What one obstacle demands at one vertex along one unit direction: lower <= direction . v <= upper.
+template <int B>
+struct Bound {
+  Index vertex;
+  Index obstacle;  ///< number in Model::obstacles
+  std::array<double, B> direction;
+  double lower, upper;
+};
+
+/// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides. An obstacle
+/// that fails is an Error with its code; a bound that no number satisfies is an Error(Exit::no_solution).
+template <int D, int B>
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model);
+
+/// One direction of a local constraint and the obstacles its two bounds come from.
+template <int B>
+struct CombinedBound {
+  std::array<double, B> direction;
+  double lower, upper;
+  Index lower_obstacle, upper_obstacle;
+};
+
+/// Decides what holds at a vertex where bounds meet prescribed directions and each other.
+template <int D, int B>
+class BoundCombiner {
+ public:
+  BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, const std::vector<Bound<B>>& bounds,
+                const std::vector<FixedDirections<B>>& fixes);
+
+  /// Combines the bounds first <= bound < last of one vertex; `fixed` may be null. Each bound is reduced to the part of
+  /// its direction that is not prescribed. The reduced bound nearest to the vertex decides the type of obstacle. Bounds
+  /// of this type along one direction are intersected, orthogonal ones are kept beside each other; all others are
+  /// appended to `dropped`. Returns orthonormal directions, nearest first, in storage that the next call overwrites.
+  /// Error(Exit::no_solution): bounds that are violated whatever the free components are.
+  const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
+                                               const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped);
+
+ private:
+  struct Reduced {
+    std::array<double, B> direction;
+    double lower, upper;
+    const Bound<B>* from;
+    double distance() const { return std::min(-lower, upper); }
+  };
+
+  void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed);
+  bool merge(const Reduced& bound);
+  void check_order(CombinedBound<B>& bound, Index vertex);
+  double rounding(Index obstacle);
+  [[noreturn]] void no_solution(Index obstacle, Index vertex, const std::string& why) const;
+
+  const Mesh<D>& mesh_;
+  const Model<B>& model_;
+  const std::vector<Bound<B>>& bounds_;
+  double size_;                   // of prescribed values, and of coordinates where bounds are computed from them
+  std::vector<double> rounding_;  // per obstacle, negative until it is needed
+  std::vector<Reduced> reduced_;
+  std::vector<CombinedBound<B>> combined_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,42 @@
+#pragma once
+#include "core/fem/discretize.hpp"
+
+namespace signorini {
+
+/// One bounded direction of a vertex after the solve.
+template <int B>
+struct ContactNode {
+  Index vertex;
+  Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
+  bool contact;    ///< the unknown lies on the bound
+  double gap;      ///< distance to the nearer bound
+  double area;     ///< integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle
+                   ///< without faces over the body
+  double pressure;              ///< consistent nodal force over area, positive where the obstacle pushes
+  std::array<double, B> force;  ///< exerted by the obstacle, global coordinates; zero without contact
+};
+
+/// What one obstacle does to the body.
+template <int B>
+struct ContactSummary {
+  Index nodes = 0;  ///< in contact
+  /// Sum of the areas of the vertices in contact. In elasticity only of those whose force is positive, that is larger
+  /// than 1e-8 of the largest one.
+  double area = 0;
+  std::array<double, B> force{};  ///< total
+  double max_pressure = 0;
+};
+
+template <int B>
+struct ContactState {
+  std::vector<ContactNode<B>> nodes;         ///< by ascending vertex
+  std::vector<ContactSummary<B>> obstacles;  ///< per obstacle of the model
+};
+
+/// Contact forces r = A x - b in the bounded directions, and what follows from them.
+/// @param x solution in local coordinates
+template <int D, int B>
+ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization,
+                              const std::vector<double>& x);
+
+}  // namespace signorini

@@ -1,0 +1,201 @@
+#include "core/fem/discretize.hpp"
+
+#include <algorithm>
+
+#include "core/algebra/local_coordinates.hpp"
+#include "core/algebra/products.hpp"
+#include "core/fem/assemble.hpp"
+#include "core/sdk/block.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D, int B>
+class Discretizer {
+ public:
+  Discretizer(const Mesh<D>& mesh, const Model<B>& model)
+      : model_(model),
+        fixes_(collect_fixes(mesh, model)),
+        bounds_(collect_bounds(mesh, model)),
+        combiner_(mesh, model, bounds_, fixes_) {
+    const std::size_t n = mesh.points.size();
+    problem().fixed.assign(n, 0);
+    problem().start.assign(n * B, 0);
+    problem().constraints.slot.assign(n, -1);
+    localise();
+    add_segments();
+    problem().A = stiffness(mesh, model);
+    problem().b = load_vector(mesh, model);
+    rotate(problem().A, problem().b, problem().frames);
+    if (!fixes_.empty()) out_.fixed_energy = eliminate(problem().A, problem().b, problem().fixed, problem().start);
+  }
+
+  Discretization<B> take() { return std::move(out_); }
+
+ private:
+  DiscreteProblem<B>& problem() { return out_.problem; }
+  Constraints<B>& constraints() { return out_.problem.constraints; }
+
+  // Visits the vertices with fixes or bounds in ascending order.
+  void localise() {
+    auto fix = fixes_.begin();
+    auto bound = bounds_.begin();
+    while (fix != fixes_.end() || bound != bounds_.end()) {
+      const bool fix_first = bound == bounds_.end() || (fix != fixes_.end() && fix->vertex <= bound->vertex);
+      const Index p = fix_first ? fix->vertex : bound->vertex;
+      const auto last = std::find_if(bound, bounds_.end(), [p](const Bound<B>& b) { return b.vertex != p; });
+      localise(p, fix_first ? &*fix : nullptr, bounds_.data() + (bound - bounds_.begin()),
+               bounds_.data() + (last - bounds_.begin()));
+      bound = last;
+      if (fix_first) ++fix;
+    }
+  }
+
+  void localise(Index p, const FixedDirections<B>* fixed, const Bound<B>* first, const Bound<B>* last) {
+    static const std::vector<CombinedBound<B>> none;
+    const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, out_.dropped);
+    if (!combined.empty()) add_constraint(p, combined);
+    if (fixed && combined.empty() && (fixed->count == B || fixed->along_axes()))
+      prescribe_global(p, *fixed);
+    else if (fixed)
+      prescribe_last(p, *fixed);
+    if (B > 1 && (!combined.empty() || (fixed && fixed->count < B && !fixed->along_axes())))
+      add_frame(p, combined, fixed);
+  }
+
+  void prescribe_global(Index p, const FixedDirections<B>& fixed) {
+    double* start = problem().start.data() + Offset{p} * B;
+    for (int k = 0; k < fixed.count; ++k)
+      for (int i = 0; i < B; ++i) {
+        start[i] += fixed.value[k] * fixed.direction[k][i];
+        if (fixed.direction[k][i] != 0) problem().fixed[p] |= static_cast<Flags>(1u << i);
+      }
+  }
+
+  // The fixed directions are the last local ones.
+  void prescribe_last(Index p, const FixedDirections<B>& fixed) {
+    for (int k = 0; k < fixed.count; ++k) {
+      const int component = B - fixed.count + k;
+      problem().start[Offset{p} * B + component] = fixed.value[k];
+      problem().fixed[p] |= static_cast<Flags>(1u << component);
+    }
+  }
+
+  void add_frame(Index p, const std::vector<CombinedBound<B>>& combined, const FixedDirections<B>* fixed) {
+    double leading[B * B], Q[B * B];
+    for (std::size_t k = 0; k < combined.size(); ++k) std::copy_n(combined[k].direction.begin(), B, leading + k * B);
+    local_basis<B>(leading, static_cast<int>(combined.size()), fixed ? fixed->direction[0] : nullptr,
+                   fixed ? fixed->count : 0, Q);
+    bool identity = true;
+    for (int i = 0; i < B * B; ++i) identity = identity && Q[i] == (i % (B + 1) == 0 ? 1 : 0);
+    if (identity) return;
+    Frames<B>& frames = problem().frames;
+    if (frames.slot.empty()) frames.slot.assign(problem().fixed.size(), -1);
+    frames.slot[p] = static_cast<Index>(frames.basis.size() / (B * B));
+    frames.basis.insert(frames.basis.end(), Q, Q + B * B);
+  }
+
+  void add_constraint(Index p, const std::vector<CombinedBound<B>>& combined) {
+    constraints().slot[p] = constraints().size();
+    constraints().vector.push_back(p);
+    for (std::size_t k = 0; k < B; ++k) {
+      const bool here = k < combined.size();
+      // A scalar unknown has no frame: -v is bounded by turning the bounds.
+      const bool turned = B == 1 && combined[k].direction[0] < 0;
+      const double lower = here ? combined[k].lower : -infinity, upper = here ? combined[k].upper : infinity;
+      const Index below = here && lower > -infinity ? combined[k].lower_obstacle : -1;
+      const Index above = here && upper < infinity ? combined[k].upper_obstacle : -1;
+      constraints().lower.push_back(turned ? -upper : lower);
+      constraints().upper.push_back(turned ? -lower : upper);
+      out_.lower_obstacle.push_back(turned ? above : below);
+      out_.upper_obstacle.push_back(turned ? below : above);
+    }
+  }
+
+  Index ruling_obstacle(Index slot) const {
+    const Offset k = Offset{slot} * B;
+    return out_.lower_obstacle[k] >= 0 ? out_.lower_obstacle[k] : out_.upper_obstacle[k];
+  }
+
+  void add_segments() {
+    const auto n = static_cast<Index>(problem().fixed.size());
+    Index ruling = -1;
+    for (Index slot = 0; slot < constraints().size(); ++slot) {
+      const Index obstacle = ruling_obstacle(slot);
+      if (obstacle == ruling) continue;
+      const Index first = problem().segments.empty() ? 0 : constraints().vector[slot];
+      if (!problem().segments.empty()) problem().segments.back().last = first;
+      problem().segments.push_back({first, n, model_.obstacles[obstacle].obstacle});
+      ruling = obstacle;
+    }
+  }
+
+  const Model<B>& model_;
+  Discretization<B> out_;
+  std::vector<FixedDirections<B>> fixes_;
+  std::vector<Bound<B>> bounds_;
+  BoundCombiner<D, B> combiner_;
+};
+
+}  // namespace
+
+template <int D, int B>
+Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model) {
+  return Discretizer<D, B>(mesh, model).take();
+}
+
+template <int B>
+std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x) {
+  for (Index p = 0; p < static_cast<Index>(problem.frames.slot.size()); ++p)
+    if (const double* Q = problem.frames.at(p)) {
+      double v[B];
+      block::product<B>(Q, x.data() + Offset{p} * B, v);
+      std::copy_n(v, B, x.data() + Offset{p} * B);
+    }
+  return x;
+}
+
+template <int B>
+std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u) {
+  for (Index p = 0; p < static_cast<Index>(problem.frames.slot.size()); ++p)
+    if (const double* Q = problem.frames.at(p)) {
+      double v[B];
+      block::transposed_product<B>(Q, u.data() + Offset{p} * B, v);
+      std::copy_n(v, B, u.data() + Offset{p} * B);
+    }
+  return u;
+}
+
+template <int B>
+double energy(const Discretization<B>& discretization, const std::vector<double>& x) {
+  const DiscreteProblem<B>& problem = discretization.problem;
+  std::vector<double> Ax(x.size());
+  product(problem.A, x.data(), Ax.data());
+  double sum = discretization.fixed_energy;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (!(problem.fixed[k / B] >> (k % B) & 1)) sum += (0.5 * Ax[k] - problem.b[k]) * x[k];
+  return sum;
+}
+
+template <int B>
+double violation(const Bound<B>& bound, const std::vector<double>& u) {
+  double value = 0;
+  for (int i = 0; i < B; ++i) value += bound.direction[i] * u[Offset{bound.vertex} * B + i];
+  return std::max(bound.lower - value, value - bound.upper);
+}
+
+template Discretization<1> discretize(const Mesh<2>&, const Model<1>&);
+template Discretization<1> discretize(const Mesh<3>&, const Model<1>&);
+template Discretization<2> discretize(const Mesh<2>&, const Model<2>&);
+template Discretization<3> discretize(const Mesh<3>&, const Model<3>&);
+#define SIGNORINI_INSTANTIATE(B)                                                          \
+  template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
+  template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
+  template double energy(const Discretization<B>&, const std::vector<double>&);           \
+  template double violation(const Bound<B>&, const std::vector<double>&);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,46 @@
+#pragma once
+#include "core/fem/bounds.hpp"
+#include "core/solver/discrete_problem.hpp"
+
+namespace signorini {
+
+/// A model on a mesh, ready to be solved, and what is needed to interpret its solution.
+template <int B>
+struct Discretization {
+  DiscreteProblem<B> problem;
+  /// B per slot of problem.constraints: the number in Model::obstacles that the lower or upper bound comes from, -1
+  /// where there is none.
+  std::vector<Index> lower_obstacle, upper_obstacle;
+  /// Bounds that are not part of the problem because another obstacle is nearer to their vertex and their directions
+  /// are neither parallel nor orthogonal. The caller checks after the solve that they hold, see violation().
+  std::vector<Bound<B>> dropped;
+  /// 1/2 a(v, v) - f(v) of the prescribed values v extended by zero: what 1/2 x'Ax - b'x over the components that are
+  /// not fixed lacks to the energy of the solution.
+  double fixed_energy = 0;
+};
+
+/// Linear elements for a model. Vectors are numbered as the vertices.
+/// - Dirichlet conditions: see collect_fixes(); obstacles: see BoundCombiner.
+/// - A vector with an obstacle has a local frame: first the obstacle's directions, then free tangents, then the fixed
+///   directions. A vector with fixed directions only has one unless these are coordinate axes.
+/// - Each obstacle rules the segments of vectors between its own constrained ones and the next obstacle's.
+/// Error(Exit::input) for selections without faces, fields that are not finite or out of range, inverted elements;
+/// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
+template <int D, int B>
+Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model);
+
+/// Global coordinates of a vector field given in the local ones, and back; B per vector.
+template <int B>
+std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x);
+template <int B>
+std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u);
+
+/// Energy 1/2 a(u, u) - f(u) of the solution x in local coordinates, prescribed values included.
+template <int B>
+double energy(const Discretization<B>& discretization, const std::vector<double>& x);
+
+/// How far u (global coordinates) violates a bound; negative where it holds with room to spare.
+template <int B>
+double violation(const Bound<B>& bound, const std::vector<double>& u);
+
+}  // namespace signorini

@@ -1,0 +1,103 @@
+#pragma once
+#include <cmath>
+
+#include "core/fem/field.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/mesh/simplex.hpp"
+
+namespace signorini {
+
+/// Measure (area or volume, negative for an inverted element) of a linear element and the constant gradients of its
+/// hat functions.
+template <int D>
+struct LinearElement {
+  double measure;
+  std::array<Point<D>, D + 1> gradient;
+};
+
+template <std::size_t N>
+inline double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
+  double s = 0;
+  for (std::size_t i = 0; i < N; ++i) s += a[i] * b[i];
+  return s;
+}
+
+inline Point<3> cross(const Point<3>& a, const Point<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+inline LinearElement<2> linear_element(const Mesh<2>& mesh, const Simplex<2>& v) {
+  const Point<2> a = difference<2>(mesh.points[v[1]], mesh.points[v[0]]);
+  const Point<2> b = difference<2>(mesh.points[v[2]], mesh.points[v[0]]);
+  const double det = a[0] * b[1] - a[1] * b[0], s = 1 / det;
+  return {det / 2, {{{(a[1] - b[1]) * s, (b[0] - a[0]) * s}, {b[1] * s, -b[0] * s}, {-a[1] * s, a[0] * s}}}};
+}
+
+inline LinearElement<3> linear_element(const Mesh<3>& mesh, const Simplex<3>& v) {
+  const Point<3> a = difference<3>(mesh.points[v[1]], mesh.points[v[0]]);
+  const Point<3> b = difference<3>(mesh.points[v[2]], mesh.points[v[0]]);
+  const Point<3> c = difference<3>(mesh.points[v[3]], mesh.points[v[0]]);
+  const Point<3> bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+  const double det = dot(a, bc), s = 1 / det;
+  LinearElement<3> out{det / 6, {}};
+  for (int i = 0; i < 3; ++i) {
+    out.gradient[1][i] = bc[i] * s;
+    out.gradient[2][i] = ca[i] * s;
+    out.gradient[3][i] = ab[i] * s;
+    out.gradient[0][i] = -(out.gradient[1][i] + out.gradient[2][i] + out.gradient[3][i]);
+  }
+  return out;
+}
+
+/// Outer normal of a boundary face, its length the measure (length or area) of the face.
+inline Point<2> area_normal(const Mesh<2>& mesh, const Face<2>& face) {
+  const Point<2> d = difference<2>(mesh.points[face.vertices[1]], mesh.points[face.vertices[0]]);
+  return {d[1], -d[0]};
+}
+
+inline Point<3> area_normal(const Mesh<3>& mesh, const Face<3>& face) {
+  const Point<3>& origin = mesh.points[face.vertices[0]];
+  Point<3> n =
+      cross(difference<3>(mesh.points[face.vertices[1]], origin), difference<3>(mesh.points[face.vertices[2]], origin));
+  for (double& c : n) c /= 2;
+  return n;
+}
+
+/// Scales a vector to length one and returns its former length; the zero vector stays.
+template <std::size_t N>
+inline double normalise(std::array<double, N>& v) {
+  const double length = std::sqrt(dot(v, v));
+  if (length > 0)
+    for (double& c : v) c /= length;
+  return length;
+}
+
+/// The point with the given barycentric coordinates in a simplex of any dimension.
+template <int D, std::size_t N>
+inline Point<D> combine(const Mesh<D>& mesh, const std::array<Index, N>& vertices,
+                        const std::array<double, N>& barycentric) {
+  Point<D> x{};
+  for (std::size_t a = 0; a < N; ++a)
+    for (int i = 0; i < D; ++i) x[i] += barycentric[a] * mesh.points[vertices[a]][i];
+  return x;
+}
+
+template <int D, std::size_t N>
+inline Point<D> centroid(const Mesh<D>& mesh, const std::array<Index, N>& vertices) {
+  std::array<double, N> barycentric;
+  barycentric.fill(1.0 / N);
+  return combine<D>(mesh, vertices, barycentric);
+}
+
+template <int D>
+inline Site site(const Point<D>& x, double t, const Point<D>& normal = {}) {
+  Site s;
+  for (int i = 0; i < D; ++i) {
+    s.x[i] = x[i];
+    s.n[i] = normal[i];
+  }
+  s.t = t;
+  return s;
+}
+
+}  // namespace signorini

@@ -1,0 +1,22 @@
+#include "core/fem/field.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+
+double Field::operator()(const Site& site) const {
+  const double value = function_ ? function_(site) : constant_;
+  if (!std::isfinite(value))
+    input_error(origin_.empty() ? "value" : origin_,
+                fmt::format("found {} for '{}' at x = [{:g}, {:g}, {:g}], expected a finite number", value,
+                            function_ ? text_ : fmt::format("{}", constant_), site.x[0], site.x[1], site.x[2]));
+  return value;
+}
+
+std::optional<double> Field::constant() const { return function_ ? std::nullopt : std::optional<double>(constant_); }
+
+}  // namespace signorini

@@ -1,0 +1,36 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace signorini {
+
+/// Where a field is evaluated: position, outer normal (zero inside the body) and step parameter.
+struct Site {
+  double x[3] = {0, 0, 0};
+  double n[3] = {0, 0, 0};
+  double t = 1;
+};
+
+/// A number given by the user: a constant or an expression. `origin` says where it was written ("scene.toml:12:
+/// fix.0.value[1]"), for messages.
+class Field {
+ public:
+  Field(double constant = 0) : constant_(constant) {}  // NOLINT: a number is a field
+  Field(std::function<double(const Site&)> function, std::string text, std::string origin)
+      : function_(std::move(function)), text_(std::move(text)), origin_(std::move(origin)) {}
+
+  /// The value; one that is not finite is an Error(Exit::input) that names origin, text and position.
+  double operator()(const Site& site) const;
+  /// The number, if this is no expression.
+  std::optional<double> constant() const;
+  const std::string& text() const { return text_; }
+  const std::string& origin() const { return origin_; }
+
+ private:
+  std::function<double(const Site&)> function_;
+  double constant_ = 0;
+  std::string text_, origin_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include "core/fem/assemble.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/quadrature.hpp"
+#include "core/fem/select.hpp"
+
+namespace signorini {
+namespace {
+
+template <int B>
+bool is_constant(const Load<B>& load) {
+  return std::all_of(load.value.begin(), load.value.end(), [](const Field& f) { return f.constant().has_value(); });
+}
+
+template <int B>
+std::array<double, B> value(const Load<B>& load, const Site& where) {
+  std::array<double, B> f;
+  for (int i = 0; i < B; ++i) f[i] = load.value[i](where);
+  return f;
+}
+
+// b += integral of the load times the hat functions over a simplex with K + 1 corners.
+template <int D, int B, int K>
+void integrate(const Mesh<D>& mesh, const Load<B>& load, const std::array<Index, K + 1>& corners, double measure,
+               std::span<const QuadraturePoint<K>> rule, double t, const Point<D>& normal, std::vector<double>& b) {
+  for (const auto& [barycentric, weight] : rule) {
+    const auto f = value(load, site<D>(combine<D>(mesh, corners, barycentric), t, normal));
+    for (int a = 0; a <= K; ++a)
+      for (int i = 0; i < B; ++i) b[Offset{corners[a]} * B + i] += weight * measure * barycentric[a] * f[i];
+  }
+}
+
+template <int K>
+std::span<const QuadraturePoint<K>> midpoint_rule() {
+  static const QuadraturePoint<K> rule = [] {
+    QuadraturePoint<K> q{{}, 1};
+    q.barycentric.fill(1.0 / (K + 1));
+    return q;
+  }();
+  return {&rule, 1};
+}
+
+template <int D, int B>
+void add_body_force(const Mesh<D>& mesh, const Load<B>& load, double t, std::vector<double>& b) {
+  const auto rule = is_constant(load) ? midpoint_rule<D>() : quadrature2<D>();
+  for (const Simplex<D>& vertices : mesh.elements)
+    integrate<D, B, D>(mesh, load, vertices, linear_element(mesh, vertices).measure, rule, t, {}, b);
+}
+
+template <int D, int B>
+void add_traction(const Mesh<D>& mesh, const Load<B>& load, double t, std::vector<double>& b) {
+  const auto rule = is_constant(load) ? midpoint_rule<D - 1>() : quadrature5<D - 1>();
+  for (const Index f : select_faces(mesh, *load.on, t)) {
+    const Face<D>& face = mesh.boundary[f];
+    Point<D> normal = area_normal(mesh, face);
+    const double measure = normalise(normal);
+    integrate<D, B, D - 1>(mesh, load, face.vertices, measure, rule, t, normal, b);
+  }
+}
+
+template <int B>
+bool is_zero(const Load<B>& load) {
+  return std::all_of(load.value.begin(), load.value.end(), [](const Field& f) { return f.constant() == 0.0; });
+}
+
+}  // namespace
+
+template <int D, int B>
+std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model) {
+  std::vector<double> b(mesh.points.size() * B);
+  for (const Load<B>& load : model.loads)
+    if (load.on)
+      add_traction(mesh, load, model.t, b);
+    else if (!is_zero(load))
+      add_body_force(mesh, load, model.t, b);
+  return b;
+}
+
+template std::vector<double> load_vector(const Mesh<2>&, const Model<1>&);
+template std::vector<double> load_vector(const Mesh<3>&, const Model<1>&);
+template std::vector<double> load_vector(const Mesh<2>&, const Model<2>&);
+template std::vector<double> load_vector(const Mesh<3>&, const Model<3>&);
+
+}  // namespace signorini

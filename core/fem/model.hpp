@@ -1,0 +1,58 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fem/field.hpp"
+#include "core/sdk/obstacle.hpp"
+
+namespace signorini {
+
+/// Boundary faces picked by a named part, or by an expression that is nonzero at all vertices of the face.
+struct Selection {
+  std::optional<std::string> part;
+  std::optional<Field> where;
+  std::string origin;  ///< for messages: "scene.toml:12: fix.0"
+};
+
+enum class Plane { strain, stress };
+enum class Frame { global, normal };
+
+/// Dirichlet condition: one field per component, empty where the component is free.
+template <int B>
+struct Fix {
+  Selection on;
+  std::array<std::optional<Field>, B> value;
+  Frame frame = Frame::global;
+};
+
+/// A traction or flux (with `on`), or a body force or source (without).
+template <int B>
+struct Load {
+  std::optional<Selection> on;
+  std::array<Field, B> value;
+};
+
+/// An obstacle and the vertices it may touch: those of the selected faces, or all when `on` is empty.
+template <int B>
+struct ObstacleTerm {
+  std::shared_ptr<const Obstacle<B>> obstacle;
+  std::optional<Selection> on;
+  std::string origin;
+};
+
+/// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
+template <int B>
+struct Model {
+  Field diffusion = 1;          ///< B = 1
+  Field young = 1, poisson = 0; ///< B > 1
+  Plane plane = Plane::strain;  ///< B = 2
+  std::vector<Fix<B>> fixes;
+  std::vector<Load<B>> loads;
+  std::vector<ObstacleTerm<B>> obstacles;
+  double t = 1;  ///< step parameter
+};
+
+}  // namespace signorini

@@ -1,0 +1,18 @@
+#pragma once
+#include "core/mesh/mesh.hpp"
+#include "core/solver/discrete_problem.hpp"
+#include "core/solver/prolongation.hpp"
+
+namespace signorini {
+
+/// Interpolation of linear elements from a mesh to its refinement: weight 1 at common vertices, 1/2 at the ends of a
+/// divided edge.
+Prolongation prolongation(const Refinement& refinement, Index coarse_vertices);
+
+/// A solution of one level as a start for the next finer one, both in the local coordinates of their problems.
+/// Components that are prescribed on the fine level take their prescribed values.
+template <int B>
+std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vector<double>& x,
+                                const Prolongation& prolongation, const DiscreteProblem<B>& fine);
+
+}  // namespace signorini

@@ -1,0 +1,30 @@
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// Where a point lies: an element and barycentric coordinates in it.
+template <int D>
+struct Place {
+  Index element;
+  std::array<double, D + 1> barycentric;
+};
+
+/// The element around a point. A point outside the mesh is moved to the nearest one on the boundary, unless it is
+/// farther away than the longest edge of the element there: an Error(Exit::input) that names `origin` and the position.
+template <int D>
+Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin);
+
+/// The value there of a linear element function, B per vertex.
+template <int B, int D>
+std::array<double, B> evaluate(const Mesh<D>& mesh, const Place<D>& place, const std::vector<double>& u) {
+  std::array<double, B> value{};
+  for (int a = 0; a <= D; ++a)
+    for (int i = 0; i < B; ++i) value[i] += place.barycentric[a] * u[Offset{mesh.elements[place.element][a]} * B + i];
+  return value;
+}
+
+}  // namespace signorini

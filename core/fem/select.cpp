@@ -1,0 +1,128 @@
+#include "core/fem/select.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/error.hpp"
+#include "core/fem/element.hpp"
+#include "core/mesh/boundary.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D>
+std::vector<Index> all_faces(const Mesh<D>& mesh) {
+  std::vector<Index> faces(mesh.boundary.size());
+  std::iota(faces.begin(), faces.end(), 0);
+  return faces;
+}
+
+template <int D>
+bool holds(const Mesh<D>& mesh, const Face<D>& face, const Field& where, double t) {
+  Point<D> normal = area_normal(mesh, face);
+  normalise(normal);
+  return std::all_of(face.vertices.begin(), face.vertices.end(),
+                     [&](Index p) { return where(site<D>(mesh.points[p], t, normal)) != 0; });
+}
+
+std::string describe(const Selection& selection) {
+  if (!selection.where) return fmt::format("part '{}' has no boundary face", selection.part.value_or("boundary"));
+  return fmt::format("no boundary face{} has all its vertices where '{}'",
+                     selection.part ? fmt::format(" of part '{}'", *selection.part) : "", selection.where->text());
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection, double t) {
+  std::vector<Index> faces = selection.part ? faces_of(mesh, *selection.part, selection.origin) : all_faces(mesh);
+  if (selection.where)
+    std::erase_if(faces, [&](Index f) { return !holds(mesh, mesh.boundary[f], *selection.where, t); });
+  if (faces.empty()) input_error(selection.origin, describe(selection));
+  return faces;
+}
+
+template <int D>
+Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces) {
+  struct Corner {
+    Index vertex, face;
+    bool operator<(const Corner& other) const {
+      return vertex != other.vertex ? vertex < other.vertex : face < other.face;
+    }
+  };
+  std::vector<Corner> corners;
+  corners.reserve(faces.size() * D);
+  for (const Index f : faces)
+    for (const Index p : mesh.boundary[f].vertices) corners.push_back({p, f});
+  std::sort(corners.begin(), corners.end());
+
+  Surface<D> out;
+  out.faces = std::move(faces);
+  out.around.reserve(corners.size());
+  for (const Corner& corner : corners) {
+    if (out.vertices.empty() || out.vertices.back() != corner.vertex) {
+      out.vertices.push_back(corner.vertex);
+      out.first.push_back(static_cast<Offset>(out.around.size()));
+    }
+    out.around.push_back(corner.face);
+  }
+  out.first.push_back(static_cast<Offset>(out.around.size()));
+  return out;
+}
+
+template <int D>
+Surface<D> surface(const Mesh<D>& mesh) {
+  return surface(mesh, all_faces(mesh));
+}
+
+template <int D>
+std::vector<Point<D>> vertex_normals(const Mesh<D>& mesh, const Surface<D>& surface) {
+  std::vector<Point<D>> normals(surface.vertices.size());
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    double measure = 0;
+    Point<D> sum{};
+    for (Offset k = surface.first[v]; k < surface.first[v + 1]; ++k) {
+      const Point<D> n = area_normal(mesh, mesh.boundary[surface.around[k]]);
+      for (int i = 0; i < D; ++i) sum[i] += n[i];
+      measure += std::sqrt(dot(n, n));
+    }
+    if (normalise(sum) > 1e-12 * measure) normals[v] = sum;
+  }
+  return normals;
+}
+
+template <int D>
+std::vector<double> vertex_areas(const Mesh<D>& mesh, const Surface<D>& surface) {
+  std::vector<double> areas(surface.vertices.size());
+  for (std::size_t v = 0; v < areas.size(); ++v)
+    for (Offset k = surface.first[v]; k < surface.first[v + 1]; ++k) {
+      const Point<D> n = area_normal(mesh, mesh.boundary[surface.around[k]]);
+      areas[v] += std::sqrt(dot(n, n)) / D;
+    }
+  return areas;
+}
+
+template <int D>
+std::vector<double> vertex_volumes(const Mesh<D>& mesh) {
+  std::vector<double> volumes(mesh.points.size());
+  for (const Simplex<D>& vertices : mesh.elements) {
+    const double share = linear_element(mesh, vertices).measure / (D + 1);
+    for (const Index p : vertices) volumes[p] += share;
+  }
+  return volumes;
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                                       \
+  template std::vector<Index> select_faces(const Mesh<D>&, const Selection&, double);  \
+  template Surface<D> surface(const Mesh<D>&, std::vector<Index>);                     \
+  template Surface<D> surface(const Mesh<D>&);                                         \
+  template std::vector<Point<D>> vertex_normals<D>(const Mesh<D>&, const Surface<D>&); \
+  template std::vector<double> vertex_areas(const Mesh<D>&, const Surface<D>&);        \
+  template std::vector<double> vertex_volumes(const Mesh<D>&);
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

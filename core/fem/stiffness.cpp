@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/fem/assemble.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/material.hpp"
+
+namespace signorini {
+namespace {
+
+// The elements around every vertex, in flat arrays.
+template <int D>
+struct Adjacency {
+  std::vector<Offset> first;
+  std::vector<Index> element;
+
+  explicit Adjacency(const Mesh<D>& mesh) : first(mesh.points.size() + 1), element(mesh.elements.size() * (D + 1)) {
+    for (const auto& vertices : mesh.elements)
+      for (const Index p : vertices) ++first[p + 1];
+    for (std::size_t p = 1; p < first.size(); ++p) first[p] += first[p - 1];
+    std::vector<Offset> next(first.begin(), first.end() - 1);
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+      for (const Index p : mesh.elements[e]) element[next[p]++] = static_cast<Index>(e);
+  }
+};
+
+// Euler's formula, up to the number of handles.
+template <int D>
+std::size_t estimated_edges(const Mesh<D>& mesh) {
+  const std::size_t elements = mesh.elements.size(), faces = mesh.boundary.size();
+  return D == 2 ? (3 * elements + faces) / 2 : mesh.points.size() + elements + faces / 2;
+}
+
+// A matrix whose pattern is known, and where the columns above the diagonal begin in each row.
+template <int B>
+struct Assembly {
+  BlockMatrix<B> A;
+  std::vector<Offset> upper;
+
+  double* entry(Index p, Index q) {
+    Offset k = upper[p];
+    while (A.column[k] != q) ++k;
+    return A.at(k);
+  }
+};
+
+template <int D, int B>
+Assembly<B> pattern(const Mesh<D>& mesh) {
+  const Adjacency<D> around(mesh);
+  const Index n = mesh.vertices();
+  Assembly<B> out;
+  out.A.row.reserve(n + 1);
+  out.A.column.reserve(n + 2 * estimated_edges(mesh));
+  out.upper.resize(n);
+  std::vector<Index> seen(n, -1), &column = out.A.column;
+  for (Index p = 0; p < n; ++p) {
+    seen[p] = p;
+    column.push_back(p);
+    const auto begin = static_cast<Offset>(column.size());
+    for (Offset k = around.first[p]; k < around.first[p + 1]; ++k)
+      for (const Index q : mesh.elements[around.element[k]])
+        if (seen[q] != p) {
+          seen[q] = p;
+          column.push_back(q);
+        }
+    std::sort(column.begin() + begin, column.end());
+    out.upper[p] = std::upper_bound(column.begin() + begin, column.end(), p) - column.begin();
+    out.A.row.push_back(static_cast<Offset>(column.size()));
+  }
+  out.A.value.assign(column.size() * BlockMatrix<B>::block, 0.0);
+  return out;
+}
+
+// entry += measure * (block of the hat functions with gradients g, row, and h, column)
+template <int D>
+inline void add_block(const Material<1>& material, double measure, const Point<D>& g, const Point<D>& h,
+                      double* entry) {
+  *entry += measure * material.diffusion * dot(g, h);
+}
+
+template <int D>
+inline void add_block(const Material<D>& material, double measure, const Point<D>& g, const Point<D>& h,
+                      double* entry) {
+  const double lambda = measure * material.lambda, mu = measure * material.mu, shear = mu * dot(g, h);
+  for (int i = 0; i < D; ++i) {
+    for (int j = 0; j < D; ++j) entry[i * D + j] += lambda * g[i] * h[j] + mu * g[j] * h[i];
+    entry[i * D + i] += shear;
+  }
+}
+
+template <int D>
+LinearElement<D> checked_element(const Mesh<D>& mesh, const Simplex<D>& vertices) {
+  const LinearElement<D> out = linear_element(mesh, vertices);
+  if (out.measure > 0) return out;
+  const Site where = site<D>(centroid<D>(mesh, vertices), 0);
+  input_error("mesh", fmt::format("element with {} {} around ({}, {}, {}), expected a positive one",
+                                  D == 2 ? "area" : "volume", out.measure, where.x[0], where.x[1], where.x[2]));
+}
+
+// Adds the diagonal blocks and those above the diagonal.
+template <int D, int B>
+void add_upper_half(const Mesh<D>& mesh, const Model<B>& model, Assembly<B>& out) {
+  const MaterialLaw<B> law(model);
+  Material<B> material = law.constant() ? law.at({}) : Material<B>{};
+  for (const auto& vertices : mesh.elements) {
+    const LinearElement<D> s = checked_element(mesh, vertices);
+    if (!law.constant()) material = law.at(site<D>(centroid<D>(mesh, vertices), model.t));
+    for (int a = 0; a <= D; ++a) {
+      const Index p = vertices[a];
+      add_block<D>(material, s.measure, s.gradient[a], s.gradient[a], out.A.at(out.A.row[p]));
+      for (int b = a + 1; b <= D; ++b) {
+        const Index q = vertices[b];
+        if (p < q)
+          add_block<D>(material, s.measure, s.gradient[a], s.gradient[b], out.entry(p, q));
+        else
+          add_block<D>(material, s.measure, s.gradient[b], s.gradient[a], out.entry(q, p));
+      }
+    }
+  }
+}
+
+// What lies below the diagonal is what lies above it, transposed. Rows ascend, so row q meets its lower columns p in
+// order and a cursor per row replaces any search.
+template <int B>
+void mirror(Assembly<B>& out) {
+  BlockMatrix<B>& A = out.A;
+  std::vector<Offset> next(A.row.begin(), A.row.end() - 1);
+  for (Index p = 0; p < A.size(); ++p) {
+    double* diagonal = A.at(A.row[p]);
+    for (int i = 0; i < B; ++i)
+      for (int j = 0; j < i; ++j) diagonal[i * B + j] = diagonal[j * B + i];
+    for (Offset k = out.upper[p]; k < A.row[p + 1]; ++k) {
+      const double* from = A.at(k);
+      double* to = A.at(++next[A.column[k]]);
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) to[j * B + i] = from[i * B + j];
+    }
+  }
+}
+
+}  // namespace
+
+template <int D, int B>
+BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model) {
+  Assembly<B> out = pattern<D, B>(mesh);
+  add_upper_half(mesh, model, out);
+  mirror(out);
+  return std::move(out.A);
+}
+
+template BlockMatrix<1> stiffness(const Mesh<2>&, const Model<1>&);
+template BlockMatrix<1> stiffness(const Mesh<3>&, const Model<1>&);
+template BlockMatrix<2> stiffness(const Mesh<2>&, const Model<2>&);
+template BlockMatrix<3> stiffness(const Mesh<3>&, const Model<3>&);
+
+}  // namespace signorini

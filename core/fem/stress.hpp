@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "core/fem/model.hpp"
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// A symmetric stress tensor in the order of VTK: xx, yy, zz, xy, yz, xz.
+using Stress = std::array<double, 6>;
+
+/// The stress in every element; in plane strain zz is what holds the body flat.
+/// @param u displacements in global coordinates, D per vertex
+template <int D>
+std::vector<Stress> element_stress(const Mesh<D>& mesh, const Model<D>& model, const std::vector<double>& u);
+
+/// The mean over the elements around each vertex, weighted by their measure.
+template <int D>
+std::vector<Stress> nodal_stress(const Mesh<D>& mesh, const std::vector<Stress>& element_stress);
+
+double von_mises(const Stress& stress);
+
+}  // namespace signorini

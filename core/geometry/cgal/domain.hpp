@@ -1,0 +1,40 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace signorini::geometry {
+
+struct Box {
+  Point<3> low, high;
+};
+
+using Polyline = std::vector<Point<3>>;
+
+/// What the mesher asks of a solid. Points are inside, on the surface or outside; the surface is a closed manifold,
+/// smooth but for creases.
+class Domain {
+ public:
+  virtual ~Domain() = default;
+  virtual std::string name() const = 0;  ///< for messages
+  virtual Box box() const = 0;
+  virtual double volume() const = 0;
+  virtual bool inside(const Point<3>& p) const = 0;
+  /// A point of the surface on the segment ab; there is one whenever one end is inside and the other is not.
+  virtual std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const = 0;
+  /// A few points spread over the surface.
+  virtual std::vector<Point<3>> surface_points() const = 0;
+  /// Sharp edges as polylines that meet at most at their ends; a loop repeats its first point.
+  virtual std::vector<Polyline> creases() const = 0;
+  /// The largest size that still resolves the shape.
+  virtual double coarsest_size() const = 0;
+  /// How far faces may be from the surface, relative to the size.
+  virtual double flatness() const = 0;
+  /// Moves boundary vertices exactly onto the surface (`on_crease` per vertex tells those on creases), and names the
+  /// parts and curves of the boundary faces.
+  virtual void finish(Mesh<3>& mesh, const std::vector<bool>& on_crease) const = 0;
+};
+
+}  // namespace signorini::geometry

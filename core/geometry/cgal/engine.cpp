@@ -1,0 +1,65 @@
+#include <CGAL/exceptions.h>
+
+#include "core/geometry/cgal/checks.hpp"
+#include "core/geometry/cgal/planar.hpp"
+#include "core/geometry/cgal/round.hpp"
+#include "core/geometry/cgal/solid.hpp"
+#include "core/geometry/cgal/surface_distance.hpp"
+#include "core/geometry/cgal/tetrahedra.hpp"
+#include "core/geometry/geometry.hpp"
+
+namespace signorini::geometry {
+
+namespace {
+
+Mesh<3> mesh_of(const Ball& ball, const Size<3>& size) {
+  const char* shape = ball.lower_half ? "half_ball" : "ball";
+  require_finite(shape, "center", ball.center);
+  require_positive(shape, "radius", ball.radius);
+  return tetrahedralize(RoundDomain(ball), size);
+}
+
+Mesh<3> mesh_of(const Cylinder& cylinder, const Size<3>& size) {
+  require_finite("cylinder", "center", cylinder.center);
+  require_positive("cylinder", "radius", cylinder.radius);
+  require_positive("cylinder", "height", cylinder.height);
+  return tetrahedralize(RoundDomain(cylinder), size);
+}
+
+Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(SolidDomain(solid.file), size); }
+
+/// Calls `work`; what CGAL finds itself unable to do, and what does not fit memory, becomes the user's error.
+template <class Work>
+auto guarded(const char* what, const Work& work) {
+  try {
+    return work();
+  } catch (const CGAL::Failure_exception& failure) {
+    input_error(what, fmt::format("failed for this geometry ({}); expected one without degenerate details, or another "
+                                  "size",
+                                  failure.expression()));
+  } catch (const std::bad_alloc&) {
+    input_error(what, "out of memory; expected a larger size");
+  }
+}
+
+class CgalEngine : public Engine {
+ public:
+  Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const override {
+    return guarded("meshing", [&] { return triangulate(shape, size); });
+  }
+  Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const override {
+    return guarded("meshing", [&] { return std::visit([&](const auto& s) { return mesh_of(s, size); }, shape); });
+  }
+  std::unique_ptr<DistanceFunction> surface(const std::string& file) const override {
+    return guarded("reading a surface", [&] { return surface_distance(file); });
+  }
+};
+
+}  // namespace
+
+}  // namespace signorini::geometry
+
+extern "C" __attribute__((visibility("default"))) const signorini::geometry::Engine* signorini_geometry_engine() {
+  static const signorini::geometry::CgalEngine engine;
+  return &engine;
+}

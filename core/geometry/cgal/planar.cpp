@@ -1,0 +1,183 @@
+// Constrained Delaunay refinement in the plane (CGAL Mesh_2) with a position-dependent size.
+#include "core/geometry/cgal/planar.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_criteria_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+
+#include "core/geometry/cgal/outline.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/curve.hpp"
+#include "core/mesh/validate.hpp"
+
+namespace signorini::geometry {
+
+namespace {
+
+// Bound on the longest edge of a triangle relative to the size; makes the mean edge of a mesh the size within some per
+// cent. Sides are divided by the size itself and so need no further division.
+constexpr double edge_bound = 1.4;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+Point<2> plain(const Kernel::Point_2& p) { return {p.x(), p.y()}; }
+
+Point<2> centroid(const Triangulation::Face_handle& face) {
+  const auto &a = face->vertex(0)->point(), &b = face->vertex(1)->point(), &c = face->vertex(2)->point();
+  return {(a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3};
+}
+
+/// CGAL's criterion on angles, and one on edges by the size at the centroid. Large triangles come first.
+class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
+  using Base = CGAL::Delaunay_mesh_criteria_2<Triangulation>;
+
+ public:
+  struct Quality {
+    double sine = 0, edge = 0;  // squared sine of the least angle; squared longest edge over its bound
+    bool operator<(const Quality& other) const {
+      return edge > 1 || other.edge > 1 ? edge > other.edge : sine < other.sine;
+    }
+  };
+
+  class Is_bad : public Base::Is_bad {
+   public:
+    Is_bad(const Criteria& criteria) : Base::Is_bad(criteria.bound(), criteria.traits), sizing_(*criteria.sizing_) {}
+
+    CGAL::Mesh_2::Face_badness operator()(const Quality& q) const {
+      if (q.edge > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
+      return q.sine < this->B ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
+    }
+    CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face, Quality& q) const {
+      Base::Is_bad::operator()(face, q.sine);
+      const double bound = edge_bound * sizing_(centroid(face));
+      q.edge = 0;
+      for (int k = 0; k < 3; ++k)
+        q.edge = std::max(q.edge, CGAL::squared_distance(face->vertex(k)->point(), face->vertex((k + 1) % 3)->point()) /
+                                      (bound * bound));
+      return (*this)(q);
+    }
+
+   private:
+    const Sizing<2>& sizing_;
+  };
+
+  explicit Criteria(const Sizing<2>* sizing) : sizing_(sizing) {}
+  Is_bad is_bad_object() const { return Is_bad(*this); }
+
+ private:
+  const Sizing<2>* sizing_;
+};
+
+/// The vertices at which sides start, in the order of the sides.
+std::vector<Triangulation::Vertex_handle> insert(Triangulation& triangulation, const Outline& outline,
+                                                 const Sizing<2>& sizing) {
+  std::vector<Triangulation::Vertex_handle> starts, all;
+  for (const Side& side : outline.sides) {
+    starts.push_back({});
+    for (const Point<2>& p : divide(outline, side, sizing)) {
+      const auto near = all.empty() ? Triangulation::Face_handle() : all.back()->face();
+      all.push_back(triangulation.insert({p[0], p[1]}, near));
+      if (starts.back() == Triangulation::Vertex_handle()) starts.back() = all.back();
+    }
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) triangulation.insert_constraint(all[i], all[(i + 1) % all.size()]);
+  return starts;
+}
+
+// Elements that the size asks for, from its values at 16 points in each triangle of the unrefined triangulation.
+double expected(const Triangulation& triangulation, const Sizing<2>& sizing) {
+  constexpr int n = 4;
+  double sum = 0;
+  for (const auto face : triangulation.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    const Point<2> a = plain(face->vertex(0)->point()), b = plain(face->vertex(1)->point()),
+                   c = plain(face->vertex(2)->point());
+    std::vector<double> sizes;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; i + j < n; ++j) {
+        const double s = (i + 1.0 / 3) / n, t = (j + 1.0 / 3) / n;
+        sizes.push_back(
+            sizing({a[0] + s * (b[0] - a[0]) + t * (c[0] - a[0]), a[1] + s * (b[1] - a[1]) + t * (c[1] - a[1])}));
+      }
+    sum += expected_elements<2>(triangulation.triangle(face).area(), sizes);
+  }
+  return sum;
+}
+
+Mesh<2> extract(const Triangulation& triangulation) {
+  Mesh<2> mesh;
+  for (const auto vertex : triangulation.finite_vertex_handles()) vertex->info() = -1;
+  for (const auto face : triangulation.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    auto& element = mesh.elements.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      Index& number = face->vertex(k)->info();
+      if (number < 0) {
+        number = mesh.vertices();
+        mesh.points.push_back(plain(face->vertex(k)->point()));
+      }
+      element[static_cast<std::size_t>(k)] = number;
+    }
+  }
+  mesh.boundary = find_boundary<2>(mesh.vertices(), mesh.elements);
+  return mesh;
+}
+
+/// Walks once around the boundary, which passes the starts of the sides in their order: every face on the way belongs
+/// to the side last started. New vertices on arcs are moved onto them.
+void name_sides(Mesh<2>& mesh, const Outline& outline, const std::vector<Index>& starts) {
+  std::vector<Index> face_from(mesh.points.size(), -1);
+  for (std::size_t f = 0; f < mesh.boundary.size(); ++f)
+    face_from[mesh.boundary[f].vertices[0]] = static_cast<Index>(f);
+  if (outline.circle) mesh.curves = {*outline.circle};
+  Index vertex = starts[0];
+  for (std::size_t s = 0; s < outline.sides.size(); ++s) {
+    const Side& side = outline.sides[s];
+    Part part{side.part, {}};
+    do {
+      part.faces.push_back(face_from[vertex]);
+      Face<2>& face = mesh.boundary[face_from[vertex]];
+      if (side.curved) {
+        face.curve = 0;
+        if (vertex != starts[s]) mesh.points[vertex] = project<2>(*outline.circle, mesh.points[vertex]);
+      } else if (side.from[1] == side.to[1]) {
+        mesh.points[vertex][1] = side.from[1];
+      }
+      vertex = face.vertices[1];
+    } while (vertex != starts[(s + 1) % starts.size()]);
+    std::sort(part.faces.begin(), part.faces.end());
+    if (!part.name.empty()) mesh.parts.push_back(std::move(part));
+  }
+}
+
+}  // namespace
+
+Mesh<2> triangulate(const Shape2& shape, const Size<2>& size) {
+  const Outline outline = geometry::outline(shape);
+  Sizing<2> sizing(size, outline.coarsest_size, outline.diameter, outline.shape);
+  Triangulation triangulation;
+  const auto starts = insert(triangulation, outline, sizing);
+
+  CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation, Criteria(&sizing));
+  mesher.init();
+  sizing.expect(expected(triangulation, sizing));
+  mesher.refine_mesh();
+
+  Mesh<2> mesh = extract(triangulation);
+  std::vector<Index> numbers;
+  for (const auto vertex : starts) numbers.push_back(vertex->info());
+  name_sides(mesh, outline, numbers);
+  validate(mesh, outline.shape);
+  return mesh;
+}
+
+}  // namespace signorini::geometry

@@ -1,0 +1,74 @@
+#include "core/geometry/cgal/sizing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/base/error.hpp"
+
+namespace signorini::geometry {
+
+namespace {
+
+// What CGAL's triangulations, their refinement queues and the mesh itself take per element.
+constexpr double bytes_per_element = 400;
+constexpr double most_elements = 2e8;
+
+double available_bytes() {
+  std::ifstream info("/proc/meminfo");
+  for (std::string key; info >> key;)
+    if (double kilobytes = 0; key == "MemAvailable:" && info >> kilobytes) return 1024 * kilobytes;
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+template <int D>
+Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, std::string shape)
+    : size_(size), ceiling_(ceiling), floor_(1e-6 * diameter), shape_(std::move(shape)) {}
+
+template <int D>
+double Sizing<D>::operator()(const Point<D>& p) const {
+  const double h = size_(p);
+  if (!std::isfinite(h) || h <= 0)
+    input_error(shape_, fmt::format("size: found {} at [{:g}], expected a positive length", h, fmt::join(p, ", ")));
+  if (h < floor_)
+    input_error(shape_, fmt::format("size: found {:g} at [{:g}], too small for this shape (the least is {:g})", h,
+                                    fmt::join(p, ", "), floor_));
+  if (++evaluations_ > limit_)
+    input_error(shape_,
+                "size: the mesh does not come to an end; expected a size that varies gradually, on a shape "
+                "without gaps and angles far below it");
+  return std::min(h, ceiling_);
+}
+
+template <int D>
+void Sizing<D>::expect(double elements) {
+  if (elements > most_elements)
+    input_error(shape_, fmt::format("size: too small, about {:.1g} elements; at most {:.1g} are possible", elements,
+                                    most_elements));
+  if (const double available = available_bytes(); elements * bytes_per_element > available)
+    input_error(shape_, fmt::format("size: too small, about {:.1g} elements would need {:.1f} GB of memory, {:.1f} GB "
+                                    "are available",
+                                    elements, elements * bytes_per_element / 1e9, available / 1e9));
+  limit_ = evaluations_ + 1e7 + 100 * elements;
+}
+
+template <int D>
+double expected_elements(double measure, const std::vector<double>& sizes) {
+  // Regular simplices of edge 1 number 4 / sqrt(3) per unit of area and 6 sqrt(2) per unit of volume.
+  const double density = D == 2 ? 4 / std::sqrt(3) : 6 * std::sqrt(2);
+  double sum = 0;
+  for (const double h : sizes) sum += std::pow(h, -D);
+  return density * measure * sum / static_cast<double>(sizes.size());
+}
+
+template class Sizing<2>;
+template class Sizing<3>;
+template double expected_elements<2>(double, const std::vector<double>&);
+template double expected_elements<3>(double, const std::vector<double>&);
+
+}  // namespace signorini::geometry

@@ -1,0 +1,67 @@
+#include "core/geometry/cgal/solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "core/geometry/cgal/creases.hpp"
+#include "core/mesh/simplex.hpp"
+
+namespace signorini::geometry {
+
+SolidDomain::SolidDomain(const std::string& file) : surface_(file) {
+  if (!surface_.closed())
+    input_error(file, fmt::format("the surface is not closed, it has {} border edges; expected a closed surface",
+                                  surface_.border_edges()));
+  if (const auto pair = surface_.self_intersection()) {
+    const auto at = surface_.points()[surface_.triangles()[pair->first][0]];
+    input_error(file, fmt::format("the surface intersects itself, near [{:g}, {:g}, {:g}]", at[0], at[1], at[2]));
+  }
+  const auto nesting = surface_.nesting();
+  const auto outer = std::count(nesting.begin(), nesting.end(), 0u);
+  if (outer > 1 || std::any_of(nesting.begin(), nesting.end(), [](std::size_t level) { return level > 1; }))
+    input_error(file,
+                fmt::format("the surface has {} components that bound more than one piece; expected one connected "
+                            "solid",
+                            nesting.size()));
+}
+
+double SolidDomain::volume() const {
+  double sum = 0;
+  const Point<3> origin = surface_.box().low;
+  for (const auto& [a, b, c] : surface_.triangles()) {
+    const auto& p = surface_.points();
+    sum += signed_volume<3>({origin, p[a], p[b], p[c]});
+  }
+  return std::abs(sum);
+}
+
+std::optional<Point<3>> SolidDomain::crossing(const Point<3>& a, const Point<3>& b) const {
+  if (const auto p = surface_.crossing(a, b)) return p;
+  const bool a_inside = inside(a);
+  if (a_inside != inside(b)) return a_inside ? b : a;  // the outer end lies on the surface
+  return {};
+}
+
+std::vector<Point<3>> SolidDomain::surface_points() const {
+  constexpr std::size_t count = 20;
+  const auto& triangles = surface_.triangles();
+  std::vector<Point<3>> points;
+  for (std::size_t i = 0; i < std::min(count, triangles.size()); ++i) {
+    Point<3>& centroid = points.emplace_back(Point<3>{});
+    for (const Index v : triangles[i * triangles.size() / std::min(count, triangles.size())])
+      for (std::size_t k = 0; k < 3; ++k) centroid[k] += surface_.points()[v][k] / 3;
+  }
+  return points;
+}
+
+std::vector<Polyline> SolidDomain::creases() const { return find_creases(surface_, std::numbers::pi / 4); }
+
+double SolidDomain::coarsest_size() const {
+  const auto [low, high] = box();
+  return std::min({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+}
+
+}  // namespace signorini::geometry

@@ -1,0 +1,27 @@
+#pragma once
+#include "core/geometry/cgal/triangle_surface.hpp"
+
+namespace signorini::geometry {
+
+/// The inside of a closed triangle surface, hollow where the surface has components within.
+class SolidDomain : public Domain {
+ public:
+  /// Throws Error(Exit::input) unless the file's surface is closed, free of self-intersections and bounds one piece.
+  explicit SolidDomain(const std::string& file);
+
+  std::string name() const override { return surface_.file(); }
+  Box box() const override { return surface_.box(); }
+  double volume() const override;
+  bool inside(const Point<3>& p) const override { return surface_.inside(p); }
+  std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const override;
+  std::vector<Point<3>> surface_points() const override;
+  std::vector<Polyline> creases() const override;
+  double coarsest_size() const override;
+  double flatness() const override { return 0.1; }
+  void finish(Mesh<3>&, const std::vector<bool>&) const override {}  // all vertices lie on the triangles already
+
+ private:
+  TriangleSurface surface_;
+};
+
+}  // namespace signorini::geometry

@@ -1,0 +1,10 @@
+#pragma once
+#include "core/geometry/cgal/domain.hpp"
+#include "core/geometry/geometry.hpp"
+
+namespace signorini::geometry {
+
+/// Fills a domain with tetrahedra by Delaunay refinement, mean edge about `size`.
+Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size);
+
+}  // namespace signorini::geometry

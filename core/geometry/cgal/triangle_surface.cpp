@@ -1,0 +1,135 @@
+#include "core/geometry/cgal/triangle_surface.hpp"
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "core/geometry/cgal/checks.hpp"
+
+namespace signorini::geometry {
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
+using AABBTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+Kernel::Point_3 cgal(const Point<3>& p) { return {p[0], p[1], p[2]}; }
+Point<3> plain(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+void read_soup(const std::string& file, std::vector<Kernel::Point_3>& points, Polygons& polygons) {
+  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file))
+    input_error(file, "the file cannot be read; expected a triangle surface");
+  if (!CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false)))
+    input_error(file, "no surface in the format that the name tells; expected OFF, OBJ, STL or PLY");
+  if (polygons.empty()) input_error(file, "no faces; expected a triangle surface");
+  for (std::size_t i = 0; i < points.size(); ++i) require_finite(file, fmt::format("vertex {}", i), plain(points[i]));
+  for (std::size_t f = 0; f < polygons.size(); ++f) {
+    if (polygons[f].size() != 3)
+      input_error(file, fmt::format("face {} has {} vertices; expected triangles", f, polygons[f].size()));
+    for (const std::size_t v : polygons[f])
+      if (v >= points.size()) input_error(file, fmt::format("face {} names vertex {} of {}", f, v, points.size()));
+  }
+}
+
+void read(const std::string& file, SurfaceMesh& mesh) {
+  std::vector<Kernel::Point_3> points;
+  Polygons polygons;
+  read_soup(file, points, polygons);
+  PMP::repair_polygon_soup(points, polygons);
+  PMP::orient_polygon_soup(points, polygons);
+  if (polygons.empty()) input_error(file, "all faces are degenerate; expected a triangle surface");
+  if (!PMP::is_polygon_soup_a_polygon_mesh(polygons)) input_error(file, "the faces do not form a surface");
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+}
+
+}  // namespace
+
+struct TriangleSurface::Tree {
+  SurfaceMesh mesh;
+  AABBTree aabb;
+  std::optional<CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel>> side;
+};
+
+TriangleSurface::TriangleSurface(const std::string& file) : file_(file), tree_(std::make_unique<Tree>()) {
+  SurfaceMesh& mesh = tree_->mesh;
+  read(file, mesh);
+  closed_ = CGAL::is_closed(mesh);
+  if (closed_) PMP::orient_to_bound_a_volume(mesh);
+
+  for (const auto v : mesh.vertices()) points_.push_back(plain(mesh.point(v)));
+  for (const auto f : mesh.faces()) {
+    auto& triangle = triangles_.emplace_back();
+    auto& neighbour = neighbours_.emplace_back();
+    auto h = mesh.halfedge(f);
+    for (std::size_t k = 0; k < 3; ++k, h = mesh.next(h)) {  // h ends at vertex k + 1, opposite to vertex k - 1
+      triangle[(k + 1) % 3] = static_cast<Index>(mesh.target(h));
+      const auto other = mesh.face(mesh.opposite(h));
+      neighbour[(k + 2) % 3] = other == SurfaceMesh::null_face() ? -1 : static_cast<Index>(other);
+    }
+  }
+  tree_->aabb.insert(mesh.faces_begin(), mesh.faces_end(), mesh);
+  tree_->aabb.build();
+  tree_->aabb.accelerate_distance_queries();
+  if (closed_) tree_->side.emplace(tree_->aabb);
+}
+
+TriangleSurface::~TriangleSurface() = default;
+
+Box TriangleSurface::box() const {
+  const CGAL::Bbox_3 b = tree_->aabb.bbox();
+  return {{b.xmin(), b.ymin(), b.zmin()}, {b.xmax(), b.ymax(), b.zmax()}};
+}
+
+std::size_t TriangleSurface::border_edges() const {
+  std::size_t count = 0;
+  for (const auto& n : neighbours_) count += static_cast<std::size_t>(std::count(n.begin(), n.end(), -1));
+  return count;
+}
+
+std::vector<std::size_t> TriangleSurface::nesting() const {
+  SurfaceMesh mesh = tree_->mesh;
+  std::vector<std::size_t> levels;
+  const auto volume = mesh.add_property_map<SurfaceMesh::Face_index, std::size_t>("f:volume").first;
+  PMP::volume_connected_components(mesh, volume,
+                                   CGAL::parameters::nesting_levels(std::ref(levels)).do_orientation_tests(false));
+  return levels;
+}
+
+std::optional<std::pair<Index, Index>> TriangleSurface::self_intersection() const {
+  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> pairs;
+  PMP::self_intersections<CGAL::Sequential_tag>(tree_->mesh, std::back_inserter(pairs));
+  if (pairs.empty()) return {};
+  return std::pair(static_cast<Index>(pairs[0].first), static_cast<Index>(pairs[0].second));
+}
+
+bool TriangleSurface::inside(const Point<3>& p) const { return (*tree_->side)(cgal(p)) == CGAL::ON_BOUNDED_SIDE; }
+
+std::optional<Point<3>> TriangleSurface::crossing(const Point<3>& a, const Point<3>& b) const {
+  const auto hit = tree_->aabb.any_intersection(Kernel::Segment_3(cgal(a), cgal(b)));
+  if (!hit) return {};
+  if (const auto* p = boost::get<Kernel::Point_3>(&hit->first)) return plain(*p);
+  return plain(boost::get<Kernel::Segment_3>(hit->first).source());
+}
+
+Index TriangleSurface::nearest_triangle(const Point<3>& p) const {
+  return static_cast<Index>(tree_->aabb.closest_point_and_primitive(cgal(p)).second);
+}
+
+}  // namespace signorini::geometry

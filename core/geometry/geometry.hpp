@@ -1,0 +1,57 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "core/mesh/mesh.hpp"
+#include "core/sdk/settings.hpp"
+
+/// Meshing and closest-point queries by CGAL, in a shared library of their own (signorini_geometry, GPL) that is loaded
+/// only when a scene needs it. Nothing else includes CGAL.
+namespace signorini::geometry {
+
+/// Target edge length at a point.
+template <int D>
+using Size = std::function<double(const Point<D>&)>;
+
+struct Disk {
+  Point<2> center;
+  double radius;
+  bool lower_half = false;
+};
+struct Polygon {
+  std::vector<Point<2>> points;
+};
+struct Ball {
+  Point<3> center;
+  double radius;
+  bool lower_half = false;
+};
+struct Cylinder {
+  Point<3> center;
+  double radius, height;
+};
+struct Solid {
+  std::string file;
+};  ///< a closed triangle surface: OFF, OBJ, STL or PLY
+
+using Shape2 = std::variant<Disk, Polygon>;
+using Shape3 = std::variant<Ball, Cylinder, Solid>;
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  /// Meshes with the parts and curves that the shape promises; the boundary vertices of curved shapes lie on the true
+  /// surface. Errors are Error(Exit::input): unreadable file, surface not closed, self-intersecting polygon, bad size.
+  virtual Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const = 0;
+  virtual Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const = 0;
+  /// Distance to a triangle surface file: negative inside a closed one. The normal of an open surface is oriented by
+  /// its faces.
+  virtual std::unique_ptr<DistanceFunction> surface(const std::string& file) const = 0;
+};
+
+/// The CGAL engine, loading its library on first use. Throws Error(Exit::plugin) when the library is missing.
+const Engine& engine();
+
+}  // namespace signorini::geometry

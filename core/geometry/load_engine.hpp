@@ -1,0 +1,12 @@
+#pragma once
+#include <filesystem>
+
+#include "core/geometry/geometry.hpp"
+
+namespace signorini::geometry {
+
+/// Loads a geometry library for good. Throws Error(Exit::plugin) naming the path when there is none, or another
+/// library.
+const Engine& load_engine(const std::filesystem::path& library);
+
+}  // namespace signorini::geometry

@@ -1,0 +1,66 @@
+#include "core/io/atomic_files.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace fs = std::filesystem;
+
+AtomicFiles::AtomicFiles(fs::path folder)
+    : folder_(std::move(folder)), staging_(folder_ / fmt::format(".signorini-{}", getpid())) {
+  try {
+    create_folder();
+    fs::create_directory(staging_);
+  } catch (const fs::filesystem_error& error) {
+    remove_traces();
+    input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
+  }
+}
+
+AtomicFiles::~AtomicFiles() { remove_traces(); }
+
+void AtomicFiles::create_folder() {
+  std::vector<fs::path> missing;
+  for (fs::path path = folder_; !path.empty() && !fs::exists(path); path = path.parent_path()) missing.push_back(path);
+  for (auto path = missing.rbegin(); path != missing.rend(); ++path)
+    if (fs::create_directory(*path)) created_.push_back(*path);
+  if (!fs::is_directory(folder_)) throw fs::filesystem_error("", std::make_error_code(std::errc::not_a_directory));
+}
+
+void AtomicFiles::remove_traces() noexcept {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+  if (committed_) return;
+  for (auto path = created_.rbegin(); path != created_.rend(); ++path) fs::remove(*path, ignored);  // only if empty
+}
+
+std::vector<fs::path> AtomicFiles::commit() {
+  std::vector<fs::path> written;
+  try {
+    for (const auto& entry : fs::directory_iterator(staging_)) written.push_back(entry.path().filename());
+    std::sort(written.begin(), written.end());
+    committed_ = true;
+    for (auto& name : written) {
+      fs::rename(staging_ / name, folder_ / name);
+      name = folder_ / name;
+    }
+  } catch (const fs::filesystem_error& error) {
+    input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
+  }
+  return written;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) input_error(file.string(), "cannot be written: is the disk full?");
+}
+
+}  // namespace signorini

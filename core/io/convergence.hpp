@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/solver/summary.hpp"
+
+namespace signorini {
+
+/// The history of a solve as aligned columns for people, with a heading.
+std::string convergence_table(const std::vector<IterationRecord>& history);
+
+/// One row of that table without a line break, for progress.
+std::string convergence_row(const IterationRecord& record);
+
+/// The histories of all steps as comma-separated values in full precision, with a heading.
+std::string convergence_csv(const std::vector<const Summary*>& steps);
+
+}  // namespace signorini

@@ -1,0 +1,56 @@
+#include "core/io/mesh_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "core/base/error.hpp"
+#include "core/io/msh_reader.hpp"
+#include "core/io/vtu_reader.hpp"
+
+namespace signorini {
+namespace {
+
+std::string read_file(const std::filesystem::path& path) {
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure)) input_error(path.string(), "no such mesh file");
+  if (!std::filesystem::is_regular_file(path, failure)) input_error(path.string(), "is not a file");
+  const auto size = std::filesystem::file_size(path, failure);
+  std::ifstream file(path, std::ios::binary);
+  if (failure || !file) input_error(path.string(), "cannot open the mesh file");
+  std::string content(size, '\0');
+  file.read(content.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(file.gcount()) != size) input_error(path.string(), "cannot read the mesh file");
+  return content;
+}
+
+}  // namespace
+
+AnyMesh parse_mesh(std::string_view content, std::string_view place) {
+  std::size_t first = content.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;  // byte order mark
+  first = content.find_first_not_of(" \t\r\n", first);
+  if (first == std::string_view::npos) input_error(place, "the mesh file is empty");
+  if (content[first] == '$') return read_msh(content, place);
+  if (content[first] == '<') return read_vtu(content.substr(first), place);
+  input_error(place, fmt::format("neither a Gmsh MSH file, which starts with '$MeshFormat', nor a VTU file, which is "
+                                 "XML; found byte 0x{:02x} first",
+                                 static_cast<unsigned char>(content[first])));
+}
+
+AnyMesh read_any_mesh(const std::filesystem::path& path) { return parse_mesh(read_file(path), path.string()); }
+
+template <int D>
+Mesh<D> read_mesh(const std::filesystem::path& path) {
+  AnyMesh mesh = read_any_mesh(path);
+  if (auto* found = std::get_if<Mesh<D>>(&mesh)) return std::move(*found);
+  input_error(path.string(), fmt::format("found a mesh of dimension {}, expected {}", 5 - D, D));
+}
+
+int mesh_dimension(const std::filesystem::path& path) {
+  return std::holds_alternative<Mesh<2>>(read_any_mesh(path)) ? 2 : 3;
+}
+
+template Mesh<2> read_mesh<2>(const std::filesystem::path&);
+template Mesh<3> read_mesh<3>(const std::filesystem::path&);
+
+}  // namespace signorini

@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+#include <variant>
+
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+using AnyMesh = std::variant<Mesh<2>, Mesh<3>>;
+
+/// Reads a Gmsh MSH file (2.2 or 4.1, ASCII or binary) or a VTU file, told apart by their content. Tetrahedra make a
+/// Mesh<3>; triangles without tetrahedra, all in one plane z = const, a Mesh<2>. Physical groups of faces become parts
+/// by their name, or by their number where they have none; in VTU files the groups are the values of an integer cell
+/// array ("gmsh:physical", "CellEntityIds", "physical", "medit:ref" or "PhysicalIds").
+///
+/// Anything wrong is an Error(Exit::input) naming the file and the line or byte.
+AnyMesh read_any_mesh(const std::filesystem::path& path);
+
+/// The same where the dimension is known; a mesh of the other one is an error.
+template <int D>
+Mesh<D> read_mesh(const std::filesystem::path& path);
+
+/// 2 or 3. Reads the whole file.
+int mesh_dimension(const std::filesystem::path& path);
+
+/// The same from memory; `place` is the name used in messages.
+AnyMesh parse_mesh(std::string_view content, std::string_view place);
+
+}  // namespace signorini

@@ -1,0 +1,316 @@
+#include "core/io/msh_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/base/error.hpp"
+#include "core/io/mesh_file_data.hpp"
+#include "core/io/msh_input.hpp"
+#include "core/io/msh_nodes.hpp"
+#include "core/mesh/simplex.hpp"
+#include "core/mesh/subsimplices.hpp"
+
+namespace signorini {
+namespace {
+
+/// Physical tags are negative where the group has the opposite orientation, which a set of faces does not care for.
+using Physicals = std::vector<int>;
+
+std::string type_name(int type) {
+  static const std::map<int, const char*> names{{3, "quadrangle"},
+                                                {5, "hexahedron"},
+                                                {6, "prism"},
+                                                {7, "pyramid"},
+                                                {8, "second-order line"},
+                                                {9, "second-order triangle"},
+                                                {10, "second-order quadrangle"},
+                                                {11, "second-order tetrahedron"},
+                                                {12, "second-order hexahedron"},
+                                                {13, "second-order prism"},
+                                                {14, "second-order pyramid"},
+                                                {16, "second-order quadrangle"},
+                                                {17, "second-order hexahedron"},
+                                                {18, "second-order prism"},
+                                                {19, "second-order pyramid"},
+                                                {21, "third-order triangle"},
+                                                {26, "third-order line"},
+                                                {29, "third-order tetrahedron"}};
+  const auto name = names.find(type);
+  return name == names.end() ? fmt::format("type {}", type) : fmt::format("{} (type {})", name->second, type);
+}
+
+/// An element that several physical groups contain is written once for each of them by version 2.2: keeps the first.
+template <int Corners>
+void drop_repeated(FileCells<Corners>& cells, Index vertices) {
+  const Numbering numbering = number_subsimplices<Corners>(vertices, static_cast<Offset>(cells.vertices.size()),
+                                                           [&](Offset i) { return sorted(cells.vertices[i]); });
+  std::vector<Offset> first(numbering.distinct, -1);
+  FileCells<Corners> kept;
+  for (std::size_t i = 0; i < cells.vertices.size(); ++i) {
+    Offset& f = first[numbering.number[i]];
+    if (f >= 0 && cells.group[f] != cells.group[i]) continue;  // twice in one group is an error, found later
+    if (f < 0) f = static_cast<Offset>(i);
+    kept.add(cells.vertices[i], cells.label[i], cells.group[i]);
+  }
+  cells = std::move(kept);
+}
+
+class MshReader {
+ public:
+  MshReader(std::string_view content, std::string_view place) : in_(content, place) {}
+
+  AnyMesh read() {
+    while (!in_.at_end()) read_section();
+    for (const char* needed : {"MeshFormat", "Nodes", "Elements"})
+      if (!done_.contains(needed)) in_.fail(fmt::format("the file ends without ${}", needed));
+    if (version_ == 2 && entities_.size() > 1) {
+      const auto n = static_cast<Index>(data_.points.size());
+      if (data_.tetrahedra.vertices.empty())
+        drop_repeated(data_.triangles, n);
+      else
+        drop_repeated(data_.tetrahedra, n);
+    }
+    return make_mesh(
+        std::move(data_), [this](int dimension, Index e) { return names(dimension, e); }, in_.place());
+  }
+
+ private:
+  void read_section() {
+    const std::string_view marker = in_.word();
+    if (marker.size() < 2 || marker[0] != '$')
+      in_.fail(fmt::format("expected a section such as $Nodes, found '{}'", marker.substr(0, 40)));
+    const std::string name(marker.substr(1)), end = "$End" + name;
+    const bool known =
+        name == "MeshFormat" || name == "PhysicalNames" || name == "Entities" || name == "Nodes" || name == "Elements";
+    if (name == "PartitionedEntities") in_.fail("partitioned meshes are not read: save the mesh without partitions");
+    if (!known) return in_.skip_past(end);
+    if (!done_.insert(name).second) in_.fail(fmt::format("second section ${}", name));
+    if (name != "MeshFormat" && !done_.contains("MeshFormat")) in_.fail("expected $MeshFormat first");
+    if (in_.binary) in_.rest_of_line();
+    if (name == "MeshFormat") read_format();
+    if (name == "PhysicalNames") read_names();
+    if (name == "Entities") read_entities();
+    if (name == "Nodes") version_ == 4 ? read_nodes_4() : read_nodes_2();
+    if (name == "Elements") version_ == 4 ? read_elements_4() : read_elements_2();
+    in_.expect(end);
+  }
+
+  void read_format() {
+    const std::string_view version = in_.word();
+    if (version != "2.2" && version != "4.1" && version != "2" && version != "2.1")
+      in_.fail(fmt::format("found MSH version '{}', expected 2.2 or 4.1", version.substr(0, 20)));
+    version_ = version[0] - '0';
+    const Offset kind = in_.text_integer("the file type"), size = in_.text_integer("the data size");
+    if (kind != 0 && kind != 1) in_.fail(fmt::format("found file type {}, expected 0 (ASCII) or 1 (binary)", kind));
+    if (size != 8) in_.fail(fmt::format("found data size {}, expected 8", size));
+    if (kind == 0) return;
+    in_.rest_of_line();
+    in_.binary = true;
+    const auto one = in_.raw<std::int32_t>("the number one that shows the byte order");
+    in_.swapped = one == 1 << 24;
+    if (one != 1 && !in_.swapped) in_.fail(fmt::format("found {} as the number one that shows the byte order", one));
+  }
+
+  void read_names() {
+    const Offset n = in_.count(in_.text_integer("the number of names"), 6, 6, "names");
+    for (Offset i = 0; i < n; ++i) {
+      const Offset dimension = in_.text_integer("a dimension"), tag = in_.text_integer("a physical tag");
+      const std::string_view text = in_.rest_of_line();
+      const std::size_t first = text.find('"'), last = text.rfind('"');
+      if (first == last) in_.fail(fmt::format("expected a name in quotation marks, found '{}'", text.substr(0, 80)));
+      names_[{dimension, tag}] = text.substr(first + 1, last - first - 1);
+    }
+  }
+
+  void read_entities() {
+    if (version_ != 4) in_.fail("$Entities in a file of version 2");
+    std::array<Offset, 4> counts;
+    for (Offset& n : counts) n = in_.number<Offset>("a number of entities");
+    for (int dimension = 0; dimension <= 3; ++dimension) {
+      in_.count(counts[dimension], dimension == 0 ? 10 : 17, dimension == 0 ? 36 : 68, "entities");
+      for (Offset i = 0; i < counts[dimension]; ++i) read_entity(dimension);
+    }
+  }
+
+  void read_entity(int dimension) {
+    const int tag = in_.number<std::int32_t>("an entity's tag");
+    for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.number<double>("a bounding box");
+    const Offset n = in_.count(in_.number<Offset>("the number of physical tags"), 2, 4, "physical tags");
+    Physicals physicals;
+    for (Offset k = 0; k < n; ++k) physicals.push_back(in_.number<std::int32_t>("a physical tag"));
+    entity_physicals_[{dimension, tag}] = std::move(physicals);
+    if (dimension == 0) return;
+    const Offset bounds = in_.count(in_.number<Offset>("the number of bounding entities"), 2, 4, "bounding entities");
+    for (Offset k = 0; k < bounds; ++k) in_.number<std::int32_t>("a bounding entity");
+  }
+
+  void reserve_nodes(Offset n) {
+    if (n > std::numeric_limits<Index>::max()) in_.fail(fmt::format("{} nodes are more than can be numbered", n));
+    data_.points.reserve(n);
+  }
+
+  void read_point() {
+    Point<3> p;
+    for (double& x : p) x = in_.coordinate();
+    data_.points.push_back(p);
+  }
+
+  void read_nodes_2() {
+    const Offset n = in_.count(in_.text_integer("the number of nodes"), 8, 28, "nodes");
+    reserve_nodes(n);
+    if (in_.binary) in_.rest_of_line();
+    for (Offset i = 0; i < n; ++i) {
+      nodes_.add(in_.number<std::int32_t>("a node's tag"));
+      read_point();
+    }
+    nodes_.close(in_);
+  }
+
+  void read_nodes_4() {
+    const Offset blocks = in_.count(in_.number<Offset>("the number of blocks"), 8, 20, "blocks");
+    const Offset n = in_.count(in_.number<Offset>("the number of nodes"), 8, 32, "nodes");
+    reserve_nodes(n);
+    for (const char* meaning : {"the least node tag", "the greatest node tag"}) in_.number<Offset>(meaning);
+    for (Offset block = 0; block < blocks; ++block) {
+      const int dimension = in_.number<std::int32_t>("an entity's dimension");
+      in_.number<std::int32_t>("an entity's tag");
+      const bool parametric = in_.number<std::int32_t>("whether nodes have parameters") != 0;
+      const Offset size = in_.count(in_.number<Offset>("the number of nodes in a block"), 8, 32, "nodes");
+      if (dimension < 0 || dimension > 3) in_.fail(fmt::format("found an entity of dimension {}", dimension));
+      if (size > n - static_cast<Offset>(data_.points.size()))
+        in_.fail(fmt::format("more than the {} nodes announced", n));
+      for (Offset i = 0; i < size; ++i) nodes_.add(in_.number<Offset>("a node's tag"));
+      for (Offset i = 0; i < size; ++i) {
+        read_point();
+        for (int k = 0; parametric && k < dimension; ++k) in_.number<double>("a node's parameter");
+      }
+    }
+    if (static_cast<Offset>(data_.points.size()) != n)
+      in_.fail(fmt::format("found {} nodes, announced were {}", data_.points.size(), n));
+    nodes_.close(in_);
+  }
+
+  template <int Corners>
+  void read_cell(FileCells<Corners>& cells, Offset label, Index entity) {
+    std::array<Index, Corners> v;
+    for (Index& corner : v) {
+      const Offset tag = version_ == 4 ? in_.number<Offset>("an element's node")
+                                       : Offset{in_.number<std::int32_t>("an element's node")};
+      corner = nodes_.find(tag, in_);
+    }
+    cells.add(v, label, entity);
+  }
+
+  void read_cell(Offset type, Offset label, Index entity) {
+    switch (type) {
+      case 1:
+        return read_cell(data_.lines, label, entity);
+      case 2:
+        return read_cell(data_.triangles, label, entity);
+      case 4:
+        return read_cell(data_.tetrahedra, label, entity);
+      case 15:
+        version_ == 4 ? in_.number<Offset>("a node") : Offset{in_.number<std::int32_t>("a node")};
+        return;
+      default:
+        in_.fail(fmt::format("element {} is a {}; expected linear triangles or tetrahedra", label,
+                             type_name(static_cast<int>(type))));
+    }
+  }
+
+  /// The number of an entity; a new one where there is none of that key yet.
+  Index entity(int dimension, int physical, int tag, const Physicals& physicals) {
+    const auto [found, is_new] =
+        entity_number_.try_emplace({dimension, physical, tag}, static_cast<Index>(entities_.size()));
+    if (is_new) entities_.push_back(physicals);
+    return found->second;
+  }
+
+  struct Tags {
+    int physical = 0, entity = 0;
+  };
+  Tags read_tags(int count) {
+    Tags tags;
+    for (int k = 0; k < count; ++k) {
+      const int tag = in_.number<std::int32_t>("an element's tag");
+      if (k == 0) tags.physical = tag;
+      if (k == 1) tags.entity = tag;
+    }
+    return tags;
+  }
+
+  void read_tagged_cell(int type, int tag_count, Offset label) {
+    const Tags tags = read_tags(tag_count);
+    const Physicals physicals = tags.physical == 0 ? Physicals{} : Physicals{tags.physical};
+    read_cell(type, label, entity(type, tags.physical, tags.entity, physicals));
+  }
+
+  void read_elements_2() {
+    need_nodes();
+    const Offset n = in_.count(in_.text_integer("the number of elements"), 6, 8, "elements");
+    if (in_.binary) in_.rest_of_line();
+    for (Offset i = 0; i < n;) {
+      const int first = in_.number<std::int32_t>("an element's number or type");
+      const int second = in_.number<std::int32_t>("an element's type or number");
+      const int tags = in_.number<std::int32_t>("the number of tags");
+      const int type = in_.binary ? first : second;
+      const int size = in_.binary ? second : 1;
+      if (tags < 0 || size < 1 || size > n - i)
+        in_.fail(fmt::format("found a block of {} elements, {} tags", size, tags));
+      for (int k = 0; k < size; ++k, ++i)
+        read_tagged_cell(type, tags, in_.binary ? in_.number<std::int32_t>("an element's number") : first);
+    }
+  }
+
+  void read_elements_4() {
+    need_nodes();
+    const Offset blocks = in_.count(in_.number<Offset>("the number of blocks"), 8, 20, "blocks");
+    const Offset n = in_.count(in_.number<Offset>("the number of elements"), 4, 16, "elements");
+    for (const char* meaning : {"the least element tag", "the greatest element tag"}) in_.number<Offset>(meaning);
+    Offset found = 0;
+    for (Offset block = 0; block < blocks; ++block) {
+      const int dimension = in_.number<std::int32_t>("an entity's dimension");
+      const int tag = in_.number<std::int32_t>("an entity's tag");
+      const int type = in_.number<std::int32_t>("an element type");
+      const Offset size = in_.count(in_.number<Offset>("the number of elements in a block"), 4, 16, "elements");
+      const Index where = entity(dimension, 0, tag, entity_physicals_[{dimension, tag}]);
+      for (Offset i = 0; i < size; ++i) read_cell(type, in_.number<Offset>("an element's number"), where);
+      found += size;
+    }
+    if (found != n) in_.fail(fmt::format("found {} elements, announced were {}", found, n));
+  }
+
+  void need_nodes() const {
+    if (!done_.contains("Nodes")) in_.fail("expected $Nodes before $Elements");
+  }
+
+  std::vector<std::string> names(int dimension, Index entity) const {
+    std::vector<std::string> result;
+    for (const int tag : entities_[entity]) {
+      const Offset positive = std::abs(Offset{tag});
+      const auto name = names_.find({dimension, positive});
+      result.push_back(name == names_.end() || name->second.empty() ? fmt::format("{}", positive) : name->second);
+    }
+    return result;
+  }
+
+  MshInput in_;
+  int version_ = 0;
+  std::set<std::string> done_;
+  std::map<std::pair<Offset, Offset>, std::string> names_;     // by dimension and physical tag
+  std::map<std::pair<int, int>, Physicals> entity_physicals_;  // version 4, by dimension and tag
+  std::map<std::tuple<int, int, int>, Index> entity_number_;   // by dimension, physical tag (version 2) and tag
+  std::vector<Physicals> entities_;
+  MshNodes nodes_;
+  MeshFileData data_;
+};
+
+}  // namespace
+
+AnyMesh read_msh(std::string_view content, std::string_view place) { return MshReader(content, place).read(); }
+
+}  // namespace signorini

@@ -1,0 +1,114 @@
+#include "core/io/report.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+using Json = nlohmann::ordered_json;
+
+/// `list` as a JSON array; an empty one stays an array.
+template <class T, class Convert>
+Json array(const std::vector<T>& list, Convert convert) {
+  Json result = Json::array();
+  for (const T& entry : list) result.push_back(convert(entry));
+  return result;
+}
+
+Json record(const IterationRecord& record) {
+  return {{"iteration", record.iteration},
+          {"residual", record.residual},
+          {"algebraic_error", record.algebraic_error},
+          {"energy", record.energy},
+          {"contact_nodes", record.contact_nodes},
+          {"changed", record.changed}};
+}
+
+Json contact(const ContactReport& contact) {
+  return {{"obstacle", contact.obstacle},
+          {"nodes", contact.nodes},
+          {"area", contact.area},
+          {"force", contact.force},
+          {"max_pressure", contact.max_pressure},
+          {"slip_nodes", contact.slip_nodes},
+          {"stick_nodes", contact.stick_nodes}};
+}
+
+Json probe(const ProbeReport& probe) {
+  Json result{{"name", probe.name}};
+  if (probe.value.size() == 1)
+    result["value"] = probe.value.front();
+  else
+    result["displacement"] = probe.value;
+  return result;
+}
+
+Json levels(const std::vector<Index>& unknowns) {
+  Json result = Json::array();
+  for (std::size_t k = 0; k < unknowns.size(); ++k) result.push_back({{"level", k}, {"unknowns", unknowns[k]}});
+  return result;
+}
+
+void add_summary(Json& json, const Summary& summary) {
+  json["iterations"] = summary.iterations;
+  json["residual"] = summary.residual;
+  json["algebraic_error"] = summary.algebraic_error;
+  json["rate"] = summary.rate;
+  json["energy"] = summary.energy;
+  json["linear_phase_from"] = summary.linear_phase_from;
+  json["limited_by_rounding"] = summary.outcome == Outcome::rounding;
+  json["reason"] = summary.reason;
+}
+
+void add_results(Json& json, const StepReport& step) {
+  json["contact"] = array(step.contact, contact);
+  json["probes"] = array(step.probes, probe);
+}
+
+Json step(const StepReport& step) {
+  Json json{{"t", step.t}, {"converged", step.summary.converged()}};
+  add_summary(json, step.summary);
+  add_results(json, step);
+  return json;
+}
+
+Json time(const Times& time) {
+  return {{"mesh", time.mesh},   {"assemble", time.assemble}, {"setup", time.setup},
+          {"solve", time.solve}, {"output", time.output},     {"total", time.total}};
+}
+
+/// JSON knows no NaN and no infinity.
+void finite_or_null(Json& json) {
+  if (json.is_structured())
+    for (auto& entry : json) finite_or_null(entry);
+  else if (json.is_number_float() && !std::isfinite(json.get<double>()))
+    json = nullptr;
+}
+}  // namespace
+
+bool Report::converged() const {
+  return std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
+}
+
+Json to_json(const Report& report) {
+  Json json{{"scene", report.scene},
+            {"title", report.title},
+            {"dimension", report.dimension},
+            {"converged", report.converged()},
+            {"unknowns", report.level_unknowns.empty() ? 0 : report.level_unknowns.back()},
+            {"levels", levels(report.level_unknowns)}};
+  add_summary(json, report.last().summary);
+  json["history"] = array(report.last().summary.history, record);
+  json["time"] = time(report.time);
+  json["peak_memory_mb"] = report.peak_memory_mb;
+  add_results(json, report.last());
+  if (report.steps.size() > 1) json["steps"] = array(report.steps, step);
+  json["estimate"] = nullptr;  // no estimator ran
+  json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
+    return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};
+  });
+  json["warnings"] = report.warnings;
+  finite_or_null(json);
+  return json;
+}
+
+}  // namespace signorini

@@ -1,0 +1,62 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/solver/summary.hpp"
+
+namespace signorini {
+
+/// What one obstacle does to the body it acts on.
+struct ContactReport {
+  int obstacle = 0;           ///< number of the scene's [[obstacle]], from 0
+  Index nodes = 0;            ///< vertices in contact
+  double area = 0;            ///< measure of the contact (or coincidence) set; a length in 2D
+  std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
+  double max_pressure = 0;
+  Index slip_nodes = 0, stick_nodes = 0;
+};
+
+/// The solution at a point.
+struct ProbeReport {
+  std::string name;
+  std::vector<double> value;  ///< one entry per unknown of a vertex
+};
+
+struct PluginReport {
+  std::string id, file, version;
+};
+
+/// Seconds spent.
+struct Times {
+  double mesh = 0, assemble = 0, setup = 0, solve = 0, output = 0, total = 0;
+};
+
+/// One quasi-static step.
+struct StepReport {
+  double t = 1;
+  Summary summary;
+  std::vector<ContactReport> contact;
+  std::vector<ProbeReport> probes;
+};
+
+/// Everything `report.json` says.
+struct Report {
+  std::string scene, title;
+  int dimension = 0;
+  std::vector<Index> level_unknowns;  ///< coarsest first
+  std::vector<StepReport> steps;      ///< at least one; the top-level keys are those of the last
+  std::vector<std::string> warnings;
+  std::vector<PluginReport> plugins;
+  Times time;
+  double peak_memory_mb = 0;
+
+  const StepReport& last() const { return steps.back(); }
+  bool converged() const;
+};
+
+/// The keys that are promised to users, in full precision; a number that is not finite becomes null.
+nlohmann::ordered_json to_json(const Report& report);
+
+}  // namespace signorini

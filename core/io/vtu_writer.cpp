@@ -1,0 +1,169 @@
+#include "core/io/vtu_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cassert>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace {
+
+/// Fills a file beside `path` and gives it this name when all went well.
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& fill) {
+  const std::filesystem::path temporary = path.string() + ".part";
+  std::ofstream file(temporary, std::ios::binary);
+  fill(file);
+  file.close();
+  std::error_code failure;
+  if (!file)
+    failure = std::error_code(errno, std::generic_category());
+  else
+    std::filesystem::rename(temporary, path, failure);
+  if (!failure) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  input_error(path.string(), fmt::format("cannot be written: {}", failure.message()));
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+/// The arrays of a file: their descriptions in XML first, their numbers, with the length in front, at the end.
+class Arrays {
+ public:
+  template <class T>
+  std::string add(const char* type, const std::string& name, int components, std::vector<T> values) {
+    const std::uint64_t bytes = values.size() * sizeof(T);
+    std::string xml = fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
+        escaped(name), components, offset_);
+    offset_ += sizeof bytes + bytes;
+    writers_.push_back([bytes, data = std::move(values)](std::ostream& out) {
+      out.write(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+      out.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(bytes));
+    });
+    return xml;
+  }
+
+  void write(std::ostream& out) {
+    for (auto& writer : writers_) {
+      writer(out);
+      writer = nullptr;  // frees the numbers
+    }
+  }
+
+ private:
+  std::uint64_t offset_ = 0;
+  std::vector<std::function<void(std::ostream&)>> writers_;
+};
+
+/// Vectors of two components become such of three.
+std::vector<double> padded(const std::vector<double>& values, int components) {
+  if (components != 2) return values;
+  std::vector<double> result;
+  result.reserve(values.size() / 2 * 3);
+  for (std::size_t i = 0; i < values.size(); i += 2) result.insert(result.end(), {values[i], values[i + 1], 0.0});
+  return result;
+}
+
+std::string describe(Arrays& arrays, const std::vector<VtuField>& fields, [[maybe_unused]] std::size_t places) {
+  std::string xml;
+  for (const VtuField& field : fields) {
+    assert(field.values.size() == places * static_cast<std::size_t>(field.components));
+    xml += arrays.add("Float64", field.name, field.components == 2 ? 3 : field.components,
+                      padded(field.values, field.components));
+  }
+  return xml;
+}
+
+template <int D>
+std::string describe_cells(Arrays& arrays, const Mesh<D>& mesh) {
+  std::vector<Index> connectivity;
+  std::vector<Offset> offsets;
+  connectivity.reserve(mesh.elements.size() * (D + 1));
+  offsets.reserve(mesh.elements.size());
+  for (const auto& element : mesh.elements) {
+    connectivity.insert(connectivity.end(), element.begin(), element.end());
+    offsets.push_back(static_cast<Offset>(connectivity.size()));
+  }
+  constexpr std::uint8_t triangle = 5, tetrahedron = 10;
+  return arrays.add("Int32", "connectivity", 1, std::move(connectivity)) +
+         arrays.add("Int64", "offsets", 1, std::move(offsets)) +
+         arrays.add("UInt8", "types", 1,
+                    std::vector<std::uint8_t>(mesh.elements.size(), D == 2 ? triangle : tetrahedron));
+}
+
+template <int D>
+std::vector<double> coordinates(const Mesh<D>& mesh) {
+  std::vector<double> x;
+  x.reserve(mesh.points.size() * 3);
+  for (const Point<D>& p : mesh.points)
+    for (int k = 0; k < 3; ++k) x.push_back(k < D ? p[k] : 0.0);
+  return x;
+}
+
+}  // namespace
+
+template <int D>
+void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
+               const std::vector<VtuField>& cell_fields) {
+  Arrays arrays;
+  const std::string points = arrays.add("Float64", "Points", 3, coordinates(mesh));
+  const std::string cells = describe_cells(arrays, mesh);
+  const std::string point_data = describe(arrays, point_fields, mesh.points.size());
+  const std::string cell_data = describe(arrays, cell_fields, mesh.elements.size());
+  write_file(path, [&](std::ostream& out) {
+    out << fmt::format(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+        "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+        "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n"
+        "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
+        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(),
+        mesh.elements.size(), point_data, cell_data, points, cells);
+    arrays.write(out);
+    out << "\n</AppendedData>\n</VTKFile>\n";
+  });
+}
+
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries) {
+  write_file(path, [&](std::ostream& out) {
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const PvdEntry& entry : entries)
+      out << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, escaped(entry.file));
+    out << "</Collection>\n</VTKFile>\n";
+  });
+}
+
+template void write_vtu(const std::filesystem::path&, const Mesh<2>&, const std::vector<VtuField>&,
+                        const std::vector<VtuField>&);
+template void write_vtu(const std::filesystem::path&, const Mesh<3>&, const std::vector<VtuField>&,
+                        const std::vector<VtuField>&);
+
+}  // namespace signorini

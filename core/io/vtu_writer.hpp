@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// Numbers at the vertices or in the elements of a mesh, the components of one place following each other.
+/// 1 component: a scalar; 2 or 3: a vector (2 are written as 3); 9: a tensor, row-major.
+struct VtuField {
+  std::string name;
+  int components = 1;
+  std::vector<double> values;
+};
+
+/// Writes a VTK unstructured grid with binary (appended raw) data. The file appears under its name when it is complete.
+/// Error(Exit::input) if it cannot be written.
+template <int D>
+void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
+               const std::vector<VtuField>& cell_fields = {});
+
+/// One entry of a collection: a file, relative to the folder of the collection, and the time it belongs to.
+struct PvdEntry {
+  double time;
+  std::string file;
+};
+
+/// Writes a ParaView collection, likewise.
+void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& entries);
+
+}  // namespace signorini

@@ -1,0 +1,92 @@
+#include "core/mesh/boundary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/error.hpp"
+#include "core/mesh/simplex.hpp"
+#include "core/mesh/subsimplices.hpp"
+
+namespace signorini {
+
+template <int D>
+std::vector<Face<D>> find_boundary(Index vertices, const std::vector<std::array<Index, D + 1>>& elements) {
+  const Numbering faces = number_faces<D>(vertices, elements);
+  std::vector<std::uint8_t> more(faces.distinct, 0), seen(faces.distinct, 0);
+  for (const Index f : faces.number) {
+    more[f] |= seen[f];
+    seen[f] = 1;
+  }
+  std::vector<Face<D>> boundary;
+  for (std::size_t i = 0; i < faces.number.size(); ++i)
+    if (!more[faces.number[i]]) {
+      const auto e = static_cast<Index>(i / (D + 1));
+      boundary.push_back({outward_face<D>(elements[e], static_cast<int>(i % (D + 1))), e});
+    }
+  return boundary;
+}
+
+namespace {
+
+void sort_unique(std::vector<Index>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void add_part(std::vector<Part>& parts, const std::string& name, const std::vector<Index>& faces) {
+  if (faces.empty()) return;
+  auto part = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; });
+  if (part == parts.end()) part = parts.insert(parts.end(), Part{name, {}});
+  part->faces.insert(part->faces.end(), faces.begin(), faces.end());
+  sort_unique(part->faces);
+}
+
+}  // namespace
+
+template <int D>
+void attach_parts(Mesh<D>& mesh, const std::vector<FaceGroup<D>>& groups) {
+  std::vector<std::array<Index, D>> tuples;
+  for (const Face<D>& face : mesh.boundary) tuples.push_back(sorted(face.vertices));
+  for (const FaceGroup<D>& group : groups)
+    for (const auto& face : group.faces) tuples.push_back(sorted(face));
+  const Numbering numbering =
+      number_subsimplices<D>(mesh.vertices(), static_cast<Offset>(tuples.size()), [&](Offset i) { return tuples[i]; });
+
+  std::vector<Index> boundary_face(numbering.distinct, -1);
+  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) boundary_face[numbering.number[f]] = static_cast<Index>(f);
+  std::size_t next = mesh.boundary.size();
+  for (const FaceGroup<D>& group : groups) {
+    std::vector<Index> faces;
+    for (std::size_t i = 0; i < group.faces.size(); ++i)
+      if (const Index f = boundary_face[numbering.number[next++]]; f >= 0) faces.push_back(f);
+    add_part(mesh.parts, group.name, faces);
+  }
+}
+
+template <int D>
+std::vector<Index> faces_of(const Mesh<D>& mesh, std::string_view name, std::string_view place) {
+  for (const Part& part : mesh.parts)
+    if (part.name == name) return part.faces;
+  if (name == "boundary") {
+    std::vector<Index> all(mesh.boundary.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  std::vector<std::string> names{"boundary"};
+  for (const Part& part : mesh.parts) names.push_back(part.name);
+  input_error(place, fmt::format("unknown part '{}'{} (the parts are: {})", name, did_you_mean(name, names),
+                                 fmt::join(names, ", ")));
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                                                       \
+  template std::vector<Face<D>> find_boundary<D>(Index, const std::vector<std::array<Index, D + 1>>&); \
+  template void attach_parts(Mesh<D>&, const std::vector<FaceGroup<D>>&);                              \
+  template std::vector<Index> faces_of(const Mesh<D>&, std::string_view, std::string_view);
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

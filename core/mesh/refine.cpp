@@ -1,0 +1,221 @@
+#include "core/mesh/refine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/mesh/curve.hpp"
+#include "core/mesh/red_refinement.hpp"
+#include "core/mesh/simplex.hpp"
+#include "core/mesh/subsimplices.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double tie = 1e-6;  // squared diagonals that differ by less are equally long
+
+/// The same element, numbered such that the diagonal to be cut along joins the midpoints of edges 02 and 13.
+Simplex<3> put_shortest_diagonal_first(const std::vector<Point<3>>& points, const Simplex<3>& e) {
+  const auto squared_diagonal = [&](int a, int b, int c, int d) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double x = points[e[a]][k] + points[e[b]][k] - points[e[c]][k] - points[e[d]][k];
+      sum += x * x;
+    }
+    return sum;
+  };
+  const double d02 = squared_diagonal(0, 2, 1, 3), d03 = squared_diagonal(0, 3, 1, 2),
+               d01 = squared_diagonal(0, 1, 2, 3);
+  if (d02 <= (1 + tie) * std::min(d03, d01)) return e;
+  return d03 <= (1 + tie) * d01 ? Simplex<3>{e[0], e[2], e[3], e[1]} : Simplex<3>{e[0], e[3], e[1], e[2]};
+}
+
+template <int D>
+class Refiner {
+ public:
+  Refiner(const Mesh<D>& coarse, Mesh<D>& fine) : coarse_(coarse), fine_(fine), fathers_(coarse.elements) {
+    if constexpr (D == 3)
+      for (auto& e : fathers_) e = put_shortest_diagonal_first(coarse.points, e);
+    edges_ = number_edges<D>(coarse.vertices(), fathers_);
+  }
+
+  Refinement run() {
+    check_size();
+    refine_elements();
+    refine_boundary();
+    fine_.curves = coarse_.curves;
+    bend();
+    return std::move(refinement_);
+  }
+
+ private:
+  static constexpr auto ends = simplex_edges<D>();
+  static constexpr auto& children = RedRefinement<D>::children;
+  static constexpr auto& face_children = RedRefinement<D - 1>::children;
+  static constexpr std::size_t nodes = D + 1 + ends.size();
+
+  void check_size() const {
+    const double limit = std::numeric_limits<Index>::max();
+    const double elements = static_cast<double>(fathers_.size()) * children.size();
+    const double vertices = static_cast<double>(coarse_.points.size()) + edges_.distinct;
+    if (std::max(elements, vertices) > limit)
+      input_error("refine.uniform", fmt::format("refinement would give {:.3g} elements and {:.3g} vertices, more than "
+                                                "the {:.0f} that can be numbered",
+                                                elements, vertices, limit));
+  }
+
+  /// The fine vertex at a corner (i <= D) or edge midpoint of a coarse element, made when it is first asked for.
+  Index fine_vertex(std::size_t element, int i) {
+    const Simplex<D>& father = fathers_[element];
+    const Index key = i <= D ? father[i] : coarse_.vertices() + edges_.number[element * ends.size() + i - D - 1];
+    Index& number = number_[key];
+    if (number >= 0) return number;
+    const Index a = i <= D ? father[i] : father[ends[i - D - 1][0]];
+    const Index b = i <= D ? father[i] : father[ends[i - D - 1][1]];
+    number = fine_.vertices();
+    fine_.points.push_back(a == b ? coarse_.points[a] : midpoint<D>(coarse_.points[a], coarse_.points[b]));
+    refinement_.parents.push_back({a, b});
+    return number;
+  }
+
+  void refine_elements() {
+    const std::size_t vertices = coarse_.points.size() + edges_.distinct;
+    number_.assign(vertices, -1);
+    fine_ = {};
+    fine_.points.reserve(vertices);
+    refinement_.parents.reserve(vertices);
+    fine_.elements.reserve(fathers_.size() * children.size());
+    refinement_.father.reserve(fathers_.size() * children.size());
+    for (std::size_t e = 0; e < fathers_.size(); ++e) {
+      std::array<Index, nodes> node;
+      node.fill(-1);
+      for (const auto& child : children) {
+        Simplex<D>& element = fine_.elements.emplace_back();
+        for (int i = 0; i <= D; ++i) {
+          if (node[child[i]] < 0) node[child[i]] = fine_vertex(e, child[i]);
+          element[i] = node[child[i]];
+        }
+        refinement_.father.push_back(static_cast<Index>(e));
+      }
+    }
+  }
+
+  /// Fine vertex between two vertices of a coarse element.
+  Index midpoint_vertex(Index element, Index a, Index b) {
+    const Simplex<D>& father = fathers_[element];
+    int edge = 0;
+    while (std::minmax(father[ends[edge][0]], father[ends[edge][1]]) != std::minmax(a, b)) ++edge;
+    return fine_vertex(element, D + 1 + edge);
+  }
+
+  Index child_with(Index father, const std::array<Index, D>& face) const {
+    Index e = father * static_cast<Index>(children.size());
+    while (!std::ranges::all_of(face, [&](Index v) { return std::ranges::count(fine_.elements[e], v) > 0; })) ++e;
+    return e;
+  }
+
+  void refine_boundary() {
+    constexpr auto face_ends = simplex_edges<D - 1>();
+    fine_.boundary.reserve(coarse_.boundary.size() * face_children.size());
+    for (const Face<D>& face : coarse_.boundary) {
+      std::array<Index, D + face_ends.size()> node;
+      for (int i = 0; i < D; ++i) node[i] = number_[face.vertices[i]];
+      for (std::size_t k = 0; k < face_ends.size(); ++k)
+        node[D + k] = midpoint_vertex(face.element, face.vertices[face_ends[k][0]], face.vertices[face_ends[k][1]]);
+      for (const auto& child : face_children) {
+        Face<D> fine{.vertices = {}, .element = -1, .curve = face.curve};
+        for (int i = 0; i < D; ++i) fine.vertices[i] = node[child[i]];
+        fine.element = child_with(face.element, fine.vertices);
+        fine_.boundary.push_back(fine);
+      }
+    }
+    const auto per_face = static_cast<Index>(face_children.size());
+    for (const Part& part : coarse_.parts) {
+      Part& fine = fine_.parts.emplace_back(Part{part.name, {}});
+      fine.faces.reserve(part.faces.size() * per_face);
+      for (const Index f : part.faces)
+        for (Index k = 0; k < per_face; ++k) fine.faces.push_back(f * per_face + k);
+    }
+  }
+
+  /// Moves the midpoints on curved faces; one that two curves share goes to that of the first face.
+  void bend() {
+    if (fine_.curves.empty()) return;
+    std::vector<Move<D>> moves;
+    std::vector<std::uint8_t> seen(fine_.points.size(), 0);
+    for (const Face<D>& face : fine_.boundary)
+      for (const Index v : face.vertices)
+        if (const auto [a, b] = refinement_.parents[v]; face.curve >= 0 && a != b && !seen[v]) {
+          seen[v] = 1;
+          moves.push_back({v, project<D>(fine_.curves[face.curve], fine_.points[v])});
+        }
+    move_vertices(fine_, moves);
+  }
+
+  const Mesh<D>& coarse_;
+  Mesh<D>& fine_;
+  std::vector<Simplex<D>> fathers_;
+  Numbering edges_;
+  std::vector<Index> number_;  // fine number of each coarse vertex, then of each coarse edge
+  Refinement refinement_;
+};
+
+}  // namespace
+
+template <int D>
+Refinement refine_uniformly(const Mesh<D>& coarse, Mesh<D>& fine) {
+  return Refiner<D>(coarse, fine).run();
+}
+
+template <int D>
+MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
+  MeshHierarchy<D> result;
+  result.levels.push_back(std::move(coarsest));
+  for (int k = 0; k < uniform; ++k) {
+    Mesh<D> fine;
+    result.refinements.push_back(refine_uniformly(result.levels.back(), fine));
+    result.levels.push_back(std::move(fine));
+  }
+  return result;
+}
+
+template <int D>
+HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
+  double vertices = coarsest.vertices(), elements = coarsest.elements.size(), boundary = coarsest.boundary.size();
+  double in_parts = 0;
+  for (const Part& part : coarsest.parts) in_parts += part.faces.size();
+  double edges = uniform > 0 ? number_edges<D>(coarsest.vertices(), coarsest.elements).distinct : 0;
+
+  const auto level_bytes = [&] {
+    return vertices * (sizeof(Point<D>) + sizeof(Refinement::parents[0])) +
+           elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + boundary * sizeof(Face<D>) +
+           in_parts * sizeof(Index);
+  };
+  double bytes = level_bytes();
+  for (int k = 0; k < uniform; ++k) {
+    vertices += edges;
+    if constexpr (D == 2) {
+      edges = 2 * edges + 3 * elements;
+    } else {
+      const double faces = (4 * elements + boundary) / 2;  // each is cut by three edges, each octahedron by one
+      edges = 2 * edges + 3 * faces + elements;
+    }
+    elements *= RedRefinement<D>::children.size();
+    boundary *= RedRefinement<D - 1>::children.size();
+    in_parts *= RedRefinement<D - 1>::children.size();
+    bytes += level_bytes();
+  }
+  return {vertices, elements, bytes};
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                  \
+  template Refinement refine_uniformly(const Mesh<D>&, Mesh<D>&); \
+  template MeshHierarchy<D> hierarchy(Mesh<D>, int);              \
+  template HierarchySize hierarchy_size(const Mesh<D>&, int);
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/scene/expression.hpp"
+#include "core/scene/read_tables.hpp"
+
+namespace signorini {
+namespace {
+
+template <class Table>
+void check_unique(const std::vector<Table>& tables) {
+  for (auto table = tables.begin(); table != tables.end(); ++table) {
+    const auto twin = std::find_if(tables.begin(), table, [&](const Table& t) { return t.name == table->name; });
+    if (twin != table)
+      input_error(table->source.of("name"),
+                  fmt::format("the name {} is taken already at {}", in_quotes(table->name), twin->source.of("name")));
+  }
+}
+
+template <class Table>
+void check_bodies(const Scene& scene, const std::vector<Table>& tables) {
+  std::vector<std::string> names;
+  for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
+  for (const Table& table : tables)
+    if (std::find(names.begin(), names.end(), table.body) == names.end()) {
+      const std::string near = did_you_mean(table.body, names);
+      input_error(table.source.of("body"),
+                  fmt::format("there is no body {}{}", in_quotes(table.body),
+                              near.empty() ? fmt::format(" (bodies: {})", fmt::join(names, ", ")) : near));
+    }
+}
+
+bool scalar(const Scene& scene, const std::string& body) {
+  return scene.body(body).equation == Scene::Equation::diffusion;
+}
+
+void check_fixes(const Scene& scene) {
+  for (const Scene::Fix& fix : scene.fixes) {
+    if (std::none_of(fix.value.begin(), fix.value.end(), [](const auto& component) { return component.has_value(); }))
+      input_error(fix.source.of("value"), "every component is free: nothing is fixed");
+    if (fix.frame == Frame::normal && scalar(scene, fix.body))
+      input_error(fix.source.of("frame"), "a scalar unknown has no frame 'normal'");
+  }
+}
+
+// Without normals (inside the body) only a scalar unknown can meet an obstacle.
+void check_obstacles(const Scene& scene) {
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (!obstacle.on && !scalar(scene, obstacle.body))
+      input_error(obstacle.source.table, "neither 'on' nor 'where' is given, expected one of them");
+}
+
+void expect_length(std::size_t found, std::size_t expected, const std::string& place, std::string_view what) {
+  if (found != expected)
+    input_error(place, fmt::format("expected {} {}{}, found {}", expected, what, expected == 1 ? "" : "s", found));
+}
+
+// Directions of no length, as far as they are known without a position.
+void check_direction(const std::vector<Field>& direction, const std::string& place) {
+  const bool zero = std::all_of(direction.begin(), direction.end(), [](const Field& f) { return f.constant() == 0.0; });
+  if (zero) input_error(place, "this vector is zero, expected a direction");
+}
+
+struct ShapeCheck {
+  const Scene::Source& source;
+  std::size_t dimension;
+
+  void vector(const std::vector<Field>& fields, std::string_view key) const {
+    expect_length(fields.size(), dimension, source.of(key), "coordinate");
+  }
+  void direction(const std::vector<Field>& fields, std::string_view key) const {
+    vector(fields, key);
+    check_direction(fields, source.of(key));
+  }
+  void only_3d() const {
+    if (dimension != 3) input_error(source.of("shape"), "this shape is for 3D scenes");
+  }
+
+  void operator()(const Scene::PlaneShape& plane) const {
+    vector(plane.point, "point");
+    direction(plane.normal, "normal");
+  }
+  void operator()(const Scene::SphereShape& sphere) const { vector(sphere.center, "center"); }
+  void operator()(const Scene::CylinderShape& cylinder) const {
+    only_3d();
+    vector(cylinder.center, "center");
+    direction(cylinder.axis, "axis");
+  }
+  void operator()(const Scene::SurfaceShape&) const { only_3d(); }
+  void operator()(const Scene::ExpressionShape& expression) const {
+    if (source.given("normal") && !expression.normal.empty()) direction(expression.normal, "normal");
+  }
+};
+
+}  // namespace
+
+void check_dimension(const Scene& scene, int dimension) {
+  const auto components = [&](const std::string& body) -> std::size_t { return scalar(scene, body) ? 1 : dimension; };
+  for (const Scene::Body& body : scene.bodies)
+    if (dimension == 3 && body.source.given("plane"))
+      input_error(body.source.of("plane"), "'plane' is for 2D bodies, this one is 3D");
+  for (const Scene::Fix& fix : scene.fixes)
+    expect_length(fix.value.size(), components(fix.body), fix.source.of("value"), "component");
+  for (const Scene::Load& load : scene.loads)
+    expect_length(load.value.size(), components(load.body), load.source.of("value"), "component");
+  for (const Scene::Probe& probe : scene.probes)
+    expect_length(probe.at.size(), dimension, probe.source.of("at"), "coordinate");
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (obstacle.shape) std::visit(ShapeCheck{obstacle.source, static_cast<std::size_t>(dimension)}, *obstacle.shape);
+}
+
+void check_scene(const Scene& scene, const std::string& place) {
+  if (scene.bodies.empty()) input_error(place, "there is no [[body]]");
+  check_unique(scene.bodies);
+  check_unique(scene.probes);
+  if (scene.bodies.size() > 1)
+    input_error(scene.bodies[1].source.table, "a second [[body]] is not available in this version");
+  check_bodies(scene, scene.fixes);
+  check_bodies(scene, scene.loads);
+  check_bodies(scene, scene.obstacles);
+  check_bodies(scene, scene.probes);
+  check_fixes(scene);
+  check_obstacles(scene);
+  if (scene.fixes.empty() && scene.obstacles.empty())
+    input_error(place, "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
+  if (scene.dimension != 0) check_dimension(scene, scene.dimension);
+}
+
+}  // namespace signorini

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+namespace signorini {
+
+struct ScannedExpression {
+  std::string text;  ///< as long as the original: one line, chains of prefix operators such as `- -x` or `!-x` reduced
+  bool has_variables = false;
+};
+
+/// Checks an expression completely (characters, length, numbers, names, numbers of arguments, brackets, order of values
+/// and operators), so that messages are ours and what reaches the parser is well formed.
+/// Throws Error(Exit::input) with origin, expression and column.
+ScannedExpression scan_expression(const std::string& text, const std::string& origin);
+
+}  // namespace signorini

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/scene/read_tables.hpp"
+#include "core/scene/table_reader.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double most_cells = 2e8;  // six tetrahedra each must be numbered by Index
+
+template <class Value, std::size_t D>
+std::array<Value, D> exactly(const std::vector<Value>& list, const std::string& place, std::string_view what) {
+  if (list.size() != D) input_error(place, fmt::format("expected {} {}, found {}", D, what, list.size()));
+  std::array<Value, D> fixed;
+  std::copy(list.begin(), list.end(), fixed.begin());
+  return fixed;
+}
+
+template <int D>
+Point<D> point(const TableReader& reader, std::string_view key) {
+  return exactly<double, D>(reader.point(key), reader.origin(key), "coordinates");
+}
+
+template <int D>
+Scene::Block<D> block(const TableReader& reader) {
+  const Scene::Block<D> block{point<D>(reader, "from"), point<D>(reader, "to"),
+                              exactly<Index, D>(reader.integers("cells"), reader.origin("cells"), "numbers of cells")};
+  double cells = 1;
+  for (int k = 0; k < D; ++k) {
+    cells *= block.cells[k];
+    if (!(block.from[k] < block.to[k]))
+      input_error(reader.origin("to"), fmt::format("'to' must be larger than 'from' in every coordinate; {} <= {}",
+                                                   block.to[k], block.from[k]));
+  }
+  if (cells > most_cells)
+    input_error(reader.origin("cells"), fmt::format("{:.3g} cells, at most {:.3g} can be numbered", cells, most_cells));
+  return block;
+}
+
+geometry::Polygon polygon(const TableReader& reader) {
+  geometry::Polygon polygon;
+  for (const std::vector<double>& corner : reader.points("points"))
+    polygon.points.push_back(exactly<double, 2>(corner, reader.origin("points"), "coordinates per point"));
+  if (polygon.points.size() < 3)
+    input_error(reader.origin("points"), fmt::format("expected at least 3 points, found {}", polygon.points.size()));
+  return polygon;
+}
+
+Scene::BodyShape shape(const TableReader& reader, std::string_view name) {
+  if (name == "rectangle") return block<2>(reader);
+  if (name == "box") return block<3>(reader);
+  if (name == "disk" || name == "half_disk")
+    return geometry::Disk{point<2>(reader, "center"), reader.number("radius"), name == "half_disk"};
+  if (name == "ball" || name == "half_ball")
+    return geometry::Ball{point<3>(reader, "center"), reader.number("radius"), name == "half_ball"};
+  if (name == "cylinder")
+    return geometry::Cylinder{point<3>(reader, "center"), reader.number("radius"), reader.number("height")};
+  if (name == "solid") return geometry::Solid{reader.file("file").string()};
+  return polygon(reader);
+}
+
+void read_material(const TableReader& reader, Scene::Body& body) {
+  const std::string where = fmt::format("for equation = '{}'", reader.text("equation"));
+  if (body.equation == Scene::Equation::diffusion) {
+    for (const char* key : {"young", "poisson", "plane"}) reader.forbid(key, where);
+    body.diffusion = reader.field("diffusion");
+    return;
+  }
+  reader.forbid("diffusion", where);
+  for (const char* key : {"young", "poisson"}) reader.require(key, where);
+  body.young = reader.field("young");
+  body.poisson = reader.field("poisson");
+  body.plane = reader.text("plane") == "strain" ? Plane::strain : Plane::stress;
+}
+
+// The target edge length belongs to the shapes that a mesh generator fills.
+void read_size(const TableReader& reader, Scene::Body& body) {
+  const bool structured =
+      std::holds_alternative<Scene::Block<2>>(body.shape) || std::holds_alternative<Scene::Block<3>>(body.shape);
+  if (structured) reader.forbid("size", "beside 'cells'");
+  if (reader.given("mesh")) reader.forbid("size", "beside 'mesh'");
+  if (structured || reader.given("mesh")) return;
+  reader.require("size", "by this shape: target edge length of the coarsest mesh");
+  body.size = reader.field("size");
+}
+
+}  // namespace
+
+Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder) {
+  TableReader reader(table, find_table("body")->keys, folder);
+  if (reader.given("shape") == reader.given("mesh"))
+    input_error(reader.origin(), reader.given("mesh") ? "both 'shape' and 'mesh' are given, expected one of them"
+                                                      : "neither 'shape' nor 'mesh' is given, expected one of them");
+  Scene::Body body;
+  const ShapeSpec* spec = reader.given("shape") ? &reader.use_shape(body_shapes()) : nullptr;
+  reader.check_keys();
+  body.source = reader.source();
+  body.name = reader.text("name");
+  if (body.name.empty()) input_error(reader.origin("name"), "the name is empty");
+  body.shape = spec ? shape(reader, spec->name) : Scene::MeshFile{reader.file("mesh")};
+  body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
+  body.order = reader.integer("order");
+  read_material(reader, body);
+  read_size(reader, body);
+  return body;
+}
+
+int dimension_of(const Scene::Body& body) {
+  struct Dimension {
+    int operator()(const Scene::MeshFile&) const { return 0; }
+    int operator()(const Scene::Block<2>&) const { return 2; }
+    int operator()(const geometry::Disk&) const { return 2; }
+    int operator()(const geometry::Polygon&) const { return 2; }
+    int operator()(const Scene::Block<3>&) const { return 3; }
+    int operator()(const geometry::Ball&) const { return 3; }
+    int operator()(const geometry::Cylinder&) const { return 3; }
+    int operator()(const geometry::Solid&) const { return 3; }
+  };
+  return std::visit(Dimension{}, body.shape);
+}
+
+}  // namespace signorini

@@ -1,0 +1,51 @@
+#include "core/base/error.hpp"
+#include "core/scene/read_tables.hpp"
+#include "core/scene/table_reader.hpp"
+
+namespace signorini {
+namespace {
+
+// `normal = "body"` is an option of plugins; only a list belongs to the shape.
+bool has_normal(const TableReader& reader, const RawTable& table) {
+  return reader.given("normal") && std::holds_alternative<RawValue::List>(table.find("normal")->value);
+}
+
+Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std::string_view name) {
+  if (name == "plane") return Scene::PlaneShape{reader.fields("point"), reader.fields("normal")};
+  if (name == "sphere")
+    return Scene::SphereShape{reader.fields("center"), reader.field("radius"), reader.flag("inside")};
+  if (name == "cylinder")
+    return Scene::CylinderShape{reader.fields("center"), reader.fields("axis"), reader.field("radius")};
+  if (name == "surface") return Scene::SurfaceShape{reader.file("file")};
+  Scene::ExpressionShape given{reader.field("distance"), {}};
+  if (has_normal(reader, table)) given.normal = reader.fields("normal");
+  return given;
+}
+
+}  // namespace
+
+Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder) {
+  TableReader reader(table, find_table("obstacle")->keys, folder);
+  Scene::Obstacle obstacle;
+  const ShapeSpec* spec = reader.given("shape") ? &reader.use_shape(obstacle_shapes()) : nullptr;
+  obstacle.options = reader.check_known_keys();
+  obstacle.source = reader.source();
+  obstacle.type = reader.text("type");
+  obstacle.body = reader.text("body");
+  obstacle.on = reader.selection();
+  if (!spec) return obstacle;
+  obstacle.shape_name = spec->name;
+  obstacle.shape = shape(reader, table, spec->name);
+  if (std::string_view(spec->name) == "expression" && reader.given("normal") && !has_normal(reader, table))
+    obstacle.options.entries.emplace_back("normal", *table.find("normal"));
+  return obstacle;
+}
+
+std::vector<std::string> Scene::Obstacle::core_keys() const {
+  std::vector<std::string> keys = names_of(find_table("obstacle")->keys);
+  if (const ShapeSpec* spec = find_shape(obstacle_shapes(), shape_name))
+    for (const std::string& key : names_of(spec->keys)) keys.push_back(key);
+  return keys;
+}
+
+}  // namespace signorini

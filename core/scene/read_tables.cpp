@@ -1,0 +1,57 @@
+#include "core/scene/read_tables.hpp"
+
+#include "core/base/error.hpp"
+#include "core/scene/table_reader.hpp"
+
+namespace signorini {
+
+Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("fix")->keys, folder);
+  reader.check_keys();
+  const std::optional<Selection> on = reader.selection();
+  if (!on) input_error(reader.origin(), "neither 'on' nor 'where' is given, expected one of them");
+  return {reader.text("body"), *on, reader.values("value"),
+          reader.text("frame") == "normal" ? Frame::normal : Frame::global, reader.source()};
+}
+
+Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("load")->keys, folder);
+  reader.check_keys();
+  Scene::Load load{reader.text("body"), reader.selection(), {}, reader.source()};
+  for (const std::optional<Field>& component : reader.values("value")) {
+    if (!component)
+      input_error(reader.origin("value"), "'free' belongs into [[fix]]; a load has a value per component");
+    load.value.push_back(*component);
+  }
+  return load;
+}
+
+Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("solver")->keys, folder);
+  reader.check_keys();
+  Scene::Solver solver;
+  solver.tolerance = reader.number("tolerance");
+  solver.max_iterations = reader.integer("max_iterations");
+  solver.method = reader.text("method");
+  solver.cycle = reader.text("cycle");
+  solver.pre = reader.integer("pre");
+  solver.post = reader.integer("post");
+  solver.smoother = reader.text("smoother");
+  solver.transfer = reader.text("transfer");
+  solver.coarse = reader.text("coarse");
+  solver.truncate = reader.text("truncate");
+  solver.rotate = reader.text("rotate");
+  solver.start = reader.text("start");
+  solver.threads = reader.integer("threads");
+  solver.source = reader.source();
+  if (solver.pre + solver.post == 0) input_error(reader.origin("post"), "'pre' and 'post' are both 0: nothing smooths");
+  return solver;
+}
+
+Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("probe")->keys, folder);
+  reader.check_keys();
+  return {reader.text("name"), reader.text("body"), reader.point("at"), reader.source()};
+}
+
+}  // namespace signorini

@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include "core/scene/expression.hpp"
+#include "core/scene/scene.hpp"
+#include "core/scene/specs.hpp"
+
+namespace signorini {
+namespace {
+
+const char* type_name(KeyType type) {
+  switch (type) {
+    case KeyType::boolean:
+      return "true or false";
+    case KeyType::integer:
+      return "whole number";
+    case KeyType::number:
+      return "number";
+    case KeyType::text:
+      return "text";
+    case KeyType::texts:
+      return "text or list of texts";
+    case KeyType::file:
+      return "file";
+    case KeyType::condition:
+      return "expression";
+    case KeyType::field:
+      return "number or expression";
+    case KeyType::fields:
+      return "list of numbers or expressions, one per dimension";
+    case KeyType::values:
+      return "list of numbers or expressions, one per component; for scalar bodies a single one";
+    case KeyType::point:
+      return "list of numbers, one per dimension";
+    case KeyType::points:
+      return "list of points";
+    case KeyType::integers:
+      return "list of whole numbers, one per dimension";
+  }
+  return "";
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
+  return result;
+}
+
+std::string default_of(const KeySpec& key) {
+  if (!key.fallback) return "required";
+  if (!*key.fallback) return "";
+  const bool word = key.type == KeyType::text && *key.fallback != '"';
+  return word ? fmt::format("`\"{}\"`", key.fallback) : fmt::format("`{}`", key.fallback);
+}
+
+std::string note_of(const KeySpec& key) {
+  if (key.later.empty()) return "";
+  if (key.later == every_value) return " *Not yet available.*";
+  if (key.later == other_values) return " *Nothing else is available yet.*";
+  return fmt::format(" *Not yet available: {}.*", escaped(key.later));
+}
+
+std::string keys_table(std::span<const KeySpec> keys) {
+  std::string text = "| key | type | default | range | |\n| --- | --- | --- | --- | --- |\n";
+  for (const KeySpec& key : keys)
+    text += fmt::format("| `{}` | {} | {} | {} | {}.{} |\n", key.name, type_name(key.type), default_of(key),
+                        escaped(key.range), key.help, note_of(key));
+  return text;
+}
+
+std::string shapes_section(std::string_view title, std::span<const ShapeSpec> shapes) {
+  std::string text = fmt::format("\n### {}\n", title);
+  for (const ShapeSpec& shape : shapes) {
+    const std::string dimension = shape.dimension == 0 ? "2D and 3D" : fmt::format("{}D", shape.dimension);
+    text +=
+        fmt::format("\n`shape = \"{}\"` ({}): {}.\n\n{}", shape.name, dimension, shape.help, keys_table(shape.keys));
+  }
+  return text;
+}
+
+std::string functions() {
+  std::string text;
+  for (const ExpressionFunction& f : expression_functions())
+    text += fmt::format("{}`{}`", text.empty() ? "" : " ", f.name);
+  return text;
+}
+
+constexpr const char* introduction = R"(# Scenes
+
+<!-- Written by scene_reference(); a test compares. Do not edit. -->
+
+A scene is a TOML file. Unknown keys are errors. Lengths, moduli and forces are in any one consistent system of units.
+File names are relative to the scene's folder. Any key can be changed on the command line by its dotted path:
+`--set solver.tolerance=1e-6`, `--set fix.0.value.2=-0.05`.
+
+## Expressions
+
+Where a number is expected, a text is an expression. Where the table below says *number or expression*, it may use `x`,
+`y`, `z` (position), `nx`, `ny`, `nz` (outer normal, on boundaries) and `t` (step parameter, from 1/count to 1);
+elsewhere only numbers and `pi`. Functions are named and meant as in C (`log` is natural; `min` and `max` take two or
+more arguments; `sign` is -1, 0 or 1):
+
+{}
+
+Operators bind as in C: `!` and signs, `* /`, `+ -`, `< > <= >=`, `== !=`, `&&`, `||`, `c ? a : b`. `^` is power; it binds
+more tightly than a sign and from the right: `-x^2` is `-(x^2)`, `2^3^2` is `2^9`. A value that is not finite where it is
+used is an error.
+
+## Outside any table
+
+{})";
+
+}  // namespace
+
+std::string scene_reference() {
+  std::string text = fmt::format(introduction, functions(), keys_table(top_keys()));
+  for (const TableSpec& table : table_specs()) {
+    const std::string name = table.listed ? fmt::format("[[{}]]", table.name) : fmt::format("[{}]", table.name);
+    text += fmt::format("\n## `{}`\n\n{}\n\n{}", name, table.help, keys_table(table.keys));
+    if (std::string_view(table.name) == "body") text += shapes_section("Shapes of bodies", body_shapes());
+    if (std::string_view(table.name) == "obstacle")
+      text += shapes_section("Shapes of rigid obstacles", obstacle_shapes());
+  }
+  return text;
+}
+
+}  // namespace signorini

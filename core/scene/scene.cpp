@@ -1,0 +1,124 @@
+#include "core/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "core/base/error.hpp"
+#include "core/scene/expression.hpp"
+#include "core/scene/override.hpp"
+#include "core/scene/read_tables.hpp"
+#include "core/scene/table_reader.hpp"
+#include "core/scene/toml.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t largest_file = std::size_t{16} << 20;
+
+// Every table is one that scenes have, and written as it should be; keys outside tables are known.
+void check_tables(const RawDocument& document) {
+  std::vector<std::string> names = names_of(top_keys());
+  for (const TableSpec& table : table_specs()) names.push_back(table.name);
+  for (const RawTables& found : document.tables) {
+    const TableSpec* spec = find_table(found.name);
+    const std::string& place = found.tables.front().origin;
+    if (!spec)
+      input_error(place, fmt::format("unknown table {}{}", in_quotes(found.name), did_you_mean(found.name, names)));
+    if (spec->listed != found.listed)
+      input_error(place, spec->listed ? fmt::format("this table is written [[{}]], not [{}]", spec->name, spec->name)
+                                      : fmt::format("this table is written [{}], not [[{}]]", spec->name, spec->name));
+  }
+  for (const auto& [key, raw] : document.top.entries) {
+    if (find_key(top_keys(), key)) continue;
+    if (const TableSpec* spec = find_table(key))
+      input_error(raw.origin,
+                  fmt::format("expected a table, written {}", spec->listed ? "[[" + key + "]]" : "[" + key + "]"));
+    input_error(raw.origin, fmt::format("unknown key {}{}", in_quotes(key), did_you_mean(key, names)));
+  }
+}
+
+template <class Read>
+auto read_all(const RawDocument& document, const char* name, const std::filesystem::path& folder, Read read) {
+  std::vector<decltype(read(RawTable{}, folder))> all;
+  for (const RawTable& table : document.of(name)) all.push_back(read(table, folder));
+  return all;
+}
+
+// A table of which there is at most one; all defaults when it is missing.
+const RawTable& single(const RawDocument& document, const char* name, RawTable& empty) {
+  const std::vector<RawTable>& found = document.of(name);
+  return found.empty() ? (empty = RawTable{name, {}}) : found.front();
+}
+
+void read_settings(const RawDocument& document, const std::filesystem::path& folder, Scene& scene) {
+  RawTable empty;
+  scene.solver = read_solver(single(document, "solver", empty), folder);
+  const auto reader = [&](const char* name) {
+    TableReader table(single(document, name, empty), find_table(name)->keys, folder);
+    table.check_keys();
+    return table;
+  };
+  const TableReader refine = reader("refine");
+  refine.flag("adaptive");  // only false passes
+  scene.refine = {refine.integer("uniform"), refine.source()};
+  const TableReader steps = reader("steps");
+  scene.steps = {steps.integer("count"), steps.source()};
+  const TableReader output = reader("output");
+  scene.output = {output.flag("vtu"), output.flag("pictures"), output.flag("convergence")};
+  for (const std::string& path : reader("plugins").texts("path")) scene.plugin_path.push_back(folder / path);
+}
+
+std::string read_file(const std::filesystem::path& file) {
+  check_file(file, file.string());
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  char chunk[65536];
+  while (stream.read(chunk, sizeof chunk) || stream.gcount() > 0) {
+    text.append(chunk, static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > largest_file)
+      input_error(file.string(), fmt::format("larger than {} bytes: this is no scene", largest_file));
+  }
+  if (!stream.eof()) input_error(file.string(), "the file cannot be read");
+  return text;
+}
+
+}  // namespace
+
+const std::string& Scene::Source::of(std::string_view key) const {
+  const auto found = keys.find(key);
+  return found == keys.end() ? table : found->second;
+}
+
+const Scene::Body& Scene::body(std::string_view body_name) const {
+  return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == body_name; });
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                  std::span<const std::string> overrides) {
+  RawDocument document = parse_toml(text, name);
+  check_tables(document);
+  for (const std::string& given : overrides) apply_override(document, given);
+  Scene scene;
+  scene.file = name;
+  scene.name = std::filesystem::path(name).stem().string();
+  const TableReader top(document.top, top_keys(), folder);
+  scene.title = top.text("title");
+  scene.bodies = read_all(document, "body", folder, read_body);
+  scene.fixes = read_all(document, "fix", folder, read_fix);
+  scene.loads = read_all(document, "load", folder, read_load);
+  if (!scene.bodies.empty()) scene.dimension = dimension_of(scene.bodies.front());
+  scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);
+  scene.probes = read_all(document, "probe", folder, read_probe);
+  read_settings(document, folder, scene);
+  check_scene(scene, name);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_scene(read_file(file), file.string(), file.parent_path(), overrides);
+}
+
+}  // namespace signorini

@@ -1,0 +1,176 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/fem/field.hpp"
+#include "core/fem/model.hpp"
+#include "core/geometry/geometry.hpp"
+#include "core/scene/raw.hpp"
+#include "core/solver/options.hpp"
+
+namespace signorini {
+
+/// A problem as the user wrote it: validated, defaults filled in, free of meshes and plugins. Lengths, moduli and
+/// forces are in the user's units.
+struct Scene {
+  /// Where a table and its keys were written, for messages.
+  struct Source {
+    std::string table;  ///< "scene.toml:12: fix.0"
+    std::map<std::string, std::string, std::less<>> keys;
+
+    /// "scene.toml:14: fix.0.value"; the table's own place when the key was not given.
+    const std::string& of(std::string_view key) const;
+    bool given(std::string_view key) const { return keys.find(key) != keys.end(); }
+  };
+
+  enum class Equation { elasticity, diffusion };
+
+  /// `rectangle` (D = 2) or `box` (D = 3), cut into equal cells.
+  template <int D>
+  struct Block {
+    Point<D> from{}, to{};
+    std::array<Index, D> cells{};
+  };
+
+  struct MeshFile {
+    std::filesystem::path file;
+  };
+
+  using BodyShape = std::variant<MeshFile, Block<2>, geometry::Disk, geometry::Polygon, Block<3>, geometry::Ball,
+                                 geometry::Cylinder, geometry::Solid>;
+
+  struct Body {
+    std::string name;
+    BodyShape shape;
+    std::optional<Field> size;  ///< target edge length; for the shapes that are meshed freely
+    Equation equation = Equation::elasticity;
+    Field young = 1, poisson = 0;  ///< elasticity
+    Field diffusion = 1;           ///< diffusion
+    Plane plane = Plane::strain;   ///< 2D elasticity
+    int order = 1;
+    Source source;
+  };
+
+  struct Fix {
+    std::string body;
+    Selection on;
+    std::vector<std::optional<Field>> value;  ///< per component, empty where free; one entry for diffusion
+    Frame frame = Frame::global;
+    Source source;
+  };
+
+  struct Load {
+    std::string body;
+    std::optional<Selection> on;  ///< without: a body force or source
+    std::vector<Field> value;     ///< per component; one entry for diffusion
+    Source source;
+  };
+
+  /// Rigid obstacles. Fields are evaluated at the vertex that asks for its distance, with its normal and the step
+  /// parameter; vectors have an entry per dimension and need not have unit length.
+  struct PlaneShape {
+    std::vector<Field> point, normal;
+  };
+  struct SphereShape {
+    std::vector<Field> center;
+    Field radius;
+    bool inside = false;  ///< the body lies inside the sphere
+  };
+  struct CylinderShape {
+    std::vector<Field> center, axis;
+    Field radius;
+  };
+  struct SurfaceShape {
+    std::filesystem::path file;
+  };
+  struct ExpressionShape {
+    Field distance;
+    std::vector<Field> normal;  ///< empty: the gradient of the distance
+  };
+  using ObstacleShape = std::variant<PlaneShape, SphereShape, CylinderShape, SurfaceShape, ExpressionShape>;
+
+  struct Obstacle {
+    std::string type;  ///< the id of an obstacle plugin
+    std::string body;
+    std::optional<Selection> on;
+    std::string shape_name;  ///< the key `shape`; empty without
+    std::optional<ObstacleShape> shape;
+    RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate
+    Source source;
+
+    /// The core's keys that this obstacle may have, for suggestions beside the plugin's own.
+    std::vector<std::string> core_keys() const;
+  };
+
+  struct Solver : SolverOptions {
+    std::string start = "nested";  ///< nested or zero
+    int threads = 1;
+    Source source;
+  };
+
+  struct Refine {
+    int uniform = 0;
+    Source source;
+  };
+
+  struct Steps {
+    int count = 1;  ///< t runs from 1 / count to 1
+    Source source;
+  };
+
+  struct Probe {
+    std::string name, body;
+    std::vector<double> at;
+    Source source;
+  };
+
+  struct Output {
+    bool vtu = true, pictures = true, convergence = true;
+  };
+
+  std::filesystem::path file;  ///< as the user named it
+  std::string name;            ///< the file's name without folder and ending
+  std::string title;
+  int dimension = 0;  ///< 2 or 3 by the body's shape; 0 when only the mesh file tells
+  std::vector<Body> bodies;
+  std::vector<Fix> fixes;
+  std::vector<Load> loads;
+  std::vector<Obstacle> obstacles;
+  Solver solver;
+  Refine refine;
+  Steps steps;
+  std::vector<Probe> probes;
+  std::vector<std::filesystem::path> plugin_path;  ///< absolute, or relative as the scene's file is
+  Output output;
+
+  /// The body of that name; it exists, the reader has checked it.
+  const Body& body(std::string_view body_name) const;
+};
+
+/// Reads and validates a scene. Errors are Error(Exit::input) naming file and line, key, what was found, what was
+/// expected and the nearest valid name; file names in it are relative to its folder.
+/// @param overrides "refine.uniform=3": a dotted path and a TOML value (or a bare text), as `--set` takes them; an
+///   unknown path is an Error(Exit::usage)
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+/// The same for a scene held in memory.
+/// @param name stands for the file in messages
+/// @param folder that file names are relative to
+Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                  std::span<const std::string> overrides = {});
+
+/// Checks everything that has one entry per dimension (values, points, normals) and what only makes sense in one of
+/// them. The reader does so when the dimension is known from the shape; call it once a mesh file has told it.
+void check_dimension(const Scene& scene, int dimension);
+
+/// The reference of all tables and keys in Markdown, from the table that validates them.
+std::string scene_reference();
+
+}  // namespace signorini

@@ -1,0 +1,211 @@
+#include "core/scene/specs.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+using enum KeyType;
+
+constexpr KeySpec top[] = {{"title", text, "\"\"", "", "", "what the scene shows; appears in the report"}};
+
+constexpr KeySpec body[] = {
+    {"name", text, nullptr, "", "", "what other tables call the body"},
+    {"shape", text, "", "", "", "one of the shapes below; either this or `mesh`"},
+    {"mesh", file, "", "", "", "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU; physical groups become named parts"},
+    {"equation", text, "elasticity", "elasticity | diffusion", "", "diffusion: one scalar unknown"},
+    {"young", field, "", "(0, inf)", "", "Young's modulus; required for elasticity"},
+    {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
+    {"plane", text, "strain", "strain | stress", "axisymmetric", "what holds across the plane; 2D elasticity only"},
+    {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
+    {"order", integer, "1", "1", "2", "1: linear elements, 2: quadratic ones"},
+    {"size", field, "", "(0, inf)", "",
+     "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
+};
+
+constexpr KeySpec block[] = {
+    {"from", point, nullptr, "", "", "the corner with the smallest coordinates"},
+    {"to", point, nullptr, "", "", "the opposite corner"},
+    {"cells", integers, nullptr, "[1, 1000000]", "", "number of cells of the coarsest mesh in each direction"},
+};
+constexpr KeySpec round[] = {
+    {"center", point, nullptr, "", "", "centre"},
+    {"radius", number, nullptr, "(0, inf)", "", "radius"},
+};
+constexpr KeySpec polygon[] = {{"points", points, nullptr, "", "", "corners, in order"}};
+constexpr KeySpec cylinder[] = {
+    {"center", point, nullptr, "", "", "centre, half way up"},
+    {"radius", number, nullptr, "(0, inf)", "", "radius"},
+    {"height", number, nullptr, "(0, inf)", "", "extent along z"},
+};
+constexpr KeySpec solid[] = {
+    {"file", file, nullptr, "", "", "a closed surface in OFF, OBJ, STL or PLY, filled with tetrahedra"}};
+
+constexpr ShapeSpec shapes[] = {
+    {"rectangle", 2, "structured; parts `left`, `right`, `bottom`, `top`", block},
+    {"disk", 2, "part `boundary`", round},
+    {"half_disk", 2, "the lower half of a disk; parts `flat`, `curved`", round},
+    {"polygon", 2, "parts `edge0`, `edge1` and so on", polygon},
+    {"box", 3, "structured; parts `left`, `right`, `front`, `back`, `bottom`, `top` for x-, x+, y-, y+, z-, z+", block},
+    {"ball", 3, "part `boundary`", round},
+    {"half_ball", 3, "the lower half of a ball; parts `flat`, `curved`", round},
+    {"cylinder", 3, "along z; parts `bottom`, `top`, `side`", cylinder},
+    {"solid", 3, "part `boundary`", solid},
+};
+
+constexpr const char* on_help = "a named part or a physical group of the mesh; \"boundary\" is all of it";
+constexpr const char* where_help = "picks the boundary faces all of whose vertices satisfy the expression";
+
+constexpr KeySpec fix[] = {
+    {"body", text, nullptr, "", "", "name of a body"},
+    {"on", text, "", "", "", on_help},
+    {"where", condition, "", "", "", where_help},
+    {"value", values, nullptr, "", "", "per component the displacement (scalar bodies: the value), or \"free\""},
+    {"frame", text, "global", "global | normal", "",
+     "normal: components along the outer normal and the tangents, for symmetry planes"},
+};
+
+constexpr KeySpec load[] = {
+    {"body", text, nullptr, "", "", "name of a body"},
+    {"on", text, "", "", "", on_help},
+    {"where", condition, "", "", "", where_help},
+    {"value", values, nullptr, "", "",
+     "with `on` or `where` a traction (scalar bodies: a flux), else a body force (a source)"},
+};
+
+constexpr KeySpec obstacle[] = {
+    {"type", text, nullptr, "", "coulomb | elastic | elastic_coulomb", "id of an obstacle plugin, such as \"contact\""},
+    {"body", text, nullptr, "", "", "name of a body"},
+    {"on", text, "", "", "", on_help},
+    {"where", condition, "", "", "", where_help},
+    {"shape", text, "", "", "", "one of the obstacle shapes below, for plugins that want a rigid obstacle"},
+    {"friction", field, "", "[0, inf)", every_value, "coefficient of friction"},
+    {"other", text, "", "", every_value, "name of the second body"},
+    {"other_on", text, "", "", every_value, "part of the second body"},
+    {"other_where", condition, "", "", every_value, "faces of the second body"},
+};
+
+constexpr KeySpec plane_obstacle[] = {
+    {"point", fields, nullptr, "", "", "a point of the plane"},
+    {"normal", fields, nullptr, "", "", "points from the obstacle towards the body; of any length"},
+};
+constexpr KeySpec sphere_obstacle[] = {
+    {"center", fields, nullptr, "", "", "centre"},
+    {"radius", field, nullptr, "(0, inf)", "", "radius"},
+    {"inside", boolean, "false", "", "", "the body lies inside"},
+};
+constexpr KeySpec cylinder_obstacle[] = {
+    {"center", fields, nullptr, "", "", "a point of the axis"},
+    {"axis", fields, nullptr, "", "", "direction of the axis; of any length"},
+    {"radius", field, nullptr, "(0, inf)", "", "radius"},
+};
+constexpr KeySpec surface_obstacle[] = {{"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"}};
+constexpr KeySpec expression_obstacle[] = {
+    {"distance", field, nullptr, "", "", "signed distance, positive outside the obstacle"},
+    {"normal", fields, "", "", "",
+     "points from the obstacle towards the body; by default the gradient of the distance"},
+};
+
+constexpr ShapeSpec rigid_shapes[] = {
+    {"plane", 0, "a half space (2D: a half plane)", plane_obstacle},
+    {"sphere", 0, "in 2D a disk", sphere_obstacle},
+    {"cylinder", 3, "infinitely long", cylinder_obstacle},
+    {"surface", 3, "a triangle mesh", surface_obstacle},
+    {"expression", 0, "given by its distance function", expression_obstacle},
+};
+
+constexpr KeySpec solver[] = {
+    {"tolerance", number, "1e-8", "(0, 1)", "", "for the relative algebraic error and for the natural residual"},
+    {"max_iterations", integer, "200", "[1, 1000000]", "", "limit on the number of cycles"},
+    {"method", text, "monotone", "monotone", other_values, "monotone multigrid"},
+    {"cycle", text, "V", "V | W", "F", "shape of the cycle"},
+    {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
+    {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},
+    {"smoother", text, "forward", "", "", "a smoother of `signorini list smoothers`"},
+    {"transfer", text, "min_merge", "", "", "a monotone restriction of `signorini list transfers`"},
+    {"coarse", text, "newton", "", "", "a coarse solver of `signorini list coarse`"},
+    {"truncate", text, "normal", "none | normal", "tangential", "directions in contact taken out of the interpolation"},
+    {"cut", field, "", "", every_value, "also truncate where the remaining distance is below this fraction"},
+    {"rotate", text, "all", "all | not_coarsest | none", "", "levels on which contact vectors use their local basis"},
+    {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
+    {"threads", integer, "1", "1", "[2, 4096]", "number of threads"},
+};
+
+constexpr KeySpec refine[] = {
+    {"uniform", integer, "0", "[0, 30]", "", "uniform refinements of the coarsest mesh"},
+    {"adaptive", boolean, "false", "false", "true", "refine where the estimated error is large"},
+    {"tolerance", number, "", "(0, 1)", every_value, "relative estimated error"},
+    {"max_unknowns", integer, "", "[1, inf)", every_value, "limit on the number of unknowns"},
+    {"max_steps", integer, "", "[0, inf)", every_value, "limit on the number of adaptive steps"},
+    {"estimator", text, "", "", every_value, "an estimator of `signorini list estimators`"},
+};
+
+constexpr KeySpec steps[] = {
+    {"count", integer, "1", "[1, 1000000]", "", "quasi-static steps, `t` running from 1/count to 1"}};
+
+constexpr KeySpec probe[] = {
+    {"name", text, nullptr, "", "", "what the report calls it"},
+    {"body", text, nullptr, "", "", "name of a body"},
+    {"at", point, nullptr, "", "", "where the displacement (scalar bodies: the value) is reported"},
+};
+
+constexpr KeySpec plugins[] = {
+    {"path", texts, "[]", "", "",
+     "folders searched first; then those of `SIGNORINI_PLUGIN_PATH`, then the installed folder"}};
+
+constexpr KeySpec output[] = {
+    {"vtu", boolean, "true", "", "", "write the solution for ParaView"},
+    {"pictures", boolean, "true", "", "", "draw the convergence history and the result"},
+    {"convergence", boolean, "true", "", "", "write the convergence table"},
+};
+
+constexpr TableSpec tables[] = {
+    {"body", true, "The body to be deformed, or the domain of a scalar equation.", body},
+    {"fix", true, "A Dirichlet condition at the nodes of the faces picked by `on` or `where`.", fix},
+    {"load", true, "A force.", load},
+    {"obstacle", true, "What the body may not penetrate. Every key not listed here belongs to the plugin.", obstacle},
+    {"solver", false, "How the algebraic problem is solved.", solver},
+    {"refine", false, "The mesh.", refine},
+    {"steps", false, "Quasi-static loading.", steps},
+    {"probe", true, "A point whose result is reported.", probe},
+    {"plugins", false, "Where obstacle plugins are found.", plugins},
+    {"output", false, "Which files are written beside the report.", output},
+};
+
+template <class Spec>
+const Spec* find(std::span<const Spec> specs, std::string_view name) {
+  const auto found = std::find_if(specs.begin(), specs.end(), [&](const Spec& s) { return name == s.name; });
+  return found == specs.end() ? nullptr : &*found;
+}
+
+template <class Spec>
+std::vector<std::string> names(std::span<const Spec> specs) {
+  std::vector<std::string> all;
+  for (const Spec& spec : specs) all.push_back(spec.name);
+  return all;
+}
+
+}  // namespace
+
+std::span<const KeySpec> top_keys() { return top; }
+std::span<const TableSpec> table_specs() { return tables; }
+std::span<const ShapeSpec> body_shapes() { return shapes; }
+std::span<const ShapeSpec> obstacle_shapes() { return rigid_shapes; }
+
+const TableSpec* find_table(std::string_view name) { return find<TableSpec>(tables, name); }
+const KeySpec* find_key(std::span<const KeySpec> keys, std::string_view name) { return find(keys, name); }
+const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view name) { return find(all, name); }
+std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }
+std::vector<std::string> names_of(std::span<const ShapeSpec> all) { return names(all); }
+
+std::vector<std::string> all_names(const TableSpec& table) {
+  std::vector<std::string> all = names_of(table.keys);
+  std::span<const ShapeSpec> further;
+  if (std::string_view(table.name) == "body") further = body_shapes();
+  if (std::string_view(table.name) == "obstacle") further = obstacle_shapes();
+  for (const ShapeSpec& shape : further)
+    for (const KeySpec& key : shape.keys) all.push_back(key.name);
+  return all;
+}
+
+}  // namespace signorini

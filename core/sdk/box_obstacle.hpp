@@ -1,0 +1,62 @@
+#pragma once
+#include "core/sdk/box_minimiser.hpp"
+#include "core/sdk/obstacle.hpp"
+#include "core/sdk/projected_sweep.hpp"
+
+namespace signorini {
+
+/// An obstacle whose admissible set is a box in local coordinates: bounds per direction. What is left to an
+/// implementation is descriptor() and assemble(). `Local::correct` is inlined into the sweep that the implementation's
+/// own library instantiates.
+template <int B, class Local = BoxMinimiser<B>>
+class BoxObstacle : public Obstacle<B> {
+ public:
+  void sweep(const LevelView<B>& level, Index first, Index last, Order order) const noexcept override {
+    projected_sweep<B, Local>(level, first, last, order);
+  }
+
+  void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
+                Flags* critical) const noexcept override {
+    const auto [from, to] = slots_between(level, first, last);
+    for (Index slot = from; slot < to; ++slot) {
+      const double* x = level.x + Offset{level.constrained[slot]} * B;
+      critical[slot] = 0;
+      for (int k = 0; k < B; ++k) {
+        const Offset at = Offset{slot} * B + k;
+        lower[at] = std::min(level.lower[at] - x[k], 0.0);
+        upper[at] = std::max(level.upper[at] - x[k], 0.0);
+        if (lower[at] == 0 || upper[at] == 0) critical[slot] |= static_cast<Flags>(1u << k);
+      }
+    }
+  }
+
+  double natural_residual(const LevelView<B>& level, Index first, Index last, const double* r) const noexcept override {
+    double largest = 0;
+    Index slot = slots_between(level, first, last).first;
+    for (Index p = first; p < last; ++p) {
+      double d[B];
+      if (slot < level.slots && level.constrained[slot] == p)
+        project(level, slot++, r + Offset{p} * B, d);
+      else
+        block::product<B>(level.inverse + Offset{p} * B * B, r + Offset{p} * B, d);
+      const double size = block::norm<B>(d);
+      if (!(size <= largest)) largest = size;  // NaN stays visible
+    }
+    return largest;
+  }
+
+ private:
+  // Proj_K(x + A_pp^-1 r) - x in the scalar product of A_pp, in which it vanishes at the solution: the local minimiser.
+  static void project(const LevelView<B>& level, Index slot, const double* r, double* d) {
+    const Index p = level.constrained[slot];
+    double lower[B], upper[B];
+    for (int k = 0; k < B; ++k) {
+      const double x = level.x[Offset{p} * B + k];
+      lower[k] = level.lower[Offset{slot} * B + k] - x;
+      upper[k] = level.upper[Offset{slot} * B + k] - x;
+    }
+    Local::correct(level.value + level.row[p] * B * B, level.inverse + Offset{p} * B * B, r, lower, upper, d);
+  }
+};
+
+}  // namespace signorini

@@ -1,0 +1,18 @@
+// The destructors of the interfaces live here, so that each of them exists once, in the core library.
+#include "core/sdk/obstacle.hpp"
+#include "core/sdk/registrar.hpp"
+
+namespace signorini {
+
+DistanceFunction::~DistanceFunction() = default;
+Settings::~Settings() = default;
+Registrar::~Registrar() = default;
+
+template <int B>
+Obstacle<B>::~Obstacle() = default;
+
+template class Obstacle<1>;
+template class Obstacle<2>;
+template class Obstacle<3>;
+
+}  // namespace signorini

@@ -1,0 +1,26 @@
+#pragma once
+#include "core/base/types.hpp"
+
+namespace signorini {
+
+enum class Order : int { forward, backward };
+
+/// One level as smoothers and obstacles see it: pointers only, no ownership. A is in block compressed rows with the
+/// diagonal block first in every row and row-major blocks; everything is in local coordinates.
+template <int B>
+struct LevelView {
+  Index vectors;
+  const Offset* row;  ///< vectors + 1
+  const Index* column;
+  const double* value;       ///< B * B per column
+  const double* inverse;     ///< B * B per vector: inverse diagonal block (rows of missing components zero)
+  const double* b;           ///< B per vector
+  double* x;                 ///< B per vector: the iterate
+  const Index* slot;         ///< per vector: its slot, -1 without obstacle
+  const Index* constrained;  ///< per slot, ascending: its vector
+  Index slots;
+  const double* lower;  ///< B per slot: bounds on x
+  const double* upper;
+};
+
+}  // namespace signorini

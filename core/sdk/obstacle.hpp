@@ -1,0 +1,73 @@
+#pragma once
+#include <cstddef>
+
+#include "core/sdk/level_view.hpp"
+#include "core/sdk/settings.hpp"
+
+namespace signorini {
+
+/// What an abstract obstacle consists of: directions, each with its number of components and of values (seed, 4.1).
+struct ObstacleDescriptor {
+  struct Direction {
+    const char* name;
+    int components;
+    int values;
+  };
+  int directions = 0;
+  Direction direction[4] = {};
+
+  /// Two obstacles are of one type exactly when directions and value counts agree.
+  bool same_type(const ObstacleDescriptor& other) const {
+    if (directions != other.directions) return false;
+    for (int k = 0; k < directions; ++k)
+      if (direction[k].components != other.direction[k].components || direction[k].values != other.direction[k].values)
+        return false;
+    return true;
+  }
+};
+
+/// A vertex that an obstacle may reach. Unused coordinates are zero.
+struct SurfaceVertex {
+  double position[3];
+  double normal[3];  ///< averaged outer unit normal of the body's surface; zero inside it
+};
+
+/// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for
+/// k < directions. Directions are unit vectors, orthogonal to each other.
+template <int B>
+struct LocalConstraint {
+  int directions = 0;
+  double direction[B][B] = {};
+  double lower[B], upper[B];
+};
+
+/// An obstacle type: everything nonlinear about a problem, all of it local to one vector. The kernel knows no more than
+/// this, and calls it once per sweep and segment, never per vector. Implementations come from plugins; they derive
+/// from BoxObstacle (core/sdk/box_obstacle.hpp) unless their admissible set is no box.
+template <int B>
+class Obstacle {
+ public:
+  virtual ~Obstacle();
+
+  virtual ObstacleDescriptor descriptor() const noexcept = 0;
+
+  /// AssembleObstacles (seed, 4.1): values at `count` vertices.
+  virtual void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
+                        Status& status) const noexcept = 0;
+
+  /// One projected block Gauss-Seidel sweep over the vectors first <= p < last in the given order: at each vector the
+  /// exact minimiser of the local problem (seed, 4.3). The energy never grows.
+  virtual void sweep(const LevelView<B>& level, Index first, Index last, Order order) const noexcept = 0;
+
+  /// LocObsUpdate: for the slots of the vectors first <= p < last the bounds of an admissible correction of the iterate
+  /// (lower <= 0 <= upper, B per slot) and the critical flags: bit k is set where direction k is in contact. Both are
+  /// computed from the iterate, never carried along.
+  virtual void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
+                        Flags* critical) const noexcept = 0;
+
+  /// max over the vectors of ||x_p - Proj_K(x_p + A_pp^-1 r_p)|| where r = b - A x, B per vector, is given.
+  virtual double natural_residual(const LevelView<B>& level, Index first, Index last,
+                                  const double* r) const noexcept = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,76 @@
+#pragma once
+#include <algorithm>
+
+#include "core/sdk/block.hpp"
+#include "core/sdk/level_view.hpp"
+
+namespace signorini {
+
+/// r = b_p - (A x)_p
+template <int B>
+inline void row_residual(const LevelView<B>& level, Index p, double* r) {
+  for (int k = 0; k < B; ++k) r[k] = level.b[Offset{p} * B + k];
+  for (Offset k = level.row[p]; k < level.row[p + 1]; ++k)
+    block::subtract_product<B>(level.value + k * B * B, level.x + Offset{level.column[k]} * B, r);
+}
+
+/// Gauss-Seidel at a vector without obstacle.
+template <int B>
+inline void relax(const LevelView<B>& level, Index p) {
+  double r[B];
+  row_residual<B>(level, p, r);
+  block::add_product<B>(level.inverse + Offset{p} * B * B, r, level.x + Offset{p} * B);
+}
+
+/// Projected Gauss-Seidel at the vector of a slot. The distance to the bounds is taken from the iterate every time:
+/// updating it along the sweep is unstable (seed, remark 4.3).
+template <int B, class Local>
+inline void relax_projected(const LevelView<B>& level, Index slot) {
+  const Index p = level.constrained[slot];
+  double* x = level.x + Offset{p} * B;
+  const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};
+  double r[B], lower[B], upper[B], d[B];
+  row_residual<B>(level, p, r);
+  for (int k = 0; k < B; ++k) {
+    lower[k] = bound[0][k] - x[k];
+    upper[k] = bound[1][k] - x[k];
+  }
+  Local::correct(level.value + level.row[p] * B * B, level.inverse + Offset{p} * B * B, r, lower, upper, d);
+  // Set, not added, where a bound is met: contact then is an exact comparison.
+  for (int k = 0; k < B; ++k) x[k] = d[k] <= lower[k] ? bound[0][k] : d[k] >= upper[k] ? bound[1][k] : x[k] + d[k];
+}
+
+/// Slots of the vectors first <= p < last: the first one, and one behind the last.
+template <int B>
+inline std::pair<Index, Index> slots_between(const LevelView<B>& level, Index first, Index last) {
+  const Index* end = level.constrained + level.slots;
+  const Index* from = std::lower_bound(level.constrained, end, first);
+  return {static_cast<Index>(from - level.constrained),
+          static_cast<Index>(std::lower_bound(from, end, last) - level.constrained)};
+}
+
+/// One projected block Gauss-Seidel sweep over first <= p < last; Local::correct is the exact local minimiser. Runs of
+/// vectors without obstacle pass through the plain linear loop.
+template <int B, class Local>
+void projected_sweep(const LevelView<B>& level, Index first, Index last, Order order) {
+  const auto [from, to] = slots_between(level, first, last);
+  if (order == Order::forward) {
+    Index p = first;
+    for (Index slot = from; slot < to; ++slot) {
+      for (; p < level.constrained[slot]; ++p) relax<B>(level, p);
+      relax_projected<B, Local>(level, slot);
+      ++p;
+    }
+    for (; p < last; ++p) relax<B>(level, p);
+  } else {
+    Index p = last - 1;
+    for (Index slot = to - 1; slot >= from; --slot) {
+      for (; p > level.constrained[slot]; --p) relax<B>(level, p);
+      relax_projected<B, Local>(level, slot);
+      --p;
+    }
+    for (; p >= first; --p) relax<B>(level, p);
+  }
+}
+
+}  // namespace signorini

@@ -1,0 +1,61 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "core/solver/level.hpp"
+#include "core/solver/prolongation.hpp"
+
+/// What the kernel composes a cycle from. Implementations lie in smoothers/, transfer/ and amg/ and are chosen by name.
+namespace signorini {
+
+enum class Side { descend, ascend };
+
+template <int B>
+class Smoother {
+ public:
+  virtual ~Smoother() = default;
+  /// `steps` smoothing steps on level.x, on the way down or up. The energy never grows.
+  virtual void smooth(const Level<B>& level, int steps, Side side) const = 0;
+};
+
+/// Which coarse vectors take over the frame of their twin on the next finer level.
+enum class Rotate { all, not_coarsest, none };
+
+/// The connection of a level with the next coarser one. Interpolation of vector q to p is w_pq R_p C_q with the scalar
+/// weight w, C_q from local to global coordinates and R_p back, R_p without the components removed at p.
+template <int B>
+class Transfer {
+ public:
+  virtual ~Transfer() = default;
+  /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level.
+  virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) = 0;
+  /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time; clears both lists, and
+  /// appends what it recomputed to `coarse.renewed`. Returns the number of rows.
+  virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;
+  /// coarse.b from fine.r, coarse.x = 0.
+  virtual void restrict_residual(const Level<B>& fine, Level<B>& coarse) const = 0;
+  /// Monotone restriction (RestrictObstaclesByMatrix and merge, seed 4.4): bounds of coarse.x such that every
+  /// admissible coarse correction is admissible on the fine level. Truncated directions do not count.
+  virtual void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const = 0;
+  /// fine.x += interpolation of coarse.x; what rounding carries over a bound is put back onto it.
+  virtual void prolongate(const Level<B>& coarse, const Level<B>& fine) const = 0;
+};
+
+template <int B>
+class CoarseSolver {
+ public:
+  virtual ~CoarseSolver() = default;
+  /// Improves level.x within its bounds as far as is worth it on the coarsest level, whose matrix may have changed
+  /// since the last call. Returns false where the energy is unbounded below.
+  virtual bool solve(const Level<B>& level) = 0;
+};
+
+/// The choice for one solve.
+template <int B>
+struct Components {
+  std::shared_ptr<const Smoother<B>> smoother;
+  std::function<std::unique_ptr<Transfer<B>>()> transfer;
+  std::shared_ptr<CoarseSolver<B>> coarse;
+};
+
+}  // namespace signorini

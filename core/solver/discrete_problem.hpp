@@ -1,0 +1,57 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+#include "core/sdk/obstacle.hpp"
+
+namespace signorini {
+
+/// Local changes of basis: a vector with slot[p] >= 0 is stored in coordinates of its own, v_global = Q v_local, with
+/// the orthogonal Q (row-major, its columns are the local directions) at basis[slot[p] * B * B].
+template <int B>
+struct Frames {
+  std::vector<Index> slot;  ///< per vector, -1: global coordinates; empty: no frame at all
+  std::vector<double> basis;
+
+  const double* at(Index p) const {
+    return slot.empty() || slot[p] < 0 ? nullptr : basis.data() + Offset{slot[p]} * B * B;
+  }
+};
+
+/// Bounds of the vectors that an obstacle can reach, on the iterate of their level in local coordinates. Only those
+/// vectors store anything.
+template <int B>
+struct Constraints {
+  std::vector<Index> slot;           ///< per vector, -1: none
+  std::vector<Index> vector;         ///< per slot, ascending
+  std::vector<double> lower, upper;  ///< B per slot, infinite where there is none
+
+  Index size() const { return static_cast<Index>(vector.size()); }
+};
+
+/// Vectors first <= p < last whose constraints belong to one obstacle.
+template <int B>
+struct Segment {
+  Index first, last;
+  std::shared_ptr<const Obstacle<B>> obstacle;
+};
+
+/// min 1/2 x'Ax - b'x with x within bounds: what the solver is given. All of it is in local coordinates. A component
+/// whose bit is set in `fixed` is prescribed: its row and column are those of the identity and b holds its value, while
+/// the other entries of b account for it.
+template <int B>
+struct DiscreteProblem {
+  BlockMatrix<B> A;
+  std::vector<double> b;      ///< B per vector
+  std::vector<Flags> fixed;   ///< per vector
+  std::vector<double> start;  ///< B per vector: prescribed values, zero elsewhere
+  Frames<B> frames;
+  Constraints<B> constraints;
+  double prescribed_energy = 0;      ///< g'A g of the prescribed values g, before elimination
+  std::vector<Index> coupled;        ///< ascending: vectors with free components that A couples to prescribed values
+  std::vector<double> coupling;      ///< B per coupled vector: (A g) on its free components, zero on the others
+  std::vector<Segment<B>> segments;  ///< cover all vectors in ascending order; empty when there is no obstacle
+};
+
+}  // namespace signorini

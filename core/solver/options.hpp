@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+namespace signorini {
+
+/// Options of the solver; names, defaults and meaning as the keys of `[solver]`.
+struct SolverOptions {
+  double tolerance = 1e-8;  ///< for the relative algebraic error and for the natural residual
+  int max_iterations = 200;
+  std::string method = "monotone";
+  std::string cycle = "V";             ///< V or W
+  int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
+  std::string smoother = "forward";    ///< a registered smoother
+  std::string transfer = "min_merge";  ///< a registered monotone restriction
+  std::string coarse = "newton";       ///< a registered coarse solver
+  std::string truncate = "normal";     ///< none or normal
+  std::string rotate = "all";          ///< all, not_coarsest or none
+};
+
+}  // namespace signorini

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace signorini {
+
+/// One cycle. Everything is recomputed from the iterate, nothing is carried along.
+struct IterationRecord {
+  int iteration;
+  double residual;         ///< natural residual over its value at the projected zero
+  double algebraic_error;  ///< estimate of ||x - x*||_A / ||x*||_A
+  double energy;           ///< 1/2 x'Ax - b'x
+  Index contact_nodes;     ///< vectors with a direction in contact
+  Index changed;           ///< vectors whose phase changed since the last cycle, on the finest level
+};
+
+enum class Outcome { converged, rounding, iteration_limit, interrupted, unbounded };
+
+/// What a solve did, and in `reason` why it stopped: a sentence with the value and the threshold it met.
+struct Summary {
+  Outcome outcome = Outcome::iteration_limit;
+  std::string reason;
+  int iterations = 0;
+  double residual = 0, algebraic_error = 0, energy = 0;
+  double rate = 0;            ///< mean reduction of the correction's energy norm over the last cycles
+  int linear_phase_from = 0;  ///< first cycle from which no phase changed, 0 if there was none
+  std::vector<IterationRecord> history;
+  std::vector<Index> level_unknowns;  ///< free unknowns, coarsest level first
+  double setup_seconds = 0, solve_seconds = 0;
+
+  /// Solved as far as the machine's precision allows.
+  bool converged() const { return outcome == Outcome::converged || outcome == Outcome::rounding; }
+};
+
+}  // namespace signorini

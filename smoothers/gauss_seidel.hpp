@@ -1,0 +1,28 @@
+#pragma once
+#include "core/solver/components.hpp"
+
+namespace signorini {
+
+enum class SweepOrder { forward, backward, symmetric, adjoint };
+
+/// Projected block Gauss-Seidel. `forward` and `backward` sweep one way; `symmetric` does both in every step; `adjoint`
+/// sweeps forward on the way down and backward on the way up, which makes the whole linear cycle symmetric at half
+/// the cost.
+template <int B>
+class GaussSeidel final : public Smoother<B> {
+ public:
+  explicit GaussSeidel(SweepOrder order) : order_(order) {}
+
+  void smooth(const Level<B>& level, int steps, Side side) const override {
+    const bool forward = order_ == SweepOrder::adjoint ? side == Side::descend : order_ != SweepOrder::backward;
+    for (int step = 0; step < steps; ++step) {
+      level.sweep(forward ? Order::forward : Order::backward);
+      if (order_ == SweepOrder::symmetric) level.sweep(Order::backward);
+    }
+  }
+
+ private:
+  SweepOrder order_;
+};
+
+}  // namespace signorini

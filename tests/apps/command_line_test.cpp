@@ -1,0 +1,122 @@
+#include "program.hpp"
+
+#include <chrono>
+#include <thread>
+
+namespace signorini::test {
+namespace {
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+class CommandLine : public Program {};
+
+TEST_F(CommandLine, HelpNamesAllCommandsAndEndsWell) {
+  const Ended ended = signorini({"--help"});
+  EXPECT_EQ(ended.status, 0);
+  for (const char* command : {"solve", "check", "qp", "list", "chart", "plugin", "Exit status"})
+    EXPECT_THAT(ended.out, HasSubstr(command));
+  const Ended solve = signorini({"solve", "--help"});
+  EXPECT_EQ(solve.status, 0);
+  for (const char* option : {"--out", "--set", "--quiet", "SCENE"}) EXPECT_THAT(solve.out, HasSubstr(option));
+}
+
+TEST_F(CommandLine, VersionIsPrinted) {
+  const Ended ended = signorini({"--version"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.out, StartsWith("signorini 0."));
+}
+
+TEST_F(CommandLine, WrongUsageIsStatusOneWithAMessage) {
+  const std::vector<std::vector<std::string>> wrong = {{},
+                                                       {"sovle"},
+                                                       {"solve"},
+                                                       {"solve", "a.toml", "b.toml"},
+                                                       {"solve", "a.toml", "--nonsense"},
+                                                       {"list", "nothing"},
+                                                       {"solve", "a.toml", "--out"}};
+  for (const auto& arguments : wrong) {
+    const Ended ended = signorini(arguments);
+    EXPECT_EQ(ended.status, 1) << testing::PrintToString(arguments);
+    EXPECT_THAT(ended.err, StartsWith("signorini: error: "));
+  }
+}
+
+TEST_F(CommandLine, UnknownPathOfSetIsWrongUsage) {
+  write("membrane.toml", membrane);
+  const Ended ended = signorini({"solve", "membrane.toml", "--set", "solver.tolerence=1e-3"});
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.err, HasSubstr("tolerance"));
+  EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(CommandLine, LaterCommandsSayThatTheyAreNotAvailable) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"qp", "A.mtx", "b.mtx", "--lower", "l.mtx"},
+                                             {"chart", "a.toml"},
+                                             {"plugin", "new", "x"},
+                                             {"plugin", "check", "x.so"}}) {
+    const Ended ended = signorini(arguments);
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr("'" + arguments[0] + "' is not available in this version"));
+  }
+}
+
+TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
+  const Ended all = signorini({"list"});
+  EXPECT_EQ(all.status, 0) << all.err;
+  for (const char* word :
+       {"scalar", "contact", "symmetric", "min_merge", "newton", "libsignorini_obstacle_contact.so", "body", "lower"})
+    EXPECT_THAT(all.out, HasSubstr(word));
+  const Ended smoothers = signorini({"list", "smoothers"});
+  EXPECT_THAT(smoothers.out, HasSubstr("symmetric"));
+  EXPECT_THAT(smoothers.out, testing::Not(HasSubstr("contact")));
+}
+
+TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
+  write("punch.toml", punch);
+  const Ended ended = signorini({"check", "punch.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  for (const char* text : {"dimension: 3", "equation: elasticity", "libsignorini_obstacle_contact.so", "top",
+                           "25 candidate contact vertices"})
+    EXPECT_THAT(ended.out, HasSubstr(text));
+  EXPECT_THAT(written(), IsEmpty());
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--quiet", "--out", "o"}).status, 0);
+  EXPECT_THAT(ended.out, HasSubstr(report("o").at("unknowns").dump() + " unknowns"));
+}
+
+TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
+  write("membrane.toml", membrane);
+  write("file", "");
+  for (const char* folder : {"file", "file/below", "/proc/nowhere"}) {
+    const Ended ended = signorini({"solve", "membrane.toml", "--out", folder});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, HasSubstr(folder));
+  }
+  EXPECT_THAT(written(), testing::ElementsAre("file"));
+}
+
+/// The default, started with ignored signals as some shells do, and then sent `signal` while it works.
+TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
+  write("membrane.toml", membrane);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "a/b", "--set", "refine.uniform=8"});
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    kill(child, signal);
+    const Ended ended = wait_for(child);
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("interrupted"));
+    EXPECT_THAT(written(), IsEmpty());
+  }
+}
+
+TEST_F(CommandLine, SecondRunReplacesTheFirstResults) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=1"}).status, 0);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=2"}).status, 0);
+  EXPECT_EQ(report("o").at("unknowns"), 225);
+  EXPECT_EQ(written("o").size(), 5u);
+}
+
+}  // namespace
+}  // namespace signorini::test

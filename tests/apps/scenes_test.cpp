@@ -1,0 +1,87 @@
+#include <cmath>
+#include <numbers>
+
+#include "program.hpp"
+
+namespace signorini::test {
+namespace {
+using std::numbers::pi;
+
+const fs::path scenes = fs::path(SIGNORINI_SOURCE_DIR) / "apps/scenes";
+
+/// The scenes that are shipped, against the formulas in their comments.
+class Scenes : public Program {
+ protected:
+  nlohmann::json solve(const std::string& scene, std::vector<std::string> overrides) const {
+    std::vector<std::string> arguments{"solve", (scenes / scene).string(), "--out", "o", "--quiet",
+                                       "--set", "output.pictures=false"};
+    for (const auto& override : overrides) arguments.insert(arguments.end(), {"--set", override});
+    const Ended ended = signorini(arguments);
+    EXPECT_EQ(ended.status, 0) << scene << ": " << ended.err;
+    return ended.status == 0 ? report("o") : nlohmann::json();
+  }
+};
+
+TEST_F(Scenes, AllAreSolvedOnTheirCoarsestMeshes) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(scenes)) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    solve(entry.path().filename(), {"refine.uniform=1"});
+  }
+  EXPECT_GE(count, 10);
+}
+
+TEST_F(Scenes, RadialObstacle2D) {
+  const auto r = solve("obstacle_radial_2d.toml", {});
+  EXPECT_NEAR(r.at("probes")[0].at("value"), 0.471519893402112, 1e-4);
+  EXPECT_NEAR(r.at("contact")[0].at("area"), pi * 0.697965148223374 * 0.697965148223374, 0.02);
+}
+
+TEST_F(Scenes, RadialObstacle3D) {
+  const auto r = solve("obstacle_radial_3d.toml", {});
+  EXPECT_NEAR(r.at("probes")[0].at("value"), 0.400294310624527, 4e-3);
+}
+
+TEST_F(Scenes, TorsionOfARoundBar) {
+  const auto r = solve("obstacle_torsion_disk.toml", {});
+  EXPECT_NEAR(r.at("probes")[0].at("value"), 0.75, 1e-3);
+}
+
+TEST_F(Scenes, DegenerateObstacle) {
+  const auto r = solve("obstacle_degenerate.toml", {});
+  EXPECT_NEAR(r.at("probes")[0].at("value"), -1, 1e-3);
+}
+
+TEST_F(Scenes, ElasticSignorini) {
+  const auto r = solve("signorini_elastic_2d.toml", {});
+  const double gap = 0.7 * std::pow(0.5, 1.5);  // (1 - nu) |x|^(3/2) / mu at x = -1/2
+  EXPECT_NEAR(r.at("probes")[0].at("displacement")[1], gap, 0.01 * gap);
+  EXPECT_NEAR(r.at("contact")[0].at("force")[1], 1, 0.03);  // integral of 1.5 sqrt(x)
+}
+
+TEST_F(Scenes, PunchIsUniform) {
+  const auto r = solve("punch.toml", {});
+  const double pressure = 0.01 * 0.7 / (1.3 * 0.4);
+  EXPECT_NEAR(r.at("contact")[0].at("max_pressure"), pressure, 1e-9 * pressure);
+  EXPECT_NEAR(r.at("contact")[0].at("force")[2], -pressure, 1e-9 * pressure);
+}
+
+TEST_F(Scenes, HertzProgramComparesACylinderWithinThreePercent) {
+  solve("cylinder_on_plane_2d.toml", {});
+  const Ended ended = wait_for(start("signorini_hertz", {"o/report.json", scenes / "cylinder_on_plane_2d.toml"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  for (const char* row : {"half width", "peak pressure"}) {
+    const std::size_t at = ended.out.find(row);
+    ASSERT_NE(at, std::string::npos) << ended.out;
+    double computed, hertz, difference;
+    ASSERT_EQ(
+        std::sscanf(ended.out.c_str() + at + std::string(row).size(), "%lf %lf %lf", &computed, &hertz, &difference),
+        3);
+    EXPECT_NEAR(computed, hertz, 0.03 * hertz) << row;
+    EXPECT_NEAR(difference, 100 * (computed / hertz - 1), 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test

@@ -1,0 +1,182 @@
+#include "program.hpp"
+
+namespace signorini::test {
+namespace {
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
+
+class Solve : public Program {};
+
+TEST_F(Solve, WritesAllFilesIntoAFolderNamedAfterTheScene) {
+  write("membrane.toml", membrane);
+  const Ended ended = signorini({"solve", "membrane.toml"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(written(), UnorderedElementsAre("membrane"));
+  EXPECT_THAT(written("membrane"),
+              UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "convergence.png", "result.png"));
+  EXPECT_EQ(read(folder_ / "membrane/result.png").substr(1, 3), "PNG");
+  EXPECT_EQ(read(folder_ / "membrane/convergence.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Solve, PrintsTheConvergenceTableAndNothingWhenQuiet) {
+  write("membrane.toml", membrane);
+  const Ended ended = signorini({"solve", "membrane.toml"});
+  EXPECT_THAT(ended.out, HasSubstr("iteration"));
+  EXPECT_THAT(ended.out, HasSubstr("report.json"));
+  EXPECT_EQ(ended.err, "");
+  const Ended quiet = signorini({"solve", "membrane.toml", "--quiet"});
+  EXPECT_EQ(quiet.status, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {
+  write("punch.toml", punch);
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o"}).status, 0);
+  const auto r = report("o");
+  EXPECT_EQ(r.at("title"), "punch");
+  EXPECT_EQ(r.at("scene"), "punch.toml");
+  EXPECT_EQ(r.at("dimension"), 3);
+  EXPECT_EQ(r.at("converged"), true);
+  EXPECT_EQ(r.at("limited_by_rounding").is_boolean(), true);
+  for (const char* key : {"residual", "algebraic_error", "rate", "energy", "peak_memory_mb"})
+    EXPECT_TRUE(r.at(key).is_number_float()) << key;
+  for (const char* key : {"unknowns", "iterations", "linear_phase_from"})
+    EXPECT_TRUE(r.at(key).is_number_integer()) << key;
+  for (const char* key : {"mesh", "assemble", "setup", "solve", "output", "total"})
+    EXPECT_GE(r.at("time").at(key).get<double>(), 0) << key;
+  ASSERT_EQ(r.at("levels").size(), 2u);
+  EXPECT_EQ(r.at("levels")[1].at("unknowns"), r.at("unknowns"));
+  ASSERT_EQ(r.at("history").size(), r.at("iterations"));
+  for (const char* key : {"iteration", "residual", "energy", "contact_nodes", "changed"})
+    EXPECT_TRUE(r.at("history")[0].at(key).is_number()) << key;
+  EXPECT_EQ(r.at("plugins")[0].at("id"), "contact");
+  EXPECT_TRUE(fs::exists(r.at("plugins")[0].at("file").get<std::string>()));
+  EXPECT_TRUE(r.at("estimate").is_null());
+}
+
+TEST_F(Solve, PunchGivesUniformPressureAndItsForce) {
+  write("punch.toml", punch);
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o"}).status, 0);
+  const auto r = report("o");
+  const double pressure = 0.01 * 0.75 / (1.25 * 0.5);  // E (1 - nu) / ((1 + nu) (1 - 2 nu)) times the strain
+  const auto contact = r.at("contact").at(0);
+  EXPECT_EQ(contact.at("obstacle"), 0);
+  EXPECT_EQ(contact.at("nodes"), 25);
+  EXPECT_NEAR(contact.at("area"), 1, 1e-9);
+  EXPECT_NEAR(contact.at("force").at(2), -pressure, 1e-9 * pressure);
+  EXPECT_NEAR(contact.at("max_pressure"), pressure, 1e-9 * pressure);
+  EXPECT_EQ(contact.at("slip_nodes"), 0);
+  EXPECT_EQ(contact.at("stick_nodes"), 0);
+  EXPECT_NEAR(r.at("energy"), 0.5 * 0.01 * pressure, 1e-9 * pressure);
+  EXPECT_EQ(r.at("probes").at(0).at("name"), "top");
+  EXPECT_NEAR(r.at("probes").at(0).at("displacement").at(2), -0.01, 1e-12);
+}
+
+TEST_F(Solve, ScalarProbeIsAValue) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  EXPECT_DOUBLE_EQ(report("o").at("probes").at(0).at("value").get<double>(), 0.5);  // the obstacle's top
+}
+
+TEST_F(Solve, SetOverridesTheScene) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--set", "refine.uniform=1", "--set", "solver.tolerance=1e-3", "--out",
+                       "o", "--set", "obstacle.0.lower=-1"})
+                .status,
+            0);
+  const auto r = report("o");
+  EXPECT_EQ(r.at("unknowns"), 49);
+  EXPECT_EQ(r.at("contact").at(0).at("nodes"), 0);
+}
+
+TEST_F(Solve, OutputSwitchesLeaveFilesOut) {
+  write("membrane.toml", membrane + "[output]\nvtu = false\npictures = false\nconvergence = false\n");
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  EXPECT_THAT(written("o"), UnorderedElementsAre("report.json"));
+}
+
+TEST_F(Solve, StepsWriteASeriesAndEndWhereOneStepDoes) {
+  write("punch.toml", punch + "[steps]\ncount = 3\n");
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o"}).status, 0);
+  EXPECT_THAT(written("o"), IsSupersetOf({"solution_001.vtu", "solution_002.vtu", "solution_003.vtu", "solution.pvd"}));
+  EXPECT_FALSE(fs::exists(folder_ / "o/solution.vtu"));
+  EXPECT_THAT(read(folder_ / "o/solution.pvd"), HasSubstr("solution_003.vtu"));
+  const auto r = report("o");
+  ASSERT_EQ(r.at("steps").size(), 3u);
+  EXPECT_NEAR(r.at("steps")[0].at("probes").at(0).at("displacement").at(2), -0.01 / 3, 1e-12);
+  EXPECT_NEAR(r.at("probes").at(0).at("displacement").at(2), -0.01, 1e-12);
+}
+
+TEST_F(Solve, StartFromZeroGivesTheSameSolution) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "nested"}).status, 0);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "zero", "--set", "solver.start=zero"}).status, 0);
+  const double energy = report("nested").at("energy");
+  EXPECT_NEAR(report("zero").at("energy"), energy, 1e-10 * std::abs(energy));
+}
+
+TEST_F(Solve, IterationLimitWritesResultsMarkedAsNotConverged) {
+  write("membrane.toml", membrane);
+  EXPECT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "solver.max_iterations=1", "--set",
+                       "solver.tolerance=1e-12"})
+                .status,
+            3);
+  EXPECT_EQ(report("o").at("converged"), false);
+  EXPECT_TRUE(fs::exists(folder_ / "o/solution.vtu"));
+}
+
+TEST_F(Solve, WarnsWhereLinearElementsLock) {
+  write("punch.toml", punch);
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o", "--set", "body.0.poisson=0.49"}).status, 0);
+  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("linear elements lock for nearly incompressible material"));
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "p"}).status, 0);
+  EXPECT_TRUE(report("p").at("warnings").empty());
+}
+
+TEST_F(Solve, WithoutGnuplotThereIsANoteInsteadOfPictures) {
+  write("membrane.toml", membrane);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder_.c_str(), 1);
+  const Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.out, HasSubstr("gnuplot is not installed"));
+  EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv"));
+}
+
+TEST_F(Solve, ConvergenceCsvRepeatsTheHistoryInFullPrecision) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  std::istringstream csv(read(folder_ / "o/convergence.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "step,iteration,residual,algebraic_error,energy,contact_nodes,changed");
+  for (const auto& record : report("o").at("history")) {
+    std::getline(csv, line);
+    int step, iteration;
+    double residual;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%d,%lf", &step, &iteration, &residual), 3);
+    EXPECT_EQ(iteration, record.at("iteration"));
+    EXPECT_EQ(residual, record.at("residual").get<double>());
+  }
+  EXPECT_FALSE(std::getline(csv, line));
+}
+
+TEST_F(Solve, VtkReadsTheSolution) {
+  if (std::getenv("SIGNORINI_SKIP_VTK")) GTEST_SKIP();
+  write("punch.toml", punch);
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o"}).status, 0);
+  const std::string command = "/usr/bin/python3 '" SIGNORINI_SOURCE_DIR "/tests/core/io/vtk_dump.py' '" +
+                              (folder_ / "o/solution.vtu").string() + "' > '" + (folder_ / "dump").string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0) << "needs the package python3-vtk9";
+  const std::string dump = read(folder_ / "dump");
+  EXPECT_THAT(dump, HasSubstr("points 125\ncells 384\n"));
+  for (const char* array : {"displacement 3", "stress 9", "von_mises 1", "gap 1", "contact_pressure 1",
+                            "tangential_traction 3", "contact 1"})
+    EXPECT_THAT(dump, HasSubstr(std::string("\npoint ") + array + " "));
+  EXPECT_THAT(dump, testing::Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace signorini::test

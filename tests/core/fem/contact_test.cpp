@@ -1,0 +1,169 @@
+#include "core/fem/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/fem/nested.hpp"
+#include "core/fem/probe.hpp"
+#include "core/mesh/refine.hpp"
+#include "tests/core/fem/support.hpp"
+
+namespace signorini::testing {
+namespace {
+
+// A block pressed by the traction p onto a plane under its bottom, turned in space: uniform stress. Symmetry planes
+// hold it sideways.
+template <int D>
+void expect_flat_punch(bool turned, double gap) {
+  const double p = 0.2;
+  Mesh<D> mesh = distorted_mesh<D>(2);
+  using Matrix = Eigen::Matrix<double, D, D>;
+  const Matrix R = turned ? rotation<D>() : Matrix::Identity();
+  if (turned) rotate_mesh(mesh);
+  Model<D> model;
+  model.poisson = 0.3;
+  for (const std::string part : {"left", "front"})
+    if (part == "left" || D == 3) {
+      model.fixes.push_back(fix<D>(part, {}, Frame::normal));
+      model.fixes.back().value[0] = 0;
+    }
+  Load<D> press{Selection{"top", {}, ""}, {}};
+  std::array<double, D> up;
+  for (int i = 0; i < D; ++i) {
+    up[i] = R(i, D - 1);
+    press.value[i] = -p * up[i];
+  }
+  model.loads.push_back(press);
+  model.obstacles = {term<D>([=](const SurfaceVertex&) { return bound<D>(up, -gap, infinity); }, "bottom")};
+  const auto discrete = discretize(mesh, model);
+  const auto x = solve_bounded(discrete.problem);
+  const auto state = contact_state(mesh, model, discrete, x);
+  ASSERT_EQ(state.obstacles.size(), 1u);
+  EXPECT_EQ(state.obstacles[0].nodes, static_cast<Index>(state.nodes.size()));
+  EXPECT_NEAR(state.obstacles[0].area, 1, 1e-13);
+  EXPECT_NEAR(state.obstacles[0].max_pressure, p, 1e-11);
+  for (int i = 0; i < D; ++i) EXPECT_NEAR(state.obstacles[0].force[i], p * up[i], 1e-12);
+  for (const auto& node : state.nodes) {
+    EXPECT_TRUE(node.contact);
+    EXPECT_NEAR(node.pressure, p, 1e-11);
+    EXPECT_NEAR(node.gap, 0, 1e-15);
+  }
+}
+
+TEST(Contact, FlatPunchHasUniformPressure) {
+  for (const bool turned : {false, true})
+    for (const double gap : {0.0, 0.01}) {
+      expect_flat_punch<2>(turned, gap);
+      expect_flat_punch<3>(turned, gap);
+    }
+}
+
+// -u'' = -1 on (0, 1), u >= -psi: by hand, in a strip of squares.
+TEST(Contact, ScalarForceBalancesTheLoadOverTheCoincidenceSet) {
+  const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {20, 1});
+  Model<1> model;
+  model.fixes = {fix<1>("left", {Field(0.0)}), fix<1>("right", {Field(0.0)})};
+  model.loads = {{{}, {-10.0}}};
+  const double depth = 0.2;  // u = -5 x (2 a - x), a = sqrt(depth / 5) = 0.2, contact on (0.2, 0.8)
+  model.obstacles = {term<1>([=](const SurfaceVertex&) { return bound<1>({1}, -depth, infinity); }, {})};
+  const auto discrete = discretize(mesh, model);
+  const auto x = solve_bounded(discrete.problem);
+  const auto state = contact_state(mesh, model, discrete, x);
+  EXPECT_NEAR(state.obstacles[0].area, 0.6, 0.05 + 1e-12);
+  EXPECT_NEAR(state.obstacles[0].force[0], 6, 1e-10);
+  double volume = 0;
+  for (const auto& node : state.nodes) {
+    volume += node.area;
+    EXPECT_NEAR(node.gap, x[node.vertex] + depth, 1e-15);
+    EXPECT_TRUE(node.contact || node.pressure == 0);
+  }
+  EXPECT_NEAR(volume, 18.0 / 20 + 1.0 / 20, 1e-12);  // without the fixed ends
+}
+
+TEST(Contact, ForcesGoToTheObstacleThatIsTouched) {
+  const Mesh<2> mesh = unit_mesh<2>(2);
+  Model<2> model;
+  model.poisson = 0.3;
+  model.fixes = {fix<2>("left", {0.0, std::nullopt}, Frame::global)};
+  Load<2> pull{Selection{"top", {}, ""}, {0.0, 0.3}};
+  model.loads = {pull};
+  model.obstacles = {term<2>(
+                         [](const SurfaceVertex&) {
+                           return bound<2>({0, 1}, -0.01, infinity);
+                         },
+                         "bottom"),
+                     term<2>(
+                         [](const SurfaceVertex&) {
+                           return bound<2>({0, 1}, -infinity, 0.02);
+                         },
+                         "bottom")};
+  const auto discrete = discretize(mesh, model);
+  const auto state = contact_state(mesh, model, discrete, solve_bounded(discrete.problem));
+  EXPECT_EQ(state.obstacles[0].nodes, 0);
+  EXPECT_EQ(state.obstacles[1].nodes, 3);
+  EXPECT_NEAR(state.obstacles[1].force[1], -0.3, 1e-12);
+  EXPECT_GT(state.obstacles[1].max_pressure, 0);
+}
+
+TEST(Nested, InterpolatesLinearFieldsThroughDifferentFrames) {
+  const MeshHierarchy<3> meshes = hierarchy(unit_mesh<3>(1), 1);
+  const auto linear = [](const Site& s, int i) { return 0.1 * i + s.x[0] - 0.5 * s.x[1] * (i + 1) + 0.3 * s.x[2]; };
+  Model<3> model;
+  model.fixes = {fix<3>("left", {expression([&](const Site& s) { return linear(s, 0); }), std::nullopt, std::nullopt})};
+  model.obstacles = {term<3>(
+      [](const SurfaceVertex& v) {
+        const Eigen::Vector3d d = Eigen::Vector3d(1 + v.position[1], 2 - v.position[0], 1).normalized();
+        return bound<3>({d[0], d[1], d[2]}, -9, 9);
+      },
+      "bottom")};
+  const auto coarse = discretize(meshes.levels[0], model), fine = discretize(meshes.levels[1], model);
+  const auto exact = [&](const Mesh<3>& mesh) {
+    std::vector<double> u;
+    for (const auto& x : mesh.points)
+      for (int i = 0; i < 3; ++i) u.push_back(linear({{x[0], x[1], x[2]}, {}, 1}, i));
+    return u;
+  };
+  const Prolongation P = prolongation(meshes.refinements[0], meshes.levels[0].vertices());
+  EXPECT_EQ(P.coarse, meshes.levels[0].vertices());
+  ASSERT_EQ(P.fine(), meshes.levels[1].vertices());
+  const auto x = interpolate(coarse.problem, to_local(coarse.problem, exact(meshes.levels[0])), P, fine.problem);
+  const auto u = to_global(fine.problem, x), expected = exact(meshes.levels[1]);
+  for (std::size_t k = 0; k < u.size(); ++k) EXPECT_NEAR(u[k], expected[k], 1e-14);
+}
+
+template <int D>
+void expect_probe_of_linear_field() {
+  Mesh<D> mesh = distorted_mesh<D>(3);
+  const auto linear = [](const Point<D>& x) { return 1 + 2 * x[0] - 3 * x[1] + (D == 3 ? x[D - 1] : 0); };
+  std::vector<double> u;
+  for (const auto& x : mesh.points) u.push_back(linear(x));
+  Point<D> inside, vertex = mesh.points[mesh.vertices() / 2];
+  inside.fill(0.37);
+  inside[0] = 0.61;
+  for (const Point<D>& x : {inside, vertex})
+    EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, x, "probe.0"), u)[0]), linear(x), 1e-13);
+  Point<D> outside = inside, nearest = inside;
+  outside[1] = 1.05;
+  nearest[1] = 1;
+  EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, outside, "probe.0"), u)[0]), linear(nearest), 1e-13);
+  outside[0] = 1.1;
+  nearest[0] = 1;
+  EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, outside, "probe.0"), u)[0]), linear(nearest), 1e-13);
+  outside[1] = 3;
+  try {
+    locate<D>(mesh, outside, "scene.toml:20: probe.0");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status(), Exit::input);
+    EXPECT_NE(std::string(e.what()).find("scene.toml:20: probe.0"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("1.1, 3"), std::string::npos);
+  }
+}
+
+TEST(Probe, FindsElementsInsideAndNearTheBody) {
+  expect_probe_of_linear_field<2>();
+  expect_probe_of_linear_field<3>();
+}
+
+}  // namespace
+}  // namespace signorini::testing

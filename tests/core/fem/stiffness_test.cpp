@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/error.hpp"
+#include "core/fem/assemble.hpp"
+#include "tests/core/fem/support.hpp"
+
+namespace signorini::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+template <int D>
+Mesh<D> reference_element() {
+  Mesh<D> mesh;
+  mesh.points.resize(D + 1);
+  for (int i = 0; i < D; ++i) mesh.points[i + 1][i] = 1;
+  for (int i = 0; i <= D; ++i) mesh.elements.resize(1), mesh.elements[0][i] = i;
+  return mesh;
+}
+
+TEST(Stiffness, DiffusionOnTheReferenceTriangle) {
+  Model<1> model;
+  model.diffusion = 2;
+  Eigen::Matrix3d expected;
+  expected << 2, -1, -1, -1, 1, 0, -1, 0, 1;
+  EXPECT_LT((dense(stiffness(reference_element<2>(), model)) - expected).norm(), 1e-15);
+}
+
+TEST(Stiffness, DiffusionOnTheReferenceTetrahedron) {
+  Eigen::Matrix4d expected;
+  expected << 3, -1, -1, -1, -1, 1, 0, 0, -1, 0, 1, 0, -1, 0, 0, 1;
+  EXPECT_LT((dense(stiffness(reference_element<3>(), Model<1>{})) - expected / 6).norm(), 1e-15);
+}
+
+// B' C B area with the strain matrix B of the reference triangle and Hooke's matrix C.
+Eigen::MatrixXd triangle_elasticity(const Eigen::Matrix3d& C) {
+  Eigen::Matrix<double, 3, 6> strain;
+  strain << -1, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 1, -1, -1, 0, 1, 1, 0;
+  return 0.5 * strain.transpose() * C * strain;
+}
+
+TEST(Stiffness, ElasticityOnTheReferenceTriangle) {
+  const double E = 3, nu = 0.3;
+  Model<2> model;
+  model.young = E;
+  model.poisson = nu;
+  Eigen::Matrix3d C;
+  C << 1 - nu, nu, 0, nu, 1 - nu, 0, 0, 0, (1 - 2 * nu) / 2;
+  EXPECT_LT(
+      (dense(stiffness(reference_element<2>(), model)) - triangle_elasticity(E / ((1 + nu) * (1 - 2 * nu)) * C)).norm(),
+      1e-14);
+  model.plane = Plane::stress;
+  C << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
+  EXPECT_LT((dense(stiffness(reference_element<2>(), model)) - triangle_elasticity(E / (1 - nu * nu) * C)).norm(),
+            1e-14);
+}
+
+template <int D, int B>
+void expect_layout_and_symmetry() {
+  Model<B> model;
+  model.poisson = 0.3;
+  const BlockMatrix<B> A = stiffness(distorted_mesh<D>(4), model);
+  ASSERT_EQ(A.row.back(), static_cast<Offset>(A.column.size()));
+  ASSERT_EQ(A.value.size(), A.column.size() * B * B);
+  for (Index p = 0; p < A.size(); ++p) {
+    EXPECT_EQ(A.column[A.row[p]], p);
+    EXPECT_TRUE(std::is_sorted(A.column.begin() + A.row[p] + 1, A.column.begin() + A.row[p + 1]));
+  }
+  const Eigen::MatrixXd M = dense(A);
+  EXPECT_EQ((M - M.transpose()).norm(), 0);
+}
+
+TEST(Stiffness, RowsStartWithTheDiagonalAndTheMatrixIsSymmetric) {
+  expect_layout_and_symmetry<2, 1>();
+  expect_layout_and_symmetry<3, 1>();
+  expect_layout_and_symmetry<2, 2>();
+  expect_layout_and_symmetry<3, 3>();
+}
+
+template <int D>
+void expect_kernel_is_rigid() {
+  Model<D> model;
+  model.young = 10;
+  model.poisson = 0.4;
+  Mesh<D> mesh = distorted_mesh<D>(2);
+  rotate_mesh(mesh);
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(stiffness(mesh, model))).eigenvalues();
+  const int modes = D * (D + 1) / 2;
+  EXPECT_LT(values.head(modes).cwiseAbs().maxCoeff(), 1e-13 * values.maxCoeff());
+  EXPECT_GT(values[modes], 1e-4 * values.maxCoeff());
+}
+
+TEST(Stiffness, KernelConsistsOfTheRigidMotions) {
+  expect_kernel_is_rigid<2>();
+  expect_kernel_is_rigid<3>();
+}
+
+TEST(Stiffness, ExpressionsAreTakenAtTheCentroids) {
+  Model<1> model;
+  model.diffusion = expression([](const Site& s) { return 1 + 3 * s.x[0] + s.x[1] * s.t; });
+  model.t = 6;
+  const Eigen::Matrix3d A = dense(stiffness(reference_element<2>(), model));
+  EXPECT_NEAR(A(0, 0), 1 + 1 + 2, 1e-14);
+}
+
+template <int D, int B>
+std::string message(const Mesh<D>& mesh, const Model<B>& model) {
+  try {
+    stiffness(mesh, model);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status(), Exit::input);
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(Stiffness, RejectsCoefficientsOutOfRange) {
+  const Mesh<2> mesh = unit_mesh<2>(2);
+  Model<1> scalar;
+  scalar.diffusion = expression([](const Site& s) { return s.x[0] - 0.5; }, "x - 0.5");
+  EXPECT_THAT(message(mesh, scalar), ::testing::AllOf(HasSubstr("scene.toml:1"), HasSubstr("x - 0.5"),
+                                                      HasSubstr("(0.3333"), HasSubstr("positive")));
+  Model<2> elastic;
+  for (const double nu : {0.5, 0.7, -1.0}) {
+    elastic.poisson = nu;
+    EXPECT_THAT(message(mesh, elastic), HasSubstr("poisson"));
+  }
+  elastic.poisson = 0.3;
+  for (const double E : {0.0, -1.0}) {
+    elastic.young = E;
+    EXPECT_THAT(message(mesh, elastic), HasSubstr("young"));
+  }
+}
+
+TEST(Stiffness, RejectsInvertedElements) {
+  Mesh<3> mesh = reference_element<3>();
+  std::swap(mesh.elements[0][0], mesh.elements[0][1]);
+  EXPECT_THAT(message(mesh, Model<1>{}), HasSubstr("volume"));
+}
+
+}  // namespace
+}  // namespace signorini::testing

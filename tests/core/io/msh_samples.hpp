@@ -1,0 +1,158 @@
+#pragma once
+#include <fmt/format.h>
+
+#include "mesh_samples.hpp"
+
+namespace signorini::test {
+
+struct MshVariant {
+  int version;  ///< 2: 2.2, 4: 4.1
+  bool binary = false;
+  bool swapped = false;
+  Offset stride = 1;  ///< between the tags of nodes
+};
+
+/// Writes MSH files of all kinds, after the Gmsh reference manual.
+class MshWriter : ByteWriter {
+ public:
+  MshWriter(const Sample& sample, MshVariant variant)
+      : ByteWriter(variant.swapped), sample_(sample), variant_(variant) {}
+
+  std::string write() {
+    out += fmt::format("$MeshFormat\n{} {} 8\n", variant_.version == 2 ? "2.2" : "4.1", variant_.binary ? 1 : 0);
+    if (variant_.binary) add<std::int32_t>(1), out += '\n';
+    out += fmt::format("$EndMeshFormat\n$PhysicalNames\n{}\n", sample_.names.size());
+    for (const auto& [key, name] : sample_.names) out += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
+    out += "$EndPhysicalNames\n";
+    if (variant_.version == 4) write_entities();
+    out += "$Nodes\n";
+    variant_.version == 2 ? write_nodes_2() : write_nodes_4();
+    out += variant_.binary ? "\n$EndNodes\n$Elements\n" : "$EndNodes\n$Elements\n";
+    variant_.version == 2 ? write_elements_2() : write_elements_4();
+    out += variant_.binary ? "\n$EndElements\n" : "$EndElements\n";
+    return out;
+  }
+
+ private:
+  template <class T>
+  void put(T value, char separator = ' ') {
+    if (variant_.binary)
+      add<T>(value);
+    else
+      out += fmt::format("{}{}", value, separator);
+  }
+  using Int = std::int32_t;
+  using Size = std::uint64_t;
+
+  Offset tag(std::size_t node) const { return 1 + static_cast<Offset>(node) * variant_.stride; }
+  static int type(int dimension) { return dimension == 1 ? 1 : dimension == 2 ? 2 : 4; }
+
+  void write_entities() {
+    out += "$Entities\n";
+    put<Size>(1);  // a point
+    for (int dimension = 1; dimension <= 3; ++dimension)
+      put<Size>(std::ranges::count_if(sample_.blocks, [&](const auto& b) { return b.dimension == dimension; }));
+    put<Int>(1);
+    for (int k = 0; k < 3; ++k) put<double>(0.25);
+    put<Size>(1);
+    put<Int>(77, '\n');
+    for (int dimension = 1; dimension <= 3; ++dimension)
+      for (const SampleBlock& block : sample_.blocks)
+        if (block.dimension == dimension) {
+          put<Int>(block.tag);
+          for (int k = 0; k < 6; ++k) put<double>(k);
+          put<Size>(block.physicals.size());
+          for (const int p : block.physicals) put<Int>(p);
+          put<Size>(2);
+          put<Int>(1);
+          put<Int>(-1, '\n');
+        }
+    out += variant_.binary ? "\n$EndEntities\n" : "$EndEntities\n";
+  }
+
+  void write_nodes_2() {
+    out += fmt::format("{}\n", sample_.points.size());
+    for (std::size_t i = 0; i < sample_.points.size(); ++i) {
+      put<Int>(static_cast<Int>(tag(i)));
+      write_point(i);
+    }
+  }
+
+  void write_point(std::size_t i) {
+    for (int k = 0; k < 3; ++k) put<double>(sample_.points[i][k], k == 2 ? '\n' : ' ');
+  }
+
+  /// Two blocks: the first ones on a surface, with parameters.
+  void write_nodes_4() {
+    const std::size_t n = sample_.points.size(), half = n / 2;
+    put<Size>(2);
+    put<Size>(n);
+    put<Size>(1);
+    put<Size>(tag(n - 1), '\n');
+    for (const auto& [first, last] : {std::pair{std::size_t{0}, half}, {half, n}}) {
+      const bool parametric = first == 0;
+      put<Int>(2);
+      put<Int>(1);
+      put<Int>(parametric);
+      put<Size>(last - first, '\n');
+      for (std::size_t i = first; i < last; ++i) put<Size>(tag(i), '\n');
+      for (std::size_t i = first; i < last; ++i) {
+        write_point(i);
+        if (parametric) put<double>(0.1), put<double>(0.2, '\n');
+      }
+    }
+  }
+
+  void write_elements_2() {
+    std::size_t n = 1;  // a point
+    for (const SampleBlock& block : sample_.blocks) n += block.cells.size() * block.physicals.size();
+    out += fmt::format("{}\n", n);
+    Int number = 1;
+    if (variant_.binary)
+      for (const Int k : {15, 1, 2, number, 77, 1, Int(tag(0))}) put<Int>(k);
+    else
+      out += fmt::format("{} 15 2 77 1 {}\n", number, tag(0));
+    for (const SampleBlock& block : sample_.blocks)
+      for (const int physical : block.physicals) {
+        if (variant_.binary) {
+          put<Int>(type(block.dimension));
+          put<Int>(static_cast<Int>(block.cells.size()));
+          put<Int>(2);
+        }
+        for (const auto& cell : block.cells) {
+          put<Int>(++number);
+          if (!variant_.binary) out += fmt::format("{} 2 ", type(block.dimension));
+          put<Int>(physical);
+          put<Int>(block.tag);
+          for (const Index v : cell) put<Int>(static_cast<Int>(tag(v)));
+          if (!variant_.binary) out += '\n';
+        }
+      }
+  }
+
+  void write_elements_4() {
+    std::size_t n = 0;
+    for (const SampleBlock& block : sample_.blocks) n += block.cells.size();
+    put<Size>(sample_.blocks.size());
+    put<Size>(n);
+    put<Size>(1);
+    put<Size>(n, '\n');
+    Size number = 0;
+    for (const SampleBlock& block : sample_.blocks) {
+      put<Int>(block.dimension);
+      put<Int>(block.tag);
+      put<Int>(type(block.dimension));
+      put<Size>(block.cells.size(), '\n');
+      for (const auto& cell : block.cells) {
+        put<Size>(++number);
+        for (const Index v : cell) put<Size>(tag(v));
+        if (!variant_.binary) out += '\n';
+      }
+    }
+  }
+
+  const Sample& sample_;
+  MshVariant variant_;
+};
+
+}  // namespace signorini::test

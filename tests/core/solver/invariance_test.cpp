@@ -1,0 +1,190 @@
+// What must not change the answer: units, the numbering of the vectors, the fineness of the mesh.
+#include <gtest/gtest.h>
+
+#include "tests/core/solver/cases.hpp"
+#include "tests/support/pdas.hpp"
+#include "tests/support/random.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <int B>
+void scale(Nested<B>& nested, double matrix, double unknown) {
+  for (DiscreteProblem<B>& p : nested.levels) {
+    std::vector<double> prescribed = p.start;
+    for (Index q = 0; q < p.A.size(); ++q)
+      for (Offset k = p.A.row[q]; k < p.A.row[q + 1]; ++k)
+        for (int i = 0; i < B; ++i)
+          for (int j = 0; j < B; ++j)
+            if (!(p.fixed[q] >> i & 1) && !(p.fixed[p.A.column[k]] >> j & 1)) p.A.at(k)[i * B + j] *= matrix;
+    for (std::size_t i = 0; i < p.b.size(); ++i) p.b[i] *= p.fixed[i / B] >> (i % B) & 1 ? unknown : matrix * unknown;
+    for (double& v : p.start) v *= unknown;
+    for (double& v : p.constraints.lower) v *= unknown;
+    for (double& v : p.constraints.upper) v *= unknown;
+    p.prescribed_energy *= matrix * unknown * unknown;
+    for (double& v : p.coupling) v *= matrix * unknown;
+  }
+}
+
+template <int B>
+void expect_independent_of_units(const Case<B>& c) {
+  std::vector<double> x;
+  const Summary original = solve_from_zero(c.nested, x);
+  for (const double matrix : {1e-6, 1e9})
+    for (const double unknown : {1e-3, 1e3}) {
+      Nested<B> other = c.nested;
+      scale(other, matrix, unknown);
+      std::vector<double> y;
+      const Summary scaled = solve_from_zero(other, y);
+      EXPECT_EQ(scaled.iterations, original.iterations) << c.name << ", " << matrix << ", " << unknown;
+      EXPECT_EQ(scaled.outcome, original.outcome) << c.name << ", " << matrix << ", " << unknown;
+      EXPECT_LE((vector(y) / unknown - vector(x)).norm(), 1e-12 * vector(x).norm()) << c.name;
+    }
+}
+
+TEST(Invariance, UnitsOfTheDiscreteProblem) {
+  for (const auto& c : scalar_cases()) expect_independent_of_units(c);
+  for (const auto& c : plane_cases()) expect_independent_of_units(c);
+  for (const auto& c : space_cases()) expect_independent_of_units(c);
+}
+
+// The scene in units of a thousandth: coordinates, displacements and bounds by 1e3, moduli and loads by 1e-6.
+TEST(Invariance, UnitsOfTheScene) {
+  const auto block = [](double length, double modulus) {
+    Model<2> model = pressed_block<2>(sphere<2>({0.4 * length, -length}, 0.98 * length), 0.08 * length);
+    model.young = Field(modulus);
+    return discretize_all<2, 2>(cube<2>(0, length, 2), 3, model);
+  };
+  std::vector<double> x, y;
+  const auto metres = block(1, 1), millimetres = block(1e3, 1e-6);
+  const Summary first = solve_from_zero(metres, x), second = solve_from_zero(millimetres, y);
+  EXPECT_EQ(first.iterations, second.iterations);
+  EXPECT_LE((vector(y) / 1e3 - vector(x)).norm(), 1e-10 * vector(x).norm());
+}
+
+std::vector<Index> shuffled(Random& random, Index n) {
+  std::vector<Index> order(static_cast<std::size_t>(n));
+  for (Index p = 0; p < n; ++p) order[p] = p;
+  for (Index p = n - 1; p > 0; --p) std::swap(order[p], order[random.below(p + 1)]);
+  return order;
+}
+
+// `to[p]` is the new number of vector p.
+template <int B>
+DiscreteProblem<B> renumbered(const DiscreteProblem<B>& p, const std::vector<Index>& to) {
+  const auto n = static_cast<std::size_t>(p.A.size());
+  std::vector<Index> from(n);
+  for (std::size_t q = 0; q < n; ++q) from[to[q]] = static_cast<Index>(q);
+  DiscreteProblem<B> out = p;
+  out.A = {};
+  out.frames = {};
+  out.constraints = {};
+  out.constraints.slot.assign(n, -1);
+  if (!p.frames.slot.empty()) out.frames.slot.assign(n, -1);
+  for (std::size_t row = 0; row < n; ++row) {
+    const Index old = from[row];
+    std::vector<std::pair<Index, Offset>> entries;
+    for (Offset k = p.A.row[old]; k < p.A.row[old + 1]; ++k) entries.emplace_back(to[p.A.column[k]], k);
+    std::sort(entries.begin() + 1, entries.end());
+    for (const auto& [column, k] : entries) {
+      out.A.column.push_back(column);
+      out.A.value.insert(out.A.value.end(), p.A.at(k), p.A.at(k) + B * B);
+    }
+    out.A.row.push_back(static_cast<Offset>(out.A.column.size()));
+    out.fixed[row] = p.fixed[old];
+    std::copy_n(p.b.begin() + old * B, B, out.b.begin() + static_cast<std::ptrdiff_t>(row) * B);
+    std::copy_n(p.start.begin() + old * B, B, out.start.begin() + static_cast<std::ptrdiff_t>(row) * B);
+    if (const double* Q = p.frames.at(old)) {
+      out.frames.slot[row] = static_cast<Index>(out.frames.basis.size()) / (B * B);
+      out.frames.basis.insert(out.frames.basis.end(), Q, Q + B * B);
+    }
+    if (const Index slot = p.constraints.slot[old]; slot >= 0) {
+      out.constraints.slot[row] = out.constraints.size();
+      out.constraints.vector.push_back(static_cast<Index>(row));
+      for (int k = 0; k < B; ++k) {
+        out.constraints.lower.push_back(p.constraints.lower[slot * B + k]);
+        out.constraints.upper.push_back(p.constraints.upper[slot * B + k]);
+      }
+    }
+  }
+  for (Index& q : out.coupled) q = to[q];  // their order does not matter to sums
+  if (!p.segments.empty()) out.segments = {{0, static_cast<Index>(n), p.segments.front().obstacle}};
+  return out;
+}
+
+Prolongation renumbered(const Prolongation& P, const std::vector<Index>& coarse, const std::vector<Index>& fine) {
+  std::vector<Index> from(fine.size());
+  for (std::size_t p = 0; p < fine.size(); ++p) from[fine[p]] = static_cast<Index>(p);
+  Prolongation out;
+  out.coarse = P.coarse;
+  for (const Index p : from) {
+    std::vector<std::pair<Index, double>> row;
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) row.emplace_back(coarse[P.column[k]], P.weight[k]);
+    std::sort(row.begin(), row.end());
+    for (const auto& [q, weight] : row) {
+      out.column.push_back(q);
+      out.weight.push_back(weight);
+    }
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+  }
+  return out;
+}
+
+template <int B>
+void expect_independent_of_numbering(const Case<B>& c, Random& random) {
+  SolverOptions options;
+  options.smoother = "symmetric";
+  options.tolerance = 1e-9;
+  std::vector<double> x;
+  const Summary original = solve_from_zero(c.nested, x, options);
+  std::vector<std::vector<Index>> to;
+  Nested<B> other;
+  for (const DiscreteProblem<B>& p : c.nested.levels) {
+    to.push_back(shuffled(random, p.A.size()));
+    other.levels.push_back(renumbered(p, to.back()));
+  }
+  for (std::size_t k = 0; k < c.nested.prolongations.size(); ++k)
+    other.prolongations.push_back(renumbered(c.nested.prolongations[k], to[k], to[k + 1]));
+  std::vector<double> y, back(x.size());
+  const Summary permuted = solve_from_zero(other, y, options);
+  for (std::size_t p = 0; p < to.back().size(); ++p)
+    std::copy_n(y.begin() + to.back()[p] * B, B, back.begin() + static_cast<std::ptrdiff_t>(p) * B);
+  EXPECT_LE((vector(back) - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
+  EXPECT_NEAR(permuted.iterations, original.iterations, 1) << c.name;
+}
+
+TEST(Invariance, NumberingOfTheVectors) {
+  Random random(51);
+  for (const auto& c : scalar_cases()) expect_independent_of_numbering(c, random);
+  for (const auto& c : plane_cases()) expect_independent_of_numbering(c, random);
+  for (const auto& c : space_cases()) expect_independent_of_numbering(c, random);
+}
+
+template <int B>
+void expect_mesh_independence(const std::string& name, const Nested<B>& finest, std::size_t first) {
+  int last = 1000;
+  for (std::size_t levels = first; levels <= finest.levels.size(); ++levels) {
+    Nested<B> here;
+    here.levels.assign(finest.levels.begin(), finest.levels.begin() + static_cast<std::ptrdiff_t>(levels));
+    here.prolongations.assign(finest.prolongations.begin(),
+                              finest.prolongations.begin() + static_cast<std::ptrdiff_t>(levels) - 1);
+    std::vector<double> x;
+    const Summary s = solve_nested(here, x);
+    EXPECT_TRUE(s.converged());
+    EXPECT_LE(s.iterations, last + 1) << name << ", " << levels << " levels";
+    if (std::getenv("SHOW"))
+      std::printf("%s, %zu levels: %d cycles, rate %.3f\n", name.c_str(), levels, s.iterations, s.rate);
+    last = s.iterations;
+  }
+}
+
+TEST(Invariance, IterationsDoNotGrowWithTheMesh) {
+  expect_mesh_independence("radial2", discretize_all<2, 1>(cube<2>(-2, 2, 4), 6, radial_model<2>()), 4);
+  expect_mesh_independence("radial3", discretize_all<3, 1>(cube<3>(-2, 2, 3), 3, radial_model<3>()), 3);
+  expect_mesh_independence(
+      "circle", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, pressed_block<2>(sphere<2>({0.4, -1}, 0.98), 0.08)), 4);
+  expect_mesh_independence("held", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, resting_block<2>({0.1, -1}, {"left"})), 4);
+}
+
+}  // namespace
+}  // namespace signorini::test

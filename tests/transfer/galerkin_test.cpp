@@ -1,0 +1,148 @@
+// Coarse matrices: the Galerkin product with all modifiers, local reassembly, and the stiffness of coarse meshes.
+#include <gtest/gtest.h>
+
+#include "tests/support/problems.hpp"
+#include "tests/transfer/two_levels.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <class Size>
+class Galerkin : public testing::Test {};
+using Sizes =
+    testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(Galerkin, Sizes);
+
+// P'AP, and one on the diagonal of what is off.
+template <int B>
+Eigen::MatrixXd galerkin(const Level<B>& fine, const Prolongation& P, const Level<B>& coarse) {
+  const Eigen::MatrixXd T = interpolation(fine, P, coarse);
+  Eigen::MatrixXd C = T.transpose() * dense(*fine.A) * T;
+  for (Index q = 0; q < coarse.vectors; ++q)
+    for (int k = 0; k < B; ++k)
+      if (coarse.off[q] >> k & 1) C(q * B + k, q * B + k) = 1;
+  return C;
+}
+
+TYPED_TEST(Galerkin, EqualsTheDenseProduct) {
+  constexpr int B = TypeParam::value;
+  Random random(21);
+  for (int trial = 0; trial < 40; ++trial) {
+    TwoLevels<B> t(random, 30, trial % 2 == 0);
+    truncate(t.fine, random_flags<B>(random, 30, 0.15 * (trial % 4)));
+    EXPECT_EQ(t.transfer.assemble(t.fine, t.coarse), t.coarse.vectors);
+    const Eigen::MatrixXd C = galerkin(t.fine, t.P, t.coarse);
+    EXPECT_LE((dense(t.coarse.own_matrix) - C).norm(), 1e-14 * C.norm()) << trial;
+    for (Index q = 0; q < t.coarse.vectors; ++q) {
+      Eigen::Matrix<double, B, B> inverse;
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) inverse(i, j) = t.coarse.inverse[(q * B + i) * B + j];
+      const Eigen::Matrix<double, B, B> D = C.block(q * B, q * B, B, B);
+      if (t.coarse.off[q] == 0 && D.fullPivLu().rcond() > 1e-6)
+        EXPECT_LE((inverse * D - Eigen::Matrix<double, B, B>::Identity()).norm(), 1e-8) << "DBG\n"
+                                                                                        << D << "\n inv\n"
+                                                                                        << inverse << "\n";
+    }
+  }
+}
+
+/// Three levels under random phase changes.
+template <int B>
+struct Chain {
+  const DiscreteProblem<B>& problem;
+  const std::array<Prolongation, 2>& P;  // coarsest first
+  std::array<Level<B>, 3> levels;
+  std::array<MinMerge<B>, 2> transfer;
+
+  Chain(const DiscreteProblem<B>& on, const std::array<Prolongation, 2>& by, bool rotate) : problem(on), P(by) {
+    levels[2] = finest_level(problem);
+    allocate(levels[2]);
+    for (int k = 1; k >= 0; --k) {
+      transfer[k].prepare(levels[k + 1], P[k], rotate, levels[k]);
+      allocate(levels[k]);
+    }
+  }
+
+  // Returns the number of rows recomputed.
+  Index assemble(const std::vector<Flags>& finest, const std::vector<Flags>& middle) {
+    truncate(levels[2], finest);
+    Index rows = transfer[1].assemble(levels[2], levels[1]);
+    truncate(levels[1], middle);
+    rows += transfer[0].assemble(levels[1], levels[0]);
+    return rows;
+  }
+};
+
+template <int B>
+void expect_same_matrices(const Chain<B>& a, const Chain<B>& b) {
+  for (int k = 0; k < 2; ++k) {
+    ASSERT_EQ(a.levels[k].off, b.levels[k].off) << "level " << k;
+    ASSERT_EQ(a.levels[k].own_matrix.value, b.levels[k].own_matrix.value) << "level " << k;
+    ASSERT_EQ(a.levels[k].inverse, b.levels[k].inverse) << "level " << k;
+  }
+}
+
+TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
+  constexpr int B = TypeParam::value;
+  constexpr Index n = 240;
+  Random random(22);
+  for (const bool rotate : {true, false}) {
+    auto problem = random_problem<B>(random, n, 1);
+    problem.A = random_matrix<B>(random, n, 1);
+    problem.frames = random_frames<B>(random, n);
+    const std::array<Prolongation, 2> P = {random_prolongation(random, n / 16, n / 4),
+                                           random_prolongation(random, n / 4, n)};
+    Chain<B> chain(problem, P, rotate);
+    std::vector<Flags> finest = random_flags<B>(random, n, 0.1), middle = random_flags<B>(random, n / 4, 0.1);
+    chain.assemble(finest, middle);
+    Index fewest = n;
+    for (int change = 0; change < 60; ++change) {
+      // A few flags flip; now and then nearly everything is in contact, so that coarse vectors lose all they have.
+      if (change % 20 == 10) finest = random_flags<B>(random, n, 0.9);
+      if (change % 20 == 15) finest.assign(n, 0);
+      for (int flips = random.below(4); flips > 0; --flips)
+        finest[random.below(n)] = static_cast<Flags>(random.below(1 << B));
+      if (change % 3 == 0) middle[random.below(n / 4)] = static_cast<Flags>(random.below(1 << B));
+      const Index rows = chain.assemble(finest, middle);
+      if (rows > 0) fewest = std::min(fewest, rows);
+      Chain<B> fresh(problem, P, rotate);
+      fresh.assemble(finest, middle);
+      expect_same_matrices(chain, fresh);
+      if (this->HasFatalFailure()) FAIL() << "change " << change << ", rotate " << rotate;
+      EXPECT_EQ(chain.assemble(finest, middle), 0) << "nothing changed";
+    }
+    EXPECT_LT(fewest, (n / 4 + n / 16) / 3);
+  }
+}
+
+template <int D, int B>
+void expect_coarse_stiffness(const Mesh<D>& coarsest) {
+  Model<B> model;
+  model.poisson = 0.3;
+  const MeshHierarchy<D> meshes = hierarchy<D>(coarsest, 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    DiscreteProblem<B> fine_problem;
+    fine_problem.A = stiffness<D, B>(meshes.levels[k + 1], model);
+    fine_problem.b.assign(static_cast<std::size_t>(fine_problem.A.size()) * B, 0);
+    fine_problem.fixed.assign(static_cast<std::size_t>(fine_problem.A.size()), 0);
+    const Prolongation P = prolongation(meshes.refinements[k], meshes.levels[k].vertices());
+    Level<B> fine = finest_level(fine_problem), coarse;
+    allocate(fine);
+    MinMerge<B> transfer;
+    transfer.prepare(fine, P, true, coarse);
+    allocate(coarse);
+    transfer.assemble(fine, coarse);
+    const Eigen::MatrixXd expected = dense(stiffness<D, B>(meshes.levels[k], model));
+    EXPECT_LE((dense(coarse.own_matrix) - expected).norm(), 1e-13 * expected.norm());
+  }
+}
+
+TEST(GalerkinOnNestedMeshes, EqualsTheCoarseStiffness) {
+  expect_coarse_stiffness<2, 1>(rectangle({0, 0}, {2, 1}, {3, 2}));
+  expect_coarse_stiffness<2, 2>(rectangle({0, 0}, {2, 1}, {3, 2}));
+  expect_coarse_stiffness<3, 1>(box({0, 0, 0}, {1, 1, 2}, {1, 1, 2}));
+  expect_coarse_stiffness<3, 3>(box({0, 0, 0}, {1, 1, 2}, {1, 1, 2}));
+}
+
+}  // namespace
+}  // namespace signorini::test

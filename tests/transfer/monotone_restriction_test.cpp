@@ -1,0 +1,162 @@
+// Every admissible coarse correction is an admissible fine correction, whatever the weights, frames and phases.
+#include <gtest/gtest.h>
+
+#include "tests/transfer/two_levels.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <class Size>
+class MonotoneRestriction : public testing::Test {};
+using Sizes =
+    testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+TYPED_TEST_SUITE(MonotoneRestriction, Sizes);
+
+// A corner or an inner point of the coarse box; up to 1e6 where there is no bound.
+template <int B>
+std::vector<double> random_correction(Random& random, const Level<B>& coarse, bool corner) {
+  std::vector<double> c(static_cast<std::size_t>(coarse.vectors) * B);
+  for (Index q = 0; q < coarse.vectors; ++q)
+    for (int k = 0; k < B; ++k) {
+      if (coarse.off[q] >> k & 1) continue;
+      double lower = -1e6, upper = 1e6;
+      if (const Index slot = coarse.constraints.slot[q]; slot >= 0) {
+        lower = std::max(lower, coarse.constraints.lower[slot * B + k]);
+        upper = std::min(upper, coarse.constraints.upper[slot * B + k]);
+      }
+      c[q * B + k] = corner ? (random.chance(0.5) ? lower : upper) : random.between(lower, upper);
+    }
+  return c;
+}
+
+// Up to rounding of the rotations, which mix all components of a vector.
+template <int B>
+void expect_admissible(const TwoLevels<B>& t, const Eigen::MatrixXd& T, const std::vector<double>& correction) {
+  const Eigen::VectorXd d = T * vector(correction);
+  for (Index slot = 0; slot < t.fine.constraints.size(); ++slot) {
+    const Index p = t.fine.constraints.vector[slot];
+    double size = 0;
+    for (Offset k = t.P.row[p]; k < t.P.row[p + 1]; ++k)
+      size += std::fabs(t.P.weight[k]) * block::norm<B>(correction.data() + t.P.column[k] * B);
+    for (int k = 0; k < B; ++k) {
+      ASSERT_GE(d[p * B + k], t.fine.lower[slot * B + k] - 1e-14 * size);
+      ASSERT_LE(d[p * B + k], t.fine.upper[slot * B + k] + 1e-14 * size);
+    }
+  }
+}
+
+TYPED_TEST(MonotoneRestriction, KeepsEveryCoarseCorrectionAdmissible) {
+  constexpr int B = TypeParam::value;
+  Random random(11);
+  for (int trial = 0; trial < 200; ++trial) {
+    TwoLevels<B> t(random, 30, trial % 2 == 0);
+    truncate(t.fine, random_flags<B>(random, 30, 0.2 * (trial % 3)));
+    t.transfer.assemble(t.fine, t.coarse);
+    t.transfer.restrict_bounds(t.fine, t.coarse);
+    for (const double lower : t.coarse.constraints.lower) ASSERT_LE(lower, 0);
+    for (const double upper : t.coarse.constraints.upper) ASSERT_GE(upper, 0);
+    const Eigen::MatrixXd T = interpolation(t.fine, t.P, t.coarse);
+    for (int point = 0; point < 20; ++point)
+      expect_admissible(t, T, random_correction(random, t.coarse, point % 2 == 0));
+  }
+}
+
+TYPED_TEST(MonotoneRestriction, BoundsInnerCoarseVectorsThatReachConstrainedFineOnes) {
+  constexpr int B = TypeParam::value;
+  Random random(12);
+  TwoLevels<B> t(random, 60, true);
+  t.transfer.assemble(t.fine, t.coarse);
+  std::fill(t.fine.lower.begin(), t.fine.lower.end(), -1.0);
+  std::fill(t.fine.upper.begin(), t.fine.upper.end(), 1.0);
+  t.transfer.restrict_bounds(t.fine, t.coarse);
+  int inner = 0;
+  for (const Index p : t.fine.constraints.vector)
+    for (Offset k = t.P.row[p]; k < t.P.row[p + 1]; ++k) {
+      const Index q = t.P.column[k], slot = t.coarse.constraints.slot[q];
+      ASSERT_GE(slot, 0);
+      inner += t.fine.constraints.slot[q] < 0;  // the twin of q has the same number
+      for (int i = 0; i < B; ++i) {
+        EXPECT_GT(t.coarse.constraints.lower[slot * B + i], -infinity);
+        EXPECT_LT(t.coarse.constraints.upper[slot * B + i], infinity);
+      }
+    }
+  EXPECT_GT(inner, 0);
+}
+
+TYPED_TEST(MonotoneRestriction, DoesNotTightenBoundsByTruncatedDirections) {
+  constexpr int B = TypeParam::value;
+  Random random(13);
+  TwoLevels<B> t(random, 30, true);
+  std::fill(t.fine.lower.begin(), t.fine.lower.end(), 0.0);
+  std::fill(t.fine.upper.begin(), t.fine.upper.end(), 0.0);
+  std::vector<Flags> all(30, 0);
+  for (const Index p : t.fine.constraints.vector) all[p] = (1u << B) - 1;
+  truncate(t.fine, all);
+  t.transfer.assemble(t.fine, t.coarse);
+  t.transfer.restrict_bounds(t.fine, t.coarse);
+  for (const double lower : t.coarse.constraints.lower) EXPECT_EQ(lower, -infinity);
+  for (const double upper : t.coarse.constraints.upper) EXPECT_EQ(upper, infinity);
+}
+
+// With linear interpolation on a line the coarse bounds are those of the fine vectors, an N-th each for N weights.
+TEST(MonotoneRestrictionOnALine, SharesTheDistanceAmongTheWeights) {
+  DiscreteProblem<1> problem;
+  for (Index p = 0; p < 3; ++p) {
+    problem.A.column.push_back(p);
+    problem.A.value.push_back(1);
+    problem.A.row.push_back(p + 1);
+    problem.constraints.slot.push_back(p);
+    problem.constraints.vector.push_back(p);
+  }
+  problem.b.assign(3, 0);
+  problem.fixed.assign(3, 0);
+  problem.constraints.lower = {-1, -5, -1};
+  problem.constraints.upper = {4, 3, 10};
+  problem.segments = {{0, 3, std::make_shared<Box<1>>()}};
+  Prolongation P;
+  P.coarse = 2;
+  P.row = {0, 1, 2, 4};
+  P.column = {0, 1, 0, 1};
+  P.weight = {1, 1, 0.5, -0.25};
+  Level<1> fine = finest_level(problem), coarse;
+  allocate(fine);
+  fine.lower = problem.constraints.lower;
+  fine.upper = problem.constraints.upper;
+  MinMerge<1> transfer;
+  transfer.prepare(fine, P, true, coarse);
+  allocate(coarse);
+  transfer.assemble(fine, coarse);
+  transfer.restrict_bounds(fine, coarse);
+  EXPECT_EQ(coarse.constraints.lower, (std::vector<double>{-1, -5}));  // -1 / (2 * 0.5) meets -1; 10 / -0.5 < -5
+  EXPECT_EQ(coarse.constraints.upper, (std::vector<double>{4, 2}));    // -1 / (2 * -0.25) = 2 < 3
+}
+
+TYPED_TEST(MonotoneRestriction, ProlongatesWhatTheDefinitionSays) {
+  constexpr int B = TypeParam::value;
+  Random random(14);
+  for (int trial = 0; trial < 20; ++trial) {
+    TwoLevels<B> t(random, 30, trial % 2 == 0);
+    truncate(t.fine, random_flags<B>(random, 30, 0.2));
+    t.transfer.assemble(t.fine, t.coarse);
+    t.transfer.restrict_bounds(t.fine, t.coarse);
+    const Eigen::MatrixXd T = interpolation(t.fine, t.P, t.coarse);
+
+    for (double& r : t.fine.r) r = random.between(-1, 1);
+    t.transfer.restrict_residual(t.fine, t.coarse);
+    EXPECT_LE((vector(t.coarse.own_b) - T.transpose() * vector(t.fine.r)).norm(), 1e-13);
+
+    // Fine bounds are on the iterate, which starts from zero here.
+    const std::vector<double> correction = random_correction(random, t.coarse, true);
+    t.coarse.own_x = correction;
+    t.transfer.prolongate(t.coarse, t.fine);
+    EXPECT_LE((vector(t.x) - T * vector(correction)).norm(), 1e-14 * (1 + vector(correction).norm()) * T.norm());
+    for (Index slot = 0; slot < t.fine.constraints.size(); ++slot)
+      for (int k = 0; k < B; ++k) {
+        EXPECT_GE(t.x[t.fine.constraints.vector[slot] * B + k], t.fine.constraints.lower[slot * B + k]);
+        EXPECT_LE(t.x[t.fine.constraints.vector[slot] * B + k], t.fine.constraints.upper[slot * B + k]);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test

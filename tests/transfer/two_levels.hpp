@@ -1,0 +1,96 @@
+#pragma once
+#include "core/solver/multigrid.hpp"
+#include "tests/support/random_problem.hpp"
+#include "transfer/min_merge.hpp"
+
+namespace signorini::test {
+
+/// The interpolation from `coarse` to `fine` as one dense matrix, written down from its definition: block (p, q) is
+/// w_pq D_p R_p' C_q D_q with the frames R_p, C_q, and D dropping what does not interpolate.
+template <int B>
+Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const Level<B>& coarse) {
+  using Block = Eigen::Matrix<double, B, B>;
+  const auto basis = [](const Level<B>& level, Index p) {
+    Block Q = Block::Identity();
+    if (const double* at = level.frames.at(p))
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) Q(i, j) = at[i * B + j];
+    return Q;
+  };
+  const auto kept = [](Flags removed) {
+    Block D = Block::Identity();
+    for (int i = 0; i < B; ++i)
+      if (removed >> i & 1) D(i, i) = 0;
+    return D;
+  };
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(fine.vectors * B, coarse.vectors * B);
+  for (Index p = 0; p < fine.vectors; ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
+      const Index q = P.column[k];
+      T.block(p * B, q * B, B, B) =
+          P.weight[k] * kept(fine.removed[p]) * basis(fine, p).transpose() * basis(coarse, q) * kept(coarse.off[q]);
+    }
+  return T;
+}
+
+/// What MonotoneMultigrid does with a level besides the transfer.
+template <int B>
+void allocate(Level<B>& level) {
+  const auto slots = static_cast<std::size_t>(level.constraints.size());
+  level.removed = level.off;
+  level.critical.assign(slots, 0);
+  level.phase.assign(slots, 0);
+  level.lower.assign(slots * B, -infinity);
+  level.upper.assign(slots * B, infinity);
+}
+
+/// New truncation flags of a level, listed as changed where they differ.
+template <int B>
+void truncate(Level<B>& level, const std::vector<Flags>& critical) {
+  for (Index p = 0; p < level.vectors; ++p) {
+    const Flags removed = level.off[p] | critical[p];
+    if (removed == level.removed[p]) continue;
+    level.removed[p] = removed;
+    level.changed.push_back(p);
+  }
+}
+
+template <int B>
+std::vector<Flags> random_flags(Random& random, Index n, double probability) {
+  std::vector<Flags> flags(static_cast<std::size_t>(n), 0);
+  for (Flags& f : flags)
+    for (int k = 0; k < B; ++k)
+      if (random.chance(probability)) f |= static_cast<Flags>(1u << k);
+  return flags;
+}
+
+/// A fine level with random matrix, frames and remaining distances, and the coarse one below it.
+template <int B>
+struct TwoLevels {
+  DiscreteProblem<B> problem;
+  Prolongation P;
+  Level<B> fine, coarse;
+  MinMerge<B> transfer;
+  std::vector<double> x;
+
+  TwoLevels(Random& random, Index n, bool rotate) {
+    problem = random_problem<B>(random, n, 0.4);
+    problem.frames = random_frames<B>(random, n);
+    P = random_prolongation(random, n / 3, n);
+    fine = finest_level(problem);
+    x.assign(problem.b.size(), 0.0);
+    fine.x = x.data();
+    allocate(fine);
+    transfer.prepare(fine, P, rotate, coarse);
+    allocate(coarse);
+    for (std::size_t i = 0; i < fine.lower.size(); ++i) {
+      const auto [lower, upper] = random_interval(random, 0, 1);
+      fine.lower[i] = std::min(lower, 0.0);
+      fine.upper[i] = std::max(upper, 0.0);
+    }
+    fine.constraints.lower = fine.lower;
+    fine.constraints.upper = fine.upper;
+  }
+};
+
+}  // namespace signorini::test

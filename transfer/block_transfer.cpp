@@ -1,0 +1,137 @@
+#include "transfer/block_transfer.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "transfer/modifier.hpp"
+
+namespace signorini {
+
+template <int B>
+void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
+  assert(prolongation.fine() == fine.vectors);
+  P_ = &prolongation;
+  const auto n = static_cast<std::size_t>(prolongation.coarse);
+  child_row_.assign(n + 1, 0);
+  for (const Index q : P_->column) ++child_row_[static_cast<std::size_t>(q) + 1];
+  for (std::size_t q = 0; q < n; ++q) child_row_[q + 1] += child_row_[q];
+  child_.resize(P_->column.size());
+  std::vector<Offset> next(child_row_.begin(), child_row_.end() - 1);
+  for (Index p = 0; p < P_->fine(); ++p)
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, P_->weight[k]};
+  position_.assign(n, 0);
+  marked_.assign(n, 0);
+  scale_.assign(n, 0);
+  coarse.vectors = prolongation.coarse;
+  coarse.inverse.resize(n * B * B);
+  coarse.own_b.resize(n * B);
+  coarse.own_x.resize(n * B);
+  coarse.r.resize(n * B);
+  coarse.b = coarse.own_b.data();
+  coarse.x = coarse.own_x.data();
+  coarse.A = &coarse.own_matrix;
+  inherit_twins(fine, rotate, coarse);
+  give_slots(fine, coarse);
+  build_pattern(*fine.A, coarse.own_matrix);
+}
+
+// A frame, and what is prescribed in it, passes from a vector to its coarse twin. Without the frame nothing can be
+// prescribed there: then the fine rows alone see to it.
+template <int B>
+void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const {
+  coarse.off.assign(static_cast<std::size_t>(coarse.vectors), 0);
+  for (Index p = 0; p < fine.vectors; ++p) {
+    if (P_->row[p + 1] != P_->row[p] + 1 || P_->weight[P_->row[p]] != 1) continue;
+    const Index q = P_->column[P_->row[p]];
+    const double* Q = fine.frames.at(p);
+    if (!Q) {
+      coarse.off[q] = fine.off[p];
+    } else if (rotate) {
+      coarse.off[q] = fine.off[p];
+      if (coarse.frames.slot.empty()) coarse.frames.slot.assign(coarse.off.size(), -1);
+      coarse.frames.slot[q] = static_cast<Index>(coarse.frames.basis.size()) / (B * B);
+      coarse.frames.basis.insert(coarse.frames.basis.end(), Q, Q + B * B);
+    }
+  }
+}
+
+// Every coarse vector that reaches a constrained one gets bounds: no coarse correction leaves the admissible set.
+template <int B>
+void BlockTransfer<B>::give_slots(const Level<B>& fine, Level<B>& coarse) const {
+  Constraints<B>& c = coarse.constraints;
+  c.slot.assign(static_cast<std::size_t>(coarse.vectors), -1);
+  for (const Index p : fine.constraints.vector)
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) c.slot[P_->column[k]] = 0;
+  for (Index q = 0; q < coarse.vectors; ++q)
+    if (c.slot[q] == 0) {
+      c.slot[q] = c.size();
+      c.vector.push_back(q);
+    }
+  c.lower.resize(c.vector.size() * B);
+  c.upper.resize(c.vector.size() * B);
+}
+
+template <int B>
+void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Level<B>& coarse) const {
+  std::fill(coarse.own_b.begin(), coarse.own_b.end(), 0.0);
+  std::fill(coarse.own_x.begin(), coarse.own_x.end(), 0.0);
+  for (Index p = 0; p < fine.vectors; ++p) {
+    const double* r = fine.r.data() + Offset{p} * B;
+    double global[B];
+    if (modifier::is_plain<B>(fine, p)) {
+      for (int i = 0; i < B; ++i) global[i] = r[i];
+    } else {
+      modifier::to_global<B>(fine, p, fine.removed[p], r, global);
+    }
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) {
+      double* b = coarse.own_b.data() + Offset{P_->column[k]} * B;
+      for (int i = 0; i < B; ++i) b[i] += P_->weight[k] * global[i];
+    }
+  }
+  for (Index q = 0; q < coarse.vectors; ++q) {
+    const double* Q = coarse.frames.at(q);
+    if (!Q && !coarse.off[q]) continue;
+    double* b = coarse.own_b.data() + Offset{q} * B;
+    double local[B];
+    modifier::to_local<B>(coarse, q, coarse.off[q], b, local);
+    std::copy(local, local + B, b);
+  }
+}
+
+template <int B>
+void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine) const {
+  if (!coarse.frames.slot.empty())  // the correction is not needed in local coordinates any more
+    for (Index q = 0; q < coarse.vectors; ++q)
+      if (coarse.frames.at(q)) {
+        double global[B];
+        modifier::to_global<B>(coarse, q, 0, coarse.x + Offset{q} * B, global);
+        std::copy(global, global + B, coarse.x + Offset{q} * B);
+      }
+  for (Index p = 0; p < fine.vectors; ++p) {
+    double global[B] = {};
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
+      for (int i = 0; i < B; ++i) global[i] += P_->weight[k] * coarse.x[Offset{P_->column[k]} * B + i];
+    double* x = fine.x + Offset{p} * B;
+    if (modifier::is_plain<B>(fine, p)) {
+      for (int i = 0; i < B; ++i) x[i] += global[i];
+    } else {
+      double local[B];
+      modifier::to_local<B>(fine, p, fine.removed[p], global, local);
+      for (int i = 0; i < B; ++i) x[i] += local[i];
+    }
+  }
+  const Constraints<B>& c = fine.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int i = 0; i < B; ++i) {
+      double& x = fine.x[Offset{c.vector[slot]} * B + i];
+      x = x < c.lower[Offset{slot} * B + i]   ? c.lower[Offset{slot} * B + i]
+          : x > c.upper[Offset{slot} * B + i] ? c.upper[Offset{slot} * B + i]
+                                              : x;
+    }
+}
+
+template class BlockTransfer<1>;
+template class BlockTransfer<2>;
+template class BlockTransfer<3>;
+
+}  // namespace signorini

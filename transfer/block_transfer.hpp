@@ -1,0 +1,42 @@
+#pragma once
+#include "core/solver/components.hpp"
+
+namespace signorini {
+
+/// Transfer between two levels from scalar interpolation weights; the few vectors that are rotated, truncated or
+/// prescribed get their small block modifiers on the fly. The merge of bounds is left to the monotone restriction.
+template <int B>
+class BlockTransfer : public Transfer<B> {
+ public:
+  void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) override;
+  Index assemble(Level<B>& fine, Level<B>& coarse) override;
+  void restrict_residual(const Level<B>& fine, Level<B>& coarse) const override;
+  void prolongate(const Level<B>& coarse, const Level<B>& fine) const override;
+
+ protected:
+  const Prolongation& weights() const { return *P_; }
+
+ private:
+  void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
+  void give_slots(const Level<B>& fine, Level<B>& coarse) const;
+  void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
+  std::vector<Index> affected_rows(const Level<B>& fine);
+  void mark_parents(Index p, std::vector<Index>& rows);
+  void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q);
+  void finish_row(Level<B>& coarse, Index q);
+
+  struct Child {
+    Index vector;
+    double weight;
+  };
+  const Prolongation* P_ = nullptr;
+  std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to
+  std::vector<Child> child_;
+  std::vector<Flags> prescribed_;  // per coarse vector: components off whatever is truncated
+  std::vector<double> scale_;      // per coarse vector: largest diagonal entry before any truncation
+  std::vector<Offset> position_;   // per coarse vector: its block in the row at work
+  std::vector<char> marked_;       // per coarse vector
+  bool assembled_ = false;
+};
+
+}  // namespace signorini

@@ -1,0 +1,78 @@
+#pragma once
+#include "core/sdk/block.hpp"
+#include "core/solver/level.hpp"
+
+/// The small blocks at vectors that are not plain: rotations between local and global coordinates, and the removal of
+/// components that do not interpolate.
+namespace signorini::modifier {
+
+template <int B>
+inline bool is_plain(const Level<B>& level, Index p) {
+  return level.removed[p] == 0 && (B == 1 || !level.frames.at(p));
+}
+
+template <int B>
+inline void drop(Flags components, double* x) {
+  for (int k = 0; k < B; ++k)
+    if (components >> k & 1u) x[k] = 0;
+}
+
+/// global = Q D local, D dropping components
+template <int B>
+inline void to_global(const Level<B>& level, Index p, Flags dropped, const double* local, double* global) {
+  double kept[B];
+  for (int k = 0; k < B; ++k) kept[k] = local[k];
+  drop<B>(dropped, kept);
+  if (const double* Q = level.frames.at(p))
+    block::product<B>(Q, kept, global);
+  else
+    for (int k = 0; k < B; ++k) global[k] = kept[k];
+}
+
+/// local = D Q' global
+template <int B>
+inline void to_local(const Level<B>& level, Index p, Flags dropped, const double* global, double* local) {
+  if (const double* Q = level.frames.at(p))
+    block::transposed_product<B>(Q, global, local);
+  else
+    for (int k = 0; k < B; ++k) local[k] = global[k];
+  drop<B>(dropped, local);
+}
+
+/// M = Q_p D_p A D_r Q_r' for the matrix block A between p and r in local coordinates
+template <int B>
+inline void block_to_global(const Level<B>& level, Index p, Index r, const double* A, double* M) {
+  double T[B * B];
+  for (int i = 0; i < B; ++i)
+    for (int j = 0; j < B; ++j)
+      T[i * B + j] = (level.removed[p] >> i & 1u) || (level.removed[r] >> j & 1u) ? 0 : A[i * B + j];
+  const double *Qp = level.frames.at(p), *Qr = level.frames.at(r);
+  double S[B * B];
+  if (Qp)
+    block::multiply<B>(Qp, T, S);
+  else
+    for (int i = 0; i < B * B; ++i) S[i] = T[i];
+  if (Qr)
+    block::multiply_transposed<B>(S, Qr, M);
+  else
+    for (int i = 0; i < B * B; ++i) M[i] = S[i];
+}
+
+/// M = D_p Q_p' M Q_r D_r, the way back
+template <int B>
+inline void block_to_local(const Level<B>& level, Index p, Index r, Flags dropped_p, Flags dropped_r, double* M) {
+  double S[B * B];
+  if (const double* Q = level.frames.at(p)) {
+    block::transposed_multiply<B>(Q, M, S);
+    for (int i = 0; i < B * B; ++i) M[i] = S[i];
+  }
+  if (const double* Q = level.frames.at(r)) {
+    block::multiply<B>(M, Q, S);
+    for (int i = 0; i < B * B; ++i) M[i] = S[i];
+  }
+  for (int i = 0; i < B; ++i)
+    for (int j = 0; j < B; ++j)
+      if ((dropped_p >> i & 1u) || (dropped_r >> j & 1u)) M[i * B + j] = 0;
+}
+
+}  // namespace signorini::modifier
