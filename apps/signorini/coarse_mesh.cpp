@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
+#include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
 
 namespace signorini {
@@ -38,7 +39,11 @@ struct Mesher {
   }
   template <class Shape>
   Mesh<D> operator()(const Shape& shape) const {
-    if constexpr (is_free_shape<D, Shape>) return geometry::engine().mesh(shape, target_size<D>(body));
+    if constexpr (is_free_shape<D, Shape>) {
+      Mesh<D> mesh = geometry::engine().mesh(shape, target_size<D>(body));
+      separate_curved_faces(mesh);
+      return mesh;
+    }
     input_error(body.source.table, fmt::format("this shape has not {} dimensions", D));
   }
 };

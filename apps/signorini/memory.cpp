@@ -23,13 +23,13 @@ double available_memory() {
   return infinity;
 }
 
-/// The matrix twice on all levels (the discretised problem's and the solver's), some twenty vectors, and the meshes. By
-/// Euler's formula there are about as many edges as vertices and elements together.
+/// The matrices and some twenty vectors on all levels, and the meshes. By Euler's formula there are about as many edges
+/// as vertices and elements together.
 double bytes_needed(const HierarchySize& size, int block) {
   const double blocks = 3 * size.vertices + 2 * size.elements;
   const double matrix = blocks * (8.0 * block * block + 4);
   const double all_levels = 1.25;
-  return all_levels * (2 * matrix + 20 * 8.0 * block * size.vertices) + size.bytes;
+  return all_levels * (matrix + 20 * 8.0 * block * size.vertices) + size.bytes;
 }
 
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", bytes / 1e9); }

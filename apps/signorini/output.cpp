@@ -61,6 +61,13 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results) 
   return out;
 }
 
+template <int D, int B>
+std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
+  std::vector<Panel> panels = B == 1 ? scalar_panels(shown, notes) : elastic_panels(shown, notes);
+  std::erase_if(panels, [](const Panel& panel) { return panel.patches.empty() && panel.curve.empty(); });
+  return panels;
+}
+
 void finish(Gnuplot& gnuplot, const char* picture, std::vector<std::string>& warnings) {
   const std::string problem = gnuplot.finish();
   if (!problem.empty()) warnings.push_back(fmt::format("{} was not drawn: {}", picture, problem));
@@ -108,7 +115,7 @@ void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHie
   if (!wanted.pictures) return;
   Gnuplot convergence, result;  // both at once
   draw_convergence(convergence, files.stage("convergence.png"), report.last().summary.history);
-  const auto panels = result_panels(shown(hierarchy, results), report.warnings);
+  const auto panels = result_panels<D, B>(shown(hierarchy, results), report.warnings);
   if (!panels.empty()) {
     draw_panels(result, files.stage("result.png"), panels);
     finish(result, "result.png", report.warnings);

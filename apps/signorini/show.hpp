@@ -19,11 +19,13 @@ struct Shown {
   std::vector<Index> touched;    ///< vertices that an obstacle may reach
 };
 
-/// The panels of result.png: elasticity: the deformed body coloured by `value`, and the contact pressure from below
-/// (3D) or as a profile (2D); scalar problems: the graph of u and the coincidence set (2D) or a section through both
-/// (3D). Meshes too fine to be seen are drawn on a coarser level; a note in `notes` says when even the coarsest is too
-/// fine.
+/// The panels of result.png. Meshes too fine to be seen are drawn on a coarser level; a note in `notes` says when even
+/// the coarsest is too fine. Panels may be empty.
+/// The deformed body coloured by `value`, and the contact pressure along its normal (3D) or as a profile (2D).
 template <int D>
-std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes);
+std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes);
+/// The graph of u (2D) or a section (3D), and the coincidence set likewise.
+template <int D>
+std::vector<Panel> scalar_panels(const Shown<D>& shown, std::vector<std::string>& notes);
 
 }  // namespace signorini

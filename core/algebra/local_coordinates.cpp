@@ -35,6 +35,26 @@ void erase_fixed(double* M, Flags row, Flags column) {
       if ((row >> i | column >> j) & 1) M[i * B + j] = 0;
 }
 
+// Row p of A v for the prescribed values v is known: free components lose it, fixed ones get their values.
+template <int B>
+void prescribe(DiscreteProblem<B>& problem, Index p, const double* Av) {
+  const double* v = problem.start.data() + Offset{p} * B;
+  double* b = problem.b.data() + Offset{p} * B;
+  problem.coupled.push_back(p);
+  for (int i = 0; i < B; ++i) {
+    const bool fixed = problem.fixed[p] >> i & 1;
+    problem.coupling.push_back(fixed ? 0 : Av[i]);
+    if (!fixed) {
+      b[i] -= Av[i];
+      continue;
+    }
+    problem.prescribed_energy += Av[i] * v[i];
+    problem.prescribed_work += b[i] * v[i];
+    b[i] = v[i];
+    problem.A.at(problem.A.row[p])[i * B + i] = 1;
+  }
+}
+
 }  // namespace
 
 template <int B>
@@ -78,35 +98,27 @@ void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames) 
 }
 
 template <int B>
-double eliminate(BlockMatrix<B>& A, std::vector<double>& b, const std::vector<Flags>& fixed,
-                 const std::vector<double>& value) {
-  double energy = 0;
+void eliminate(DiscreteProblem<B>& problem) {
+  BlockMatrix<B>& A = problem.A;
+  const std::vector<Flags>& fixed = problem.fixed;
   for (Index p = 0; p < A.size(); ++p) {
-    const double* vp = value.data() + Offset{p} * B;
-    double* bp = b.data() + Offset{p} * B;
     double Av[B] = {};
+    bool coupled = false;
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index q = A.column[k];
       if (!(fixed[p] | fixed[q])) continue;
-      if (fixed[q]) block::add_product<B>(A.at(k), value.data() + Offset{q} * B, Av);
+      if (fixed[q]) block::add_product<B>(A.at(k), problem.start.data() + Offset{q} * B, Av);
+      coupled = coupled || fixed[q];
       erase_fixed<B>(A.at(k), fixed[p], fixed[q]);
     }
-    for (int i = 0; i < B; ++i) {
-      energy += (0.5 * Av[i] - bp[i]) * vp[i];
-      bp[i] -= Av[i];
-      if (!(fixed[p] >> i & 1)) continue;
-      bp[i] = vp[i];
-      A.at(A.row[p])[i * B + i] = 1;
-    }
+    if (fixed[p] || coupled) prescribe(problem, p, Av);
   }
-  return energy;
 }
 
-#define SIGNORINI_INSTANTIATE(B)                                                              \
-  template void local_basis<B>(const double*, int, const double*, int, double*);              \
-  template void rotate(BlockMatrix<B>&, std::vector<double>&, const Frames<B>&);              \
-  template double eliminate(BlockMatrix<B>&, std::vector<double>&, const std::vector<Flags>&, \
-                            const std::vector<double>&);
+#define SIGNORINI_INSTANTIATE(B)                                                 \
+  template void local_basis<B>(const double*, int, const double*, int, double*); \
+  template void rotate(BlockMatrix<B>&, std::vector<double>&, const Frames<B>&); \
+  template void eliminate(DiscreteProblem<B>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

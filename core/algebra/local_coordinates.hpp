@@ -14,11 +14,9 @@ template <int B>
 void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames);
 
 /// Makes the rows and columns of fixed components those of the identity, symmetrically, and b that of the problem for
-/// the others, with the prescribed values in the fixed ones. Returns 1/2 v'Av - b'v of the prescribed values v, the
-/// part of the energy that is lost with them.
-/// @param value B per vector, zero in components that are not fixed
+/// the others, with the prescribed values of `start` in the fixed ones. Fills in what the energy loses by it:
+/// prescribed_energy, prescribed_work, coupled and coupling.
 template <int B>
-double eliminate(BlockMatrix<B>& A, std::vector<double>& b, const std::vector<Flags>& fixed,
-                 const std::vector<double>& value);
+void eliminate(DiscreteProblem<B>& problem);
 
 }  // namespace signorini

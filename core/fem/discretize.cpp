@@ -27,7 +27,7 @@ class Discretizer {
     problem().A = stiffness(mesh, model);
     problem().b = load_vector(mesh, model);
     rotate(problem().A, problem().b, problem().frames);
-    if (!fixes_.empty()) out_.fixed_energy = eliminate(problem().A, problem().b, problem().fixed, problem().start);
+    if (!fixes_.empty()) eliminate(problem());
   }
 
   Discretization<B> take() { return std::move(out_); }
@@ -167,17 +167,6 @@ std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<doub
 }
 
 template <int B>
-double energy(const Discretization<B>& discretization, const std::vector<double>& x) {
-  const DiscreteProblem<B>& problem = discretization.problem;
-  std::vector<double> Ax(x.size());
-  product(problem.A, x.data(), Ax.data());
-  double sum = discretization.fixed_energy;
-  for (std::size_t k = 0; k < x.size(); ++k)
-    if (!(problem.fixed[k / B] >> (k % B) & 1)) sum += (0.5 * Ax[k] - problem.b[k]) * x[k];
-  return sum;
-}
-
-template <int B>
 double violation(const Bound<B>& bound, const std::vector<double>& u) {
   double value = 0;
   for (int i = 0; i < B; ++i) value += bound.direction[i] * u[Offset{bound.vertex} * B + i];
@@ -191,7 +180,6 @@ template Discretization<3> discretize(const Mesh<3>&, const Model<3>&);
 #define SIGNORINI_INSTANTIATE(B)                                                          \
   template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
   template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
-  template double energy(const Discretization<B>&, const std::vector<double>&);           \
   template double violation(const Bound<B>&, const std::vector<double>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)

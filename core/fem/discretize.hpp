@@ -14,9 +14,6 @@ struct Discretization {
   /// Bounds that are not part of the problem because another obstacle is nearer to their vertex and their directions
   /// are neither parallel nor orthogonal. The caller checks after the solve that they hold, see violation().
   std::vector<Bound<B>> dropped;
-  /// 1/2 a(v, v) - f(v) of the prescribed values v extended by zero: what 1/2 x'Ax - b'x over the components that are
-  /// not fixed lacks to the energy of the solution.
-  double fixed_energy = 0;
 };
 
 /// Linear elements for a model. Vectors are numbered as the vertices.
@@ -34,10 +31,6 @@ template <int B>
 std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x);
 template <int B>
 std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u);
-
-/// Energy 1/2 a(u, u) - f(u) of the solution x in local coordinates, prescribed values included.
-template <int B>
-double energy(const Discretization<B>& discretization, const std::vector<double>& x);
 
 /// How far u (global coordinates) violates a bound; negative where it holds with room to spare.
 template <int B>

@@ -34,6 +34,9 @@ class Shape : public DistanceFunction {
       std::copy_n(point, 3, site.x);
       std::copy_n(normal, 3, site.n);
       site.t = t_;
+      // Checked first: the library's hypot of three numbers loses a NaN.
+      if (!std::all_of(point, point + 3, [](double x) { return std::isfinite(x); }))
+        input_error("point", "the distance to the obstacle was asked for at a point that is not finite");
       const Distance d = evaluation_(site);
       if (std::isfinite(d.value + d.normal[0] + d.normal[1] + d.normal[2])) return d;
       status.fail(static_cast<int>(Exit::input), "the distance to the obstacle is not finite");

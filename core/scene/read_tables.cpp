@@ -41,6 +41,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.coarse = reader.text("coarse");
   solver.truncate = reader.text("truncate");
   solver.rotate = reader.text("rotate");
+  solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");
   solver.threads = reader.integer("threads");
   solver.source = reader.source();

@@ -127,6 +127,7 @@ constexpr KeySpec solver[] = {
     {"truncate", text, "normal", "none | normal", "tangential", "directions in contact taken out of the interpolation"},
     {"cut", field, "", "", every_value, "also truncate where the remaining distance is below this fraction"},
     {"rotate", text, "all", "all | not_coarsest | none", "", "levels on which contact vectors use their local basis"},
+    {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "1", "[2, 4096]", "number of threads"},
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/algebra/products.hpp"
+
 namespace signorini {
 
 void ErrorEstimate::add(double gain, double correction) {
@@ -62,14 +64,24 @@ double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<
 template <int B>
 double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r) {
   const Products p = free_products(problem, x, r);  // b holds -A g already
-  return 0.5 * p.xAx - p.bx + 0.5 * problem.prescribed_energy;
+  return 0.5 * p.xAx - p.bx + 0.5 * problem.prescribed_energy - problem.prescribed_work;
+}
+
+template <int B>
+double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
+  std::vector<double> r(x.size());
+  residual(problem.A, x.data(), problem.b.data(), r.data());
+  return energy(problem, x, r);
 }
 
 template double energy_norm_squared(const DiscreteProblem<1>&, const std::vector<double>&, const std::vector<double>&);
 template double energy_norm_squared(const DiscreteProblem<2>&, const std::vector<double>&, const std::vector<double>&);
 template double energy_norm_squared(const DiscreteProblem<3>&, const std::vector<double>&, const std::vector<double>&);
 template double energy(const DiscreteProblem<1>&, const std::vector<double>&, const std::vector<double>&);
+template double energy(const DiscreteProblem<1>&, const std::vector<double>&);
 template double energy(const DiscreteProblem<2>&, const std::vector<double>&, const std::vector<double>&);
+template double energy(const DiscreteProblem<2>&, const std::vector<double>&);
 template double energy(const DiscreteProblem<3>&, const std::vector<double>&, const std::vector<double>&);
+template double energy(const DiscreteProblem<3>&, const std::vector<double>&);
 
 }  // namespace signorini

@@ -27,8 +27,11 @@ template <int B>
 double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<double>& x,
                            const std::vector<double>& r);
 
-/// 1/2 x'Ax - b'x with the prescribed values counted in.
+/// Energy 1/2 a(u, u) - f(u) of the solution x in local coordinates, prescribed values counted in.
+/// @param r b - A x
 template <int B>
 double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r);
+template <int B>
+double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x);
 
 }  // namespace signorini

@@ -49,6 +49,7 @@ struct DiscreteProblem {
   Frames<B> frames;
   Constraints<B> constraints;
   double prescribed_energy = 0;      ///< g'A g of the prescribed values g, before elimination
+  double prescribed_work = 0;        ///< b'g, before elimination
   std::vector<Index> coupled;        ///< ascending: vectors with free components that A couples to prescribed values
   std::vector<double> coupling;      ///< B per coupled vector: (A g) on its free components, zero on the others
   std::vector<Segment<B>> segments;  ///< cover all vectors in ascending order; empty when there is no obstacle

@@ -15,6 +15,7 @@ struct SolverOptions {
   std::string coarse = "newton";       ///< a registered coarse solver
   std::string truncate = "normal";     ///< none or normal
   std::string rotate = "all";          ///< all, not_coarsest or none
+  bool krylov = true;                  ///< accelerate the cycles while the phases rest
 };
 
 }  // namespace signorini

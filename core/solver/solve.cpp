@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/solver/convergence.hpp"
 #include "core/solver/multigrid.hpp"
+#include "core/solver/recombination.hpp"
 
 namespace signorini {
 
@@ -72,6 +73,7 @@ class Solve {
         options_(options),
         x_(x),
         multigrid_(problem, prolongations, components_of<B>(options, registry), settings_of<B>(options)),
+        recombination_(problem.constraints, options.krylov ? x.size() : 0),
         r_(x.size()),
         x_before_(x.size()),
         r_before_(x.size()) {}
@@ -95,6 +97,7 @@ class Solve {
     r_before_ = r_;
     const CycleReport cycle = multigrid_.cycle(x_.data());
     residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());
+    if (options_.krylov) accelerate(cycle);
     const double absolute = natural_residual(x_, r_);
     refuse_nan(absolute);
     add_gain();
@@ -108,6 +111,14 @@ class Solve {
                  fmt::format("iteration limit {}: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
                              options_.max_iterations, summary_.residual, summary_.algebraic_error, options_.tolerance));
     return false;
+  }
+
+  // While the phases rest. The residual is recomputed from what it leads to.
+  void accelerate(const CycleReport& cycle) {
+    if (cycle.changed > 0)
+      recombination_.reset();
+    else if (recombination_.improve(x_before_, r_before_, x_, r_))
+      residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());
   }
 
   // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
@@ -211,6 +222,7 @@ class Solve {
   const SolverOptions& options_;
   std::vector<double>& x_;
   MonotoneMultigrid<B> multigrid_;
+  Recombination<B> recombination_;
   std::vector<double> r_, x_before_, r_before_;
   ErrorEstimate estimate_;
   Summary summary_;

@@ -96,12 +96,13 @@ TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
   EXPECT_THAT(written(), testing::ElementsAre("file"));
 }
 
-/// The default, started with ignored signals as some shells do, and then sent `signal` while it works.
 TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
   write("membrane.toml", membrane);
   for (const int signal : {SIGINT, SIGTERM}) {
     const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "a/b", "--set", "refine.uniform=8"});
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    for (int k = 0; k < 1000 && !fs::exists(folder_ / "a/b"); ++k)  // made just before the meshing
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     kill(child, signal);
     const Ended ended = wait_for(child);
     EXPECT_EQ(ended.status, 130) << ended.err;

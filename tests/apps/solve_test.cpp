@@ -73,6 +73,14 @@ TEST_F(Solve, PunchGivesUniformPressureAndItsForce) {
   EXPECT_NEAR(r.at("probes").at(0).at("displacement").at(2), -0.01, 1e-12);
 }
 
+TEST_F(Solve, EnergyCountsPrescribedValues) {
+  std::string scene = membrane;
+  scene.replace(scene.find("value = [0]"), 11, "value = [\"x\"]");
+  write("linear.toml", scene);
+  ASSERT_EQ(signorini({"solve", "linear.toml", "--out", "o", "--set", "obstacle.0.lower=-5"}).status, 0);
+  EXPECT_NEAR(report("o").at("energy"), 2, 1e-9);  // 1/2 times the area, for u = x
+}
+
 TEST_F(Solve, ScalarProbeIsAValue) {
   write("membrane.toml", membrane);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
@@ -152,7 +160,8 @@ TEST_F(Solve, ConvergenceCsvRepeatsTheHistoryInFullPrecision) {
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line, "step,iteration,residual,algebraic_error,energy,contact_nodes,changed");
-  for (const auto& record : report("o").at("history")) {
+  const auto history = report("o").at("history");
+  for (const auto& record : history) {
     std::getline(csv, line);
     int step, iteration;
     double residual;

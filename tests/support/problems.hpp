@@ -9,6 +9,7 @@
 #include "core/mesh/structured.hpp"
 #include "core/solver/solve.hpp"
 #include "smoothers/registration.hpp"
+#include "tests/support/dense.hpp"
 #include "tests/support/obstacles.hpp"
 #include "transfer/registration.hpp"
 
@@ -20,6 +21,8 @@ template <int B>
 struct Nested {
   std::vector<DiscreteProblem<B>> levels;
   std::vector<Prolongation> prolongations;
+  BlockMatrix<B> stiffness;  ///< on the finest mesh, in global coordinates and without any condition
+  std::vector<double> load;  ///< as well
 
   const DiscreteProblem<B>& finest() const { return levels.back(); }
 };
@@ -31,7 +34,16 @@ Nested<B> discretize_all(const Mesh<D>& coarsest, int refinements, const Model<B
   for (const Mesh<D>& mesh : meshes.levels) out.levels.push_back(discretize<D, B>(mesh, model).problem);
   for (std::size_t k = 0; k < meshes.refinements.size(); ++k)
     out.prolongations.push_back(prolongation(meshes.refinements[k], meshes.levels[k].vertices()));
+  out.stiffness = stiffness<D, B>(meshes.finest(), model);
+  out.load = load_vector<D, B>(meshes.finest(), model);
   return out;
+}
+
+/// ||x||_A with the prescribed values counted in.
+template <int B>
+double solution_norm(const Nested<B>& p, const Eigen::VectorXd& x) {
+  const std::vector<double> u = to_global(p.finest(), std::vector<double>(x.data(), x.data() + x.size()));
+  return energy_norm(p.stiffness, vector(u));
 }
 
 inline const Registry& registry() {

@@ -38,10 +38,11 @@ TYPED_TEST(Galerkin, EqualsTheDenseProduct) {
       for (int i = 0; i < B; ++i)
         for (int j = 0; j < B; ++j) inverse(i, j) = t.coarse.inverse[(q * B + i) * B + j];
       const Eigen::Matrix<double, B, B> D = C.block(q * B, q * B, B, B);
-      if (t.coarse.off[q] == 0 && D.fullPivLu().rcond() > 1e-6)
-        EXPECT_LE((inverse * D - Eigen::Matrix<double, B, B>::Identity()).norm(), 1e-8) << "DBG\n"
-                                                                                        << D << "\n inv\n"
-                                                                                        << inverse << "\n";
+      Eigen::Matrix<double, B, B> projection = Eigen::Matrix<double, B, B>::Identity();
+      for (int i = 0; i < B; ++i)
+        if (t.coarse.off[q] >> i & 1) projection(i, i) = 0;
+      const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, B, B>>(D).eigenvalues();
+      if (eigenvalues[0] > 1e-3 * eigenvalues[B - 1]) EXPECT_LE((inverse * D - projection).norm(), 1e-10);
     }
   }
 }

@@ -16,6 +16,10 @@ namespace {
 // What CGAL's triangulations, their refinement queues and the mesh itself take per element.
 constexpr double bytes_per_element = 400;
 constexpr double most_elements = 2e8;
+// Evaluations granted to details that the expected number of elements knows nothing of: some seconds in 2D, a minute in
+// 3D.
+template <int D>
+constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 
 double available_bytes() {
   std::ifstream info("/proc/meminfo");
@@ -54,7 +58,7 @@ void Sizing<D>::expect(double elements) {
     input_error(shape_, fmt::format("size: too small, about {:.1g} elements would need {:.1f} GB of memory, {:.1f} GB "
                                     "are available",
                                     elements, elements * bytes_per_element / 1e9, available / 1e9));
-  limit_ = evaluations_ + 1e7 + 100 * elements;
+  limit_ = evaluations_ + spare_evaluations<D> + 100 * elements;
 }
 
 template <int D>

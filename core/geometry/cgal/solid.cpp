@@ -57,7 +57,7 @@ std::vector<Point<3>> SolidDomain::surface_points() const {
   return points;
 }
 
-std::vector<Polyline> SolidDomain::creases() const { return find_creases(surface_, std::numbers::pi / 4); }
+std::vector<Polyline> SolidDomain::creases() const { return find_creases(surface_, std::numbers::pi / 3); }
 
 double SolidDomain::coarsest_size() const {
   const auto [low, high] = box();

@@ -85,10 +85,8 @@ class SurfaceDistance : public DistanceFunction {
     for (const double x : p)
       if (!std::isfinite(x)) input_error(surface_.file(), "distance asked for at a point that is not finite");
     const Index t = surface_.nearest_triangle(p);
-    const auto corner = corners(surface_.triangles()[t]);
-    const auto weights = nearest_weights(p, corner);
-    Point<3> offset = p;  // from the nearest point to p
-    for (std::size_t k = 0; k < 3; ++k) add(offset, -weights[k], corner[k]);
+    const auto weights = nearest_weights(p, corners(surface_.triangles()[t]));
+    const Point<3> offset = offset_of(p, t, weights);
     const double d = length<3>(offset);
     const Point<3> outer = pseudonormal(t, weights);
     const bool behind = surface_.closed() ? surface_.inside(p) : dot(offset, outer) < 0;
@@ -97,6 +95,17 @@ class SurfaceDistance : public DistanceFunction {
     if (d > 1e-12 * diameter_)
       for (double& x : n) x *= sign;
     return {sign * d, {n[0], n[1], n[2]}};
+  }
+
+  /// From the nearest point to p. Next to the inside of a face along its normal, which is exact however small it is.
+  Point<3> offset_of(const Point<3>& p, Index t, const std::array<double, 3>& weights) const {
+    const auto corner = corners(surface_.triangles()[t]);
+    Point<3> offset{};
+    if (std::count(weights.begin(), weights.end(), 0.0) == 0)
+      add(offset, dot(difference<3>(p, corner[0]), face_normals_[t]), face_normals_[t]);
+    else
+      for (std::size_t k = 0; k < 3; ++k) add(offset, weights[k], difference<3>(p, corner[k]));
+    return offset;
   }
 
   Point<3> pseudonormal(Index t, const std::array<double, 3>& weights) const {

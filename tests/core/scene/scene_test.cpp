@@ -88,6 +88,7 @@ TEST(Scene, DefaultsOfTheSolverAreThoseOfItsOptions) {
   EXPECT_EQ(scene.solver.coarse, options.coarse);
   EXPECT_EQ(scene.solver.truncate, options.truncate);
   EXPECT_EQ(scene.solver.rotate, options.rotate);
+  EXPECT_EQ(scene.solver.krylov, options.krylov);
 }
 
 TEST(Scene, EverySettingIsRead) {

@@ -34,10 +34,10 @@ inline std::vector<Case<1>> scalar_cases() {
   Model<1> equal = membrane(1, pinned(-1), pinned(1));
   equal.fixes = {{on("right"), {Field(0)}}};
   out.push_back({"equal_bounds", discretize_all<2, 1>(cube<2>(0, 1, 2), 4, equal)});
-  // u = 1 solves -Laplace u = 0 with u = 1 on the boundary, and touches the obstacle without any force: biactive.
-  const auto touching = [](const double* x) { return 1 - std::max(0.0, x[0] - 0.5); };
+  // u = x solves -Laplace u = 0 and touches the obstacle on half of the square without any force: biactive.
+  const auto touching = [](const double* x) { return x[0] - std::max(0.0, x[0] - 0.5); };
   Model<1> weightless = membrane(0, touching, {});
-  weightless.fixes = {{on("boundary"), {Field(1)}}};
+  weightless.fixes = {{on("boundary"), {field([](const double* x) { return x[0]; })}}};
   out.push_back({"biactive", discretize_all<2, 1>(cube<2>(0, 1, 2), 4, weightless)});
   Model<1> half = weightless;
   half.loads = {{{}, {field([](const double* x) { return x[0] < 0.25 ? -1.0 : 0.0; })}}};
@@ -52,7 +52,7 @@ inline std::vector<Case<2>> plane_cases() {
                  discretize_all<2, 2>(cube<2>(0, 1, 2), 3, pressed_block<2>(plane<2>({0.2, 0}, {-0.28, 0.96}), 0.05))});
   out.push_back(
       {"circle", discretize_all<2, 2>(cube<2>(0, 1, 2), 3, pressed_block<2>(sphere<2>({0.4, -1}, 0.98), 0.08))});
-  out.push_back({"held", discretize_all<2, 2>(cube<2>(0, 1, 2), 3, resting_block<2>({0.1, -1}, {"left"}))});
+  out.push_back({"held", discretize_all<2, 2>(cube<2>(0, 1, 2), 3, resting_block<2>({3, -1}, {"left"}))});
   return out;
 }
 
@@ -63,7 +63,7 @@ inline std::vector<Case<3>> space_cases() {
   out.push_back(
       {"sphere3", discretize_all<3, 3>(cube<3>(0, 1, 2), 2, pressed_block<3>(sphere<3>({0.4, 0.55, -1}, 0.98), 0.08))});
   out.push_back(
-      {"held3", discretize_all<3, 3>(cube<3>(0, 1, 2), 1, resting_block<3>({0.1, 0.05, -1}, {"left", "front"}))});
+      {"held3", discretize_all<3, 3>(cube<3>(0, 1, 2), 1, resting_block<3>({2, 1, -1}, {"left", "front"}))});
   return out;
 }
 

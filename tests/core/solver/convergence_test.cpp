@@ -18,6 +18,7 @@ std::vector<Setting> settings() {
   const auto add = [&](const std::string& name, auto&& change) {
     SolverOptions o;
     o.tolerance = 1e-9;
+    o.max_iterations = 1000;  // without truncation convergence is slow near the free boundary
     change(o);
     out.push_back({name, o});
   };
@@ -48,7 +49,7 @@ template <int B>
 void expect_solved(const Case<B>& c) {
   const DiscreteProblem<B>& problem = c.nested.finest();
   const Reference exact = reference(problem);
-  const double size = std::max(energy_norm(problem.A, exact.x), 1e-300);
+  const double size = std::max(solution_norm(c.nested, exact.x), 1e-14 * exact.x.norm());
   const bool scalar_without_frames = B == 1;
   for (const Setting& s : settings()) {
     if (scalar_without_frames && s.name.find("rotate") != std::string::npos) continue;

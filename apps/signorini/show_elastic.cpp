@@ -1,58 +1,13 @@
-#include "apps/signorini/show.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
-#include "apps/signorini/slice.hpp"
+#include "apps/signorini/drawn_level.hpp"
+#include "apps/signorini/show.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
 
 namespace signorini {
 namespace {
-constexpr std::size_t most_patches = 60000;  ///< what gnuplot draws in a second or two
-
-/// A level of the hierarchy, and for each of its vertices that on the finest level.
-template <int D>
-struct Drawn {
-  const Mesh<D>* mesh;
-  std::vector<Index> fine;
-};
-
-template <int D>
-Drawn<D> finest(const MeshHierarchy<D>& hierarchy) {
-  Drawn<D> drawn{&hierarchy.finest(), std::vector<Index>(hierarchy.finest().points.size())};
-  std::iota(drawn.fine.begin(), drawn.fine.end(), 0);
-  return drawn;
-}
-
-/// One level down; false on the coarsest.
-template <int D>
-bool coarsen(const MeshHierarchy<D>& hierarchy, Drawn<D>& drawn) {
-  const auto level = drawn.mesh - hierarchy.levels.data();
-  if (level == 0) return false;
-  const auto& parents = hierarchy.refinements[level - 1].parents;
-  drawn.mesh = &hierarchy.levels[level - 1];
-  std::vector<Index> fine(drawn.mesh->points.size());
-  for (std::size_t v = 0; v < parents.size(); ++v)
-    if (parents[v][0] == parents[v][1]) fine[parents[v][0]] = drawn.fine[v];
-  drawn.fine = std::move(fine);
-  return true;
-}
-
-/// The finest level on which `patches` are few enough to be drawn in a moment.
-template <int D, class Patches>
-std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, Patches patches) {
-  Drawn<D> drawn = finest(shown.hierarchy);
-  std::vector<Patch> result = patches(drawn);
-  while (result.size() > most_patches && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
-  if (result.size() <= most_patches) return result;
-  notes.push_back(fmt::format("result.png was left out: {} triangles are too many to draw", result.size()));
-  return {};
-}
 
 /// Largest edge of the box around a mesh.
 template <int D>
@@ -82,18 +37,6 @@ Point<D> deformed(const Shown<D>& shown, const Drawn<D>& drawn, Index v, double 
   Point<D> x = drawn.mesh->points[v];
   for (int k = 0; k < D; ++k) x[k] += factor * shown.displacement[std::size_t(drawn.fine[v]) * D + k];
   return x;
-}
-
-void set_corner(Patch& patch, int c, const Point<2>& x, double value) {
-  patch.corner[c][0] = x[0];
-  patch.corner[c][1] = x[1];
-  patch.corner[c][2] = 0;
-  patch.value[c] = value;
-}
-
-void set_corner(Patch& patch, int c, const Point<3>& x, double value) {
-  std::copy(x.begin(), x.end(), patch.corner[c]);
-  patch.value[c] = value;
 }
 
 const std::vector<std::array<Index, 3>>& triangles(const Mesh<2>& mesh) { return mesh.elements; }
@@ -138,7 +81,7 @@ std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown) {
 
 template <int D>
 Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zone, std::vector<std::string>& notes) {
-  const double factor = exaggeration(shown);
+  const double factor = zone ? 1 : exaggeration(shown);  // exaggerated, a contact zone would not fit the obstacle
   Panel panel;
   panel.title = factor == 1 ? "deformed body" : fmt::format("deformed body (displacements x {:g})", factor);
   panel.label = shown.label;
@@ -195,74 +138,17 @@ Panel pressure_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vec
   return panel;
 }
 
-std::vector<double> contact_indicator(const std::vector<Flags>& contact) {
-  std::vector<double> result(contact.size());
-  std::transform(contact.begin(), contact.end(), result.begin(), [](Flags flags) { return flags ? 1.0 : 0.0; });
-  return result;
-}
-
-Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View view,
-                   std::vector<std::string>& notes) {
-  Panel panel;
-  panel.view = view;
-  panel.patches = few_patches(shown, notes, [&](const Drawn<2>& drawn) {
-    std::vector<Patch> patches;
-    for (const auto& element : drawn.mesh->elements) {
-      Patch& patch = patches.emplace_back();
-      for (int c = 0; c < 3; ++c) {
-        set_corner(patch, c, drawn.mesh->points[element[c]], value[drawn.fine[element[c]]]);
-        if (view == View::graph) patch.corner[c][2] = patch.value[c];
-      }
-    }
-    return patches;
-  });
-  return panel;
-}
-
-/// A section through the middle; not exactly there, where vertices of regular meshes lie.
-Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View, std::vector<std::string>& notes) {
-  const auto& points = shown.hierarchy.finest().points;
-  const auto [low, high] =
-      std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  const double at = 0.4999 * (*low)[1] + 0.5001 * (*high)[1];
-  Panel panel;
-  panel.patches = few_patches(shown, notes, [&](const Drawn<3>& drawn) {
-    std::vector<double> values;
-    for (const Index v : drawn.fine) values.push_back(value[v]);
-    return slice(*drawn.mesh, values, at);
-  });
-  return panel;
-}
-
-template <int D>
-std::vector<Panel> scalar_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
-  std::vector<Panel> panels{scalar_panel(shown, shown.value, View::graph, notes)};
-  panels[0].title = panels[0].label = shown.label;
-  if (std::none_of(shown.contact.begin(), shown.contact.end(), [](Flags flags) { return flags != 0; })) return panels;
-  panels.push_back(scalar_panel(shown, contact_indicator(shown.contact), View::flat, notes));
-  panels[1].title = "coincidence set";
-  panels[1].label = "1 in contact";
-  return panels;
-}
-
-bool empty(const Panel& panel) { return panel.patches.empty() && panel.curve.empty(); }
 }  // namespace
 
 template <int D>
-std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
-  std::vector<Panel> panels;
-  if (shown.displacement.empty()) {
-    panels = scalar_panels(shown, notes);
-  } else {
-    const auto zone = contact_zone(shown);
-    panels.push_back(body_panel(shown, zone, notes));
-    if (zone) panels.push_back(pressure_panel(shown, *zone, notes));
-  }
-  panels.erase(std::remove_if(panels.begin(), panels.end(), empty), panels.end());
+std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
+  const auto zone = contact_zone(shown);
+  std::vector<Panel> panels{body_panel(shown, zone, notes)};
+  if (zone) panels.push_back(pressure_panel(shown, *zone, notes));
   return panels;
 }
 
-template std::vector<Panel> result_panels(const Shown<2>&, std::vector<std::string>&);
-template std::vector<Panel> result_panels(const Shown<3>&, std::vector<std::string>&);
+template std::vector<Panel> elastic_panels(const Shown<2>&, std::vector<std::string>&);
+template std::vector<Panel> elastic_panels(const Shown<3>&, std::vector<std::string>&);
 
 }  // namespace signorini

@@ -1,0 +1,67 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/signorini/show.hpp"
+
+namespace signorini {
+
+inline constexpr std::size_t most_patches = 60000;  ///< what gnuplot draws in a second or two
+
+/// A level of the hierarchy, and for each of its vertices that on the finest level.
+template <int D>
+struct Drawn {
+  const Mesh<D>* mesh;
+  std::vector<Index> fine;
+};
+
+template <int D>
+Drawn<D> finest(const MeshHierarchy<D>& hierarchy) {
+  Drawn<D> drawn{&hierarchy.finest(), std::vector<Index>(hierarchy.finest().points.size())};
+  std::iota(drawn.fine.begin(), drawn.fine.end(), 0);
+  return drawn;
+}
+
+/// One level down; false on the coarsest.
+template <int D>
+bool coarsen(const MeshHierarchy<D>& hierarchy, Drawn<D>& drawn) {
+  const auto level = drawn.mesh - hierarchy.levels.data();
+  if (level == 0) return false;
+  const auto& parents = hierarchy.refinements[level - 1].parents;
+  drawn.mesh = &hierarchy.levels[level - 1];
+  std::vector<Index> fine(drawn.mesh->points.size());
+  for (std::size_t v = 0; v < parents.size(); ++v)
+    if (parents[v][0] == parents[v][1]) fine[parents[v][0]] = drawn.fine[v];
+  drawn.fine = std::move(fine);
+  return true;
+}
+
+/// The finest level on which `patches` are few enough to be drawn in a moment.
+template <int D, class Patches>
+std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, Patches patches) {
+  Drawn<D> drawn = finest(shown.hierarchy);
+  std::vector<Patch> result = patches(drawn);
+  while (result.size() > most_patches && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
+  if (result.size() <= most_patches) return result;
+  notes.push_back(fmt::format("result.png was left out: {} triangles are too many to draw", result.size()));
+  return {};
+}
+
+inline void set_corner(Patch& patch, int c, const Point<2>& x, double value) {
+  patch.corner[c][0] = x[0];
+  patch.corner[c][1] = x[1];
+  patch.corner[c][2] = 0;
+  patch.value[c] = value;
+}
+
+inline void set_corner(Patch& patch, int c, const Point<3>& x, double value) {
+  std::copy(x.begin(), x.end(), patch.corner[c]);
+  patch.value[c] = value;
+}
+
+}  // namespace signorini

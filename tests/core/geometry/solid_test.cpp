@@ -1,0 +1,107 @@
+#include <cstdlib>
+
+#include "geometry_checks.hpp"
+#include "surfaces.hpp"
+
+namespace signorini {
+namespace {
+
+using geometry::engine;
+using geometry::Solid;
+using test::cube;
+using test::Surface;
+using test::TemporaryFile;
+using testing::AllOf;
+using testing::HasSubstr;
+
+Mesh<3> mesh(const TemporaryFile& file, double h) {
+  return engine().mesh(geometry::Shape3(Solid{file.path()}), test::constant<3>(h));
+}
+
+std::string complaint(const TemporaryFile& file, double h = 0.3) {
+  return test::input_error_of([&] { mesh(file, h); });
+}
+
+TEST(Solid, ACubeKeepsItsEdgesAndCorners) {
+  const Mesh<3> m = mesh(TemporaryFile("cube.off", cube(0, 2).off()), 0.3);
+  test::expect_consistent(m);
+  EXPECT_NEAR(test::volume(m), 8, 1e-12);
+  EXPECT_NEAR(test::area(m, "boundary"), 24, 1e-12);
+  EXPECT_GT(test::smallest_angle(m), 8);
+  EXPECT_NEAR(test::mean_edge(m), 0.3, 0.05);
+  for (const auto& corner : cube(0, 2).points) EXPECT_THAT(m.points, testing::Contains(corner));
+}
+
+TEST(Solid, FormatsAndOrientationsAgree) {
+  const Mesh<3> m = mesh(TemporaryFile("cube.off", cube(0, 1).off()), 0.4);
+  for (const auto& [name, text] :
+       {std::pair{"inward.off", cube(0, 1).reversed().off()}, {"soup.stl", cube(0, 1).stl()}}) {
+    const Mesh<3> other = mesh(TemporaryFile(name, text), 0.4);
+    test::expect_consistent(other);
+    EXPECT_NEAR(test::volume(other), test::volume(m), 1e-12);
+  }
+}
+
+TEST(Solid, AHollowCubeIsMeshedAroundItsHole) {
+  Surface hollow = cube(0, 3);
+  hollow.add(cube(1, 2));
+  const Mesh<3> m = mesh(TemporaryFile("hollow.off", hollow.off()), 0.4);
+  test::expect_consistent(m);
+  EXPECT_NEAR(test::volume(m), 26, 1e-10);
+  EXPECT_NEAR(test::area(m, "boundary"), 54 + 6, 1e-10);
+}
+
+TEST(Solid, RealSurfacesAreFilled) {
+  const char* folder = std::getenv("SIGNORINI_MESHES");
+  if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj, fandisk.obj and rocker-arm.obj";
+  for (const char* name : {"spot.obj", "fandisk.obj", "rocker-arm.obj"}) {
+    const std::string file = std::string(folder) + "/" + name;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+    const auto surface = engine().surface(file);
+    double extent = 0;  // of the bounding box, from the file's own vertices
+    Point<3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);)
+      if (Point<3> p; std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3)
+        for (int k = 0; k < 3; ++k) {
+          low[k] = std::min(low[k], p[k]);
+          high[k] = std::max(high[k], p[k]);
+        }
+    extent = length<3>(difference<3>(high, low));
+    const Mesh<3> m = engine().mesh(geometry::Shape3(Solid{file}), test::constant<3>(0.04 * extent));
+    test::expect_consistent(m);
+    EXPECT_GT(test::smallest_angle(m), 1) << name;
+    for (const Face<3>& face : m.boundary)
+      for (const Index v : face.vertices) {
+        Status status;
+        const double none[3] = {};
+        EXPECT_NEAR(surface->at(m.points[v].data(), none, status).value, 0, 1e-6 * extent) << name;
+      }
+  }
+}
+
+TEST(SolidErrors, NameWhatIsWrongWithTheFile) {
+  EXPECT_THAT(test::input_error_of([] { engine().mesh(geometry::Shape3(Solid{"/none.off"}), test::constant<3>(1)); }),
+              HasSubstr("/none.off: the file cannot be read"));
+  EXPECT_THAT(complaint(TemporaryFile("text.off", "no surface")), HasSubstr("expected OFF, OBJ, STL or PLY"));
+  EXPECT_THAT(complaint(TemporaryFile("cube.xyz", cube(0, 1).off())), HasSubstr("expected OFF, OBJ, STL or PLY"));
+  EXPECT_THAT(complaint(TemporaryFile("empty.off", "OFF\n0 0 0\n")), HasSubstr("expected"));
+  EXPECT_THAT(complaint(TemporaryFile("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")),
+              HasSubstr("face 0 has 4 vertices"));
+  EXPECT_THAT(complaint(TemporaryFile("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), HasSubstr("expected"));
+}
+
+TEST(SolidErrors, NameWhatIsWrongWithTheSurface) {
+  Surface open = cube(0, 1);
+  open.triangles.pop_back();
+  EXPECT_THAT(complaint(TemporaryFile("open.off", open.off())), AllOf(HasSubstr("not closed"), HasSubstr("3 border")));
+  Surface two = cube(0, 1);
+  two.add(cube(2, 3));
+  EXPECT_THAT(complaint(TemporaryFile("two.off", two.off())), HasSubstr("2 components"));
+  Surface crossing = cube(0, 1);
+  crossing.add(cube(0.5, 1.7));
+  EXPECT_THAT(complaint(TemporaryFile("crossing.off", crossing.off())), HasSubstr("intersects itself"));
+}
+
+}  // namespace
+}  // namespace signorini

@@ -1,0 +1,242 @@
+// The same scene turned in space, in other units, and with its vertices numbered otherwise: the same answer.
+#include <map>
+
+#include "core/geometry/geometry.hpp"
+#include "core/mesh/structured.hpp"
+#include "mesh_file.hpp"
+#include "run.hpp"
+#include "tests/support/random.hpp"
+
+namespace signorini::test {
+namespace {
+
+Mesh<2> square() { return rectangle({-1, -1}, {1, 1}, {6, 6}); }
+Mesh<3> half_ball() {
+  return geometry::engine().mesh(geometry::Ball{{0, 0, 0}, 1, true}, [](const Point<3>&) { return 0.4; });
+}
+
+/// What a scene is written with: the mesh file, and where vectors, lengths and moduli go.
+template <int D>
+struct Frame {
+  std::string file;
+  Motion<D> motion;
+  double modulus = 1;
+
+  std::string point(const Point<D>& x) const { return text(motion.moved(x)); }
+  std::string direction(const Point<D>& x) const { return text(motion.turned(x)); }
+  std::string length(const Point<D>& x) const {
+    Point<D> y = motion.turned(x);
+    for (double& v : y) v *= motion.scale;
+    return text(y);
+  }
+  std::string traction(const Point<D>& x) const {
+    Point<D> y = motion.turned(x);
+    for (double& v : y) v *= modulus;
+    return text(y);
+  }
+  std::string body() const {
+    return fmt::format("title = \"moved\"\n[[body]]\nname = \"b\"\nmesh = \"{}\"\nyoung = {:.17g}\npoisson = 0.3\n",
+                       file, modulus);
+  }
+};
+
+/// A half ball pushed obliquely on a sphere, with a load on its flat side's rim.
+std::string ball_on_sphere(const Frame<3>& f) {
+  return f.body() + fmt::format(R"(
+[[fix]]
+body = "b"
+on = "flat"
+value = {}
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "curved"
+shape = "sphere"
+center = {}
+radius = {:.17g}
+[refine]
+uniform = 1
+)",
+                                f.length({0.02, -0.01, -0.05}), f.point({0.1, 0.05, -2.99}), 2 * f.motion.scale);
+}
+
+/// A square that slides along two walls in normal direction and is pressed on an incline by a traction and its weight.
+std::string square_on_incline(const Frame<2>& f) {
+  Point<2> weight{0.02 * f.modulus / f.motion.scale, -0.1 * f.modulus / f.motion.scale};
+  return f.body() + fmt::format(R"(
+[[fix]]
+body = "b"
+on = "left"
+frame = "normal"
+value = [0, "free"]
+[[load]]
+body = "b"
+on = "top"
+value = {}
+[[load]]
+body = "b"
+value = {}
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "plane"
+point = {}
+normal = {}
+[refine]
+uniform = 3
+)",
+                                f.traction({0.01, -0.05}), text(f.motion.turned(weight)), f.point({0, -1.01}),
+                                f.direction({-0.02, 1}));
+}
+
+template <int D>
+using Scenes = std::string (*)(const Frame<D>&);
+
+/// Solves the scene as it is and moved, and compares the displacements after moving back.
+template <int D>
+void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& motion, double modulus) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> settings{"solver.tolerance=1e-10"};
+  const auto here = run<D, D>(scene({folder.write("here.msh", msh(mesh)), {}}), settings);
+  const auto there = run<D, D>(scene({folder.write("there.msh", msh(mesh, motion)), motion, modulus}), settings);
+  EXPECT_NEAR(there.summary().iterations, here.summary().iterations, 1);
+  ASSERT_EQ(there.u().size(), here.u().size());
+  EXPECT_GT(here.contact().nodes, 3);
+  EXPECT_EQ(there.contact().nodes, here.contact().nodes);
+  double difference = 0, size = 0;
+  for (std::size_t p = 0; p < here.mesh().points.size(); ++p) {
+    Point<D> u;
+    std::copy_n(here.u().begin() + static_cast<std::ptrdiff_t>(p) * D, D, u.begin());
+    u = motion.turned(u);
+    for (int i = 0; i < D; ++i) {
+      difference = std::max(difference, std::abs(there.u()[p * D + i] - motion.scale * u[i]));
+      size = std::max(size, std::abs(motion.scale * u[i]));
+    }
+  }
+  EXPECT_LE(difference, 1e-8 * size);
+  const double force = modulus * std::pow(motion.scale, D - 1);
+  const auto expected = motion.turned(here.contact().force);
+  for (int i = 0; i < D; ++i)
+    EXPECT_NEAR(there.contact().force[i], force * expected[i], 1e-8 * force * norm<D>(expected));
+  EXPECT_NEAR(there.contact().max_pressure, modulus * here.contact().max_pressure,
+              1e-8 * modulus * here.contact().max_pressure);
+  EXPECT_NEAR(there.contact().area, std::pow(motion.scale, D - 1) * here.contact().area,
+              1e-8 * std::pow(motion.scale, D - 1));
+  show("{} nodes in contact, {} and {} cycles, difference {:.1e}\n", here.contact().nodes, here.summary().iterations,
+       there.summary().iterations, difference / size);
+}
+
+TEST(Invariance, RotationAndTranslation) {
+  Motion<2> plane = rotation2(0.7);
+  plane.shift = {3, -2};
+  expect_invariant<2>(square(), square_on_incline, plane, 1);
+  for (const auto& [a, b, c] : {std::array{0.4, 1.1, -2.3}, std::array{pi / 2, 0.0, pi / 2}}) {
+    Motion<3> space = rotation3(a, b, c);
+    space.shift = {3, -2, 5};
+    expect_invariant<3>(half_ball(), ball_on_sphere, space, 1);
+  }
+}
+
+TEST(Invariance, Units) {
+  for (const double length : {1e-3, 1e3, 1e6})
+    for (const double modulus : {1e-6, 1e3, 1e6, 2.1e11}) {
+      SCOPED_TRACE(fmt::format("lengths by {}, moduli by {}", length, modulus));
+      Motion<2> plane;
+      plane.scale = length;
+      expect_invariant<2>(square(), square_on_incline, plane, modulus);
+      if (modulus == 2.1e11) continue;
+      Motion<3> space;
+      space.scale = length;
+      expect_invariant<3>(half_ball(), ball_on_sphere, space, modulus);
+    }
+}
+
+/// The same with a shape that the program meshes itself.
+TEST(Invariance, UnitsOfAMeshedShape) {
+  const auto scene = [](double l) {
+    return fmt::format(R"(
+title = "cylinder"
+[[body]]
+name = "b"
+shape = "half_disk"
+center = [0, 0]
+radius = {0:.17g}
+size = {1:.17g}
+young = 2e5
+poisson = 0.3
+[[fix]]
+body = "b"
+on = "flat"
+value = [0, {2:.17g}]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "curved"
+shape = "plane"
+point = [0, {3:.17g}]
+normal = [0, 1]
+[refine]
+uniform = 3
+[solver]
+tolerance = 1e-10
+)",
+                       l, 0.2 * l, -0.01 * l, -l);
+  };
+  const auto one = run<2, 2>(scene(1));
+  for (const double l : {1e-3, 1e3, 1e6}) {
+    SCOPED_TRACE(l);
+    const auto other = run<2, 2>(scene(l));
+    ASSERT_EQ(other.mesh().points.size(), one.mesh().points.size());
+    EXPECT_NEAR(other.summary().iterations, one.summary().iterations, 1);
+    EXPECT_NEAR(other.contact().force[1], l * one.contact().force[1], 1e-8 * l * one.contact().force[1]);
+    EXPECT_NEAR(other.contact().area, l * one.contact().area, 1e-8 * l * one.contact().area);
+  }
+}
+
+/// A position by which vertices of two files are matched.
+template <int D>
+Point<D> rounded(Point<D> x) {
+  for (double& v : x) v = std::round(v * 0x1p36) + 0.0;
+  return x;
+}
+
+template <int D>
+void expect_independent_of_numbering(const Mesh<D>& mesh, Scenes<D> scene) {
+  const TemporaryFolder folder;
+  std::vector<Index> number(mesh.points.size());
+  for (std::size_t p = 0; p < number.size(); ++p) number[p] = static_cast<Index>(p);
+  Random random(3);
+  for (std::size_t p = number.size(); p > 1; --p)
+    std::swap(number[p - 1], number[static_cast<std::size_t>(random.below(static_cast<int>(p)))]);
+  const std::vector<std::string> settings{"solver.tolerance=1e-10"};
+  const auto one = run<D, D>(scene({folder.write("one.msh", msh(mesh)), {}}), settings);
+  const auto other = run<D, D>(scene({folder.write("other.msh", msh<D>(mesh, {}, number)), {}}), settings);
+  EXPECT_NEAR(other.summary().iterations, one.summary().iterations, 1);
+  EXPECT_EQ(other.contact().nodes, one.contact().nodes);
+  std::map<Point<D>, std::size_t> at;
+  for (std::size_t p = 0; p < other.mesh().points.size(); ++p) at[rounded<D>(other.mesh().points[p])] = p;
+  ASSERT_EQ(at.size(), one.mesh().points.size());
+  double difference = 0, size = 0;
+  for (std::size_t p = 0; p < one.mesh().points.size(); ++p) {
+    const auto found = at.find(rounded<D>(one.mesh().points[p]));
+    ASSERT_NE(found, at.end());
+    for (int i = 0; i < D; ++i) {
+      difference = std::max(difference, std::abs(other.u()[found->second * D + i] - one.u()[p * D + i]));
+      size = std::max(size, std::abs(one.u()[p * D + i]));
+    }
+  }
+  EXPECT_LE(difference, 1e-8 * size);
+  for (int i = 0; i < D; ++i)
+    EXPECT_NEAR(other.contact().force[i], one.contact().force[i], 1e-8 * norm<D>(one.contact().force));
+  EXPECT_NEAR(other.contact().area, one.contact().area, 1e-8 * one.contact().area);
+  EXPECT_NEAR(other.summary().energy, one.summary().energy, 1e-8 * std::abs(one.summary().energy));
+}
+
+TEST(Invariance, NumberingOfTheMeshFile) {
+  expect_independent_of_numbering<2>(square(), square_on_incline);
+  expect_independent_of_numbering<3>(half_ball(), ball_on_sphere);
+}
+
+}  // namespace
+}  // namespace signorini::test

@@ -1,0 +1,123 @@
+// A flat punch on a block between smooth walls: uniform stress whatever the mesh and wherever the block stands.
+#include "core/mesh/structured.hpp"
+#include "mesh_file.hpp"
+#include "run.hpp"
+#include "tests/support/random.hpp"
+
+namespace signorini::test {
+namespace {
+
+constexpr double strain = 0.01, nu = 0.3;
+
+template <int D>
+Mesh<D> block(Index cells) {
+  Point<D> to;
+  std::array<Index, D> n;
+  to.fill(1);
+  n.fill(cells);
+  if constexpr (D == 2)
+    return rectangle({}, to, n);
+  else
+    return box({}, to, n);
+}
+
+/// Moves the vertices by up to a fifth of a cell, those on the boundary along it.
+template <int D>
+Mesh<D> irregular(Mesh<D> mesh, Index cells) {
+  Random random(7);
+  for (Point<D>& x : mesh.points)
+    for (double& v : x) {
+      const double by = random.between(-0.2, 0.2) / cells;
+      if (v > 0 && v < 1) v += by;
+    }
+  return mesh;
+}
+
+/// The block of a file, pressed along its last axis; `motion` is what the file's vertices went through.
+template <int D>
+std::string punch(const std::string& file, const Motion<D>& motion) {
+  Point<D> top{}, down{};
+  top[D - 1] = 1 - strain;
+  down[D - 1] = -1;
+  std::string scene = fmt::format(R"(
+title = "punch"
+[[body]]
+name = "b"
+mesh = "{}"
+young = 1.0
+poisson = {}
+)",
+                                  file, nu);
+  std::vector<std::string> walls{"bottom", "left", "right"};
+  if (D == 3) walls.insert(walls.end(), {"front", "back"});
+  for (const std::string& wall : walls)
+    scene += fmt::format("[[fix]]\nbody = \"b\"\non = \"{}\"\nframe = \"normal\"\nvalue = [0, \"free\"{}]\n", wall,
+                         D == 3 ? ", \"free\"" : "");
+  return scene + fmt::format(R"(
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "top"
+shape = "plane"
+point = {}
+normal = {}
+[solver]
+tolerance = 1e-12
+[refine]
+uniform = 2
+)",
+                             text(motion.moved(top)), text(motion.turned(down)));
+}
+
+/// The normal stress along the last axis of the block and the mean of the others, which belong to uniaxial strain.
+constexpr double axial = -strain * (1 - nu) / ((1 + nu) * (1 - 2 * nu)),
+                 lateral = -strain * nu / ((1 + nu) * (1 - 2 * nu));
+
+template <int D>
+void expect_uniform(const std::string& what, const Mesh<D>& mesh, const Motion<D>& motion) {
+  SCOPED_TRACE(what);
+  const TemporaryFolder folder;
+  const auto r = run<D, D>(punch(folder.write("block.msh", msh(mesh, motion)), motion));
+  Point<D> axis{};
+  axis[D - 1] = 1;
+  axis = motion.turned(axis);
+  // sigma = lateral I + (axial - lateral) axis x axis
+  const auto exact = [&](int i, int j) {
+    const double a = i < D ? axis[i] : 0, b = j < D ? axis[j] : 0;
+    return (i == j ? lateral : 0) + (axial - lateral) * a * b;
+  };
+  for (const Stress& s : r.results.stress) {
+    const double difference[6] = {s[0] - exact(0, 0), s[1] - exact(1, 1), s[2] - exact(2, 2),
+                                  s[3] - exact(0, 1), s[4] - exact(1, 2), s[5] - exact(0, 2)};
+    for (const double d : difference) ASSERT_LE(std::abs(d), 1e-9 * -axial);
+  }
+  for (const auto& node : r.results.contact.nodes) {
+    ASSERT_TRUE(node.contact);
+    ASSERT_NEAR(node.pressure, -axial, 1e-9 * -axial);
+  }
+  EXPECT_NEAR(r.contact().area, std::pow(motion.scale, D - 1), 1e-9);
+  for (int i = 0; i < D; ++i) EXPECT_NEAR(r.contact().force[i], axial * axis[i], 1e-9 * -axial);
+}
+
+TEST(Punch, UniformStressOnAStructuredMesh) {
+  expect_uniform<2>("rectangle", block<2>(3), {});
+  expect_uniform<3>("box", block<3>(3), {});
+}
+
+TEST(Punch, UniformStressOnAnIrregularMesh) {
+  expect_uniform<2>("rectangle", irregular(block<2>(4), 4), {});
+  expect_uniform<3>("box", irregular(block<3>(3), 3), {});
+}
+
+TEST(Punch, UniformStressOfATurnedBlock) {
+  Motion<2> plane = rotation2(0.7);
+  plane.shift = {3, -2};
+  expect_uniform<2>("rectangle", irregular(block<2>(4), 4), plane);
+  Motion<3> space = rotation3(0.4, 1.1, -2.3);
+  space.shift = {3, -2, 5};
+  expect_uniform<3>("structured box", block<3>(2), space);
+  expect_uniform<3>("irregular box", irregular(block<3>(3), 3), space);
+}
+
+}  // namespace
+}  // namespace signorini::test

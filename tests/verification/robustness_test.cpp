@@ -1,0 +1,137 @@
+// Coefficients and meshes that are hard on a solver: it may take longer, but must not fail.
+#include "core/mesh/structured.hpp"
+#include "mesh_file.hpp"
+#include "run.hpp"
+#include "tests/support/pdas.hpp"
+
+namespace signorini::test {
+namespace {
+
+/// Solved, or as near as rounding allows, and the same as by a direct solver to `tolerance` in the energy norm.
+template <int D, int B>
+void expect_solved(const std::string& scene, double tolerance = 1e-7) {
+  const auto r = run<D, B>(scene);
+  const Reference exact = reference(r.problem());
+  const double error = energy_norm<B>(r.problem().A, vector(r.solution.x) - exact.x);
+  EXPECT_LE(error, tolerance * energy_norm(r.problem().A, exact.x));
+  EXPECT_GT(exact.active(), 0);
+  show("{}: {} cycles, rate {:.2f}, residual {:.1e}, error {:.1e} {}\n",
+       testing::UnitTest::GetInstance()->current_test_info()->name(), r.summary().iterations, r.summary().rate,
+       r.summary().residual, error / energy_norm(r.problem().A, exact.x),
+       r.summary().outcome == Outcome::rounding ? "limited by rounding" : "");
+}
+
+std::string membrane(const std::string& diffusion, double width, const std::string& lower) {
+  return fmt::format(R"(
+title = "membrane"
+[[body]]
+name = "m"
+shape = "rectangle"
+from = [0, 0]
+to = [{:.17g}, 1]
+cells = [4, 4]
+equation = "diffusion"
+diffusion = "{}"
+[[fix]]
+body = "m"
+on = "boundary"
+value = [0]
+[[load]]
+body = "m"
+value = ['-10*({})']
+[[obstacle]]
+type = "scalar"
+body = "m"
+lower = "{}"
+[refine]
+uniform = 4
+)",
+                     width, diffusion, diffusion, lower);
+}
+
+TEST(Robustness, JumpsOfTheDiffusion) {
+  for (const char* jump : {"x < 0.5 ? 1 : 1e6", "x < 0.5 ? 1e6 : 1", "(x < 0.4) == (y < 0.3) ? 1e6 : 1",
+                           "abs(x - 0.5) < 0.07 ? 1e-6 : 1"}) {
+    SCOPED_TRACE(jump);
+    expect_solved<2, 1>(membrane(jump, 1, "-0.1 + 0.1*sin(5*x)*y"));
+  }
+}
+
+TEST(Robustness, CellsStretchedByAHundred) {
+  expect_solved<2, 1>(membrane("1", 100, "-0.4 - 0.1*sin(x/5)"));
+  expect_solved<2, 1>(membrane("1", 0.01, "-1e-4 + 0.5e-4*sin(5*y)"));
+}
+
+std::string block(const std::string& from_to, const std::string& young, double poisson, int refinements) {
+  return fmt::format(R"(
+title = "block"
+[[body]]
+name = "b"
+{}
+young = "{}"
+poisson = {}
+[[fix]]
+body = "b"
+on = "top"
+value = [0, 0, -0.02]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "sphere"
+center = [0.4, 0.6, -2]
+radius = 2
+[refine]
+uniform = {}
+)",
+                     from_to, young, poisson, refinements);
+}
+
+constexpr const char* cube = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]";
+
+TEST(Robustness, JumpsOfTheModulus) {
+  expect_solved<3, 3>(block(cube, "z < 0.5 ? 1 : 1e6", 0.3, 2));
+  expect_solved<3, 3>(block(cube, "z < 0.5 ? 1e6 : 1", 0.3, 2));
+  expect_solved<3, 3>(block(cube, "(x < 0.5) == (y < 0.5) ? 1e6 : 1", 0.3, 2));
+}
+
+TEST(Robustness, NearlyIncompressible) { expect_solved<3, 3>(block(cube, "1", 0.499, 2)); }
+
+TEST(Robustness, SaysThatLinearElementsLock) {
+  const auto warnings = [](double poisson) {
+    const Scene scene = parse_scene(block(cube, "1", poisson, 0), "test.toml", ".", {});
+    return scene_warnings(scene, build_hierarchy<3>(scene, 3).levels.front());
+  };
+  ASSERT_EQ(warnings(0.499).size(), 1u);
+  EXPECT_NE(warnings(0.499)[0].find("lock"), std::string::npos);
+  EXPECT_TRUE(warnings(0.3).empty());
+}
+
+TEST(Robustness, ElasticCellsStretchedByAHundred) {
+  expect_solved<3, 3>(block("shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 0.01]\ncells = [2, 2, 2]", "1", 0.3, 2));
+  expect_solved<3, 3>(block("shape = \"box\"\nfrom = [0, 0, 0]\nto = [0.01, 1, 1]\ncells = [2, 2, 2]", "1", 0.3, 2));
+}
+
+/// Vertices inside moved so close to their neighbours that elements are slivers of height `thin` times their size.
+TEST(Robustness, NeedleElements) {
+  const TemporaryFolder folder;
+  for (const double thin : {1e-3, 1e-6}) {
+    SCOPED_TRACE(thin);
+    Mesh<3> mesh = box({0, 0, 0}, {1, 1, 1}, {3, 3, 3});
+    for (Point<3>& x : mesh.points)
+      for (int i = 0; i < 2; ++i)
+        if (x[i] > 0.3 && x[i] < 0.4) x[i] = 2.0 / 3 - thin / 3;
+    expect_solved<3, 3>(block(fmt::format("mesh = \"{}\"", folder.write("needles.msh", msh(mesh))), "1", 0.3, 1), 1e-6);
+    Mesh<2> plane = rectangle({0, 0}, {1, 1}, {3, 3});
+    for (Point<2>& x : plane.points)
+      if (x[0] > 0.3 && x[0] < 0.4) x[0] = 2.0 / 3 - thin / 3;
+    std::string scene = membrane("1", 1, "-0.1 + 0.1*sin(5*x)*y");
+    const std::string shape = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [4, 4]";
+    scene.replace(scene.find(shape), shape.size(),
+                  fmt::format("mesh = \"{}\"", folder.write("needles2.msh", msh(plane))));
+    expect_solved<2, 1>(scene, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test
