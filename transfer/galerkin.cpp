@@ -1,5 +1,5 @@
 // Coarse matrices: A_c = P'AP with the modifiers of rotated and truncated vectors, row by row, so that recomputing the
-// rows near a phase change gives bitwise what a full assembly gives (seed, 4.5).
+// rows near a phase change gives bitwise what a full assembly gives (Krause, 4.5).
 #include <algorithm>
 
 #include "transfer/block_transfer.hpp"
@@ -120,7 +120,7 @@ void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Inde
   }
 }
 
-// Rotates the row into the coarse frames, and decouples what has lost all its fine functions (seed, remark 4.4): its
+// Rotates the row into the coarse frames, and decouples what has lost all its fine functions (Krause, remark 4.4): its
 // diagonal becomes one, and it neither gets a residual nor interpolates.
 template <int B>
 void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {

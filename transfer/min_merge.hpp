@@ -3,7 +3,7 @@
 
 namespace signorini {
 
-/// Monotone restriction by matrix and merge (seed, 4.4 and figure 4.7), valid for weights of any sign and for any
+/// Monotone restriction by matrix and merge (Krause, 4.4 and figure 4.7), valid for weights of any sign and for any
 /// coupling of directions: with N nonzero weights M_j in the interpolation of a fine direction, each coarse component
 /// may use up an N-th of the remaining distance, c_j in [lower, upper] / (N M_j) (swapped for negative M_j).
 template <int B>

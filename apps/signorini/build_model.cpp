@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/component/failure.hpp"
 #include "core/component/settings.hpp"
 #include "core/scene/rigid_shape.hpp"
 
@@ -36,10 +37,9 @@ std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene,
                                    scene.options, scene.core_keys(), shape, t);
   Status status;
   std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
-  if (!status.ok()) throw Error(static_cast<Exit>(status.code), fmt::format("{}: {}", origin, status.message));
+  if (!status.ok()) throw_failure(status, origin);
   if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
-  Obstacle<B>* raw = obstacle.get();
-  return {raw, [obstacle = std::shared_ptr<Obstacle<B>>(std::move(obstacle)), settings](const Obstacle<B>*) {}};
+  return {obstacle.release(), [settings](const Obstacle<B>* held) { delete held; }};
 }
 
 template <int B>

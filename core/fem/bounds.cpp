@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/component/failure.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 
@@ -73,7 +74,7 @@ class Collector {
     std::fill(constraints_.begin(), constraints_.end(), LocalConstraint<B>{});
     Status status;
     term.obstacle->assemble(vertices_.data(), vertices_.size(), constraints_.data(), status);
-    if (!status.ok()) throw Error(static_cast<Exit>(status.code), fmt::format("{}: {}", term.origin, status.message));
+    if (!status.ok()) throw_failure(status, term.origin);
     for (std::size_t i = 0; i < numbers_.size(); ++i)
       for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], constraints_[i], k);
     numbers_.clear();

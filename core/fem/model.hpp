@@ -46,9 +46,9 @@ struct ObstacleTerm {
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
 template <int B>
 struct Model {
-  Field diffusion = 1;          ///< B = 1
-  Field young = 1, poisson = 0; ///< B > 1
-  Plane plane = Plane::strain;  ///< B = 2
+  Field diffusion = 1;           ///< B = 1
+  Field young = 1, poisson = 0;  ///< B > 1
+  Plane plane = Plane::strain;   ///< B = 2
   std::vector<Fix<B>> fixes;
   std::vector<Load<B>> loads;
   std::vector<ObstacleTerm<B>> obstacles;

@@ -6,7 +6,7 @@
 
 namespace signorini {
 
-/// What an abstract obstacle consists of: directions, each with its number of components and of values (seed, 4.1).
+/// What an abstract obstacle consists of: directions, each with its number of components and of values (Krause, 4.1).
 struct ObstacleDescriptor {
   struct Direction {
     const char* name;
@@ -51,12 +51,12 @@ class Obstacle {
 
   virtual ObstacleDescriptor descriptor() const noexcept = 0;
 
-  /// AssembleObstacles (seed, 4.1): values at `count` vertices.
+  /// AssembleObstacles (Krause, 4.1): values at `count` vertices.
   virtual void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
                         Status& status) const noexcept = 0;
 
   /// One projected block Gauss-Seidel sweep over the vectors first <= p < last in the given order: at each vector the
-  /// exact minimiser of the local problem (seed, 4.3). The energy never grows.
+  /// exact minimiser of the local problem (Krause, 4.3). The energy never grows.
   virtual void sweep(const LevelView<B>& level, Index first, Index last, Order order) const noexcept = 0;
 
   /// LocObsUpdate: for the slots of the vectors first <= p < last the bounds of an admissible correction of the iterate

@@ -23,7 +23,7 @@ inline void relax(const LevelView<B>& level, Index p) {
 }
 
 /// Projected Gauss-Seidel at the vector of a slot. The distance to the bounds is taken from the iterate every time:
-/// updating it along the sweep is unstable (seed, remark 4.3).
+/// updating it along the sweep is unstable (Krause, remark 4.3).
 template <int B, class Local>
 inline void relax_projected(const LevelView<B>& level, Index slot) {
   const Index p = level.constrained[slot];

@@ -34,7 +34,7 @@ class Transfer {
   virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;
   /// coarse.b from fine.r, coarse.x = 0.
   virtual void restrict_residual(const Level<B>& fine, Level<B>& coarse) const = 0;
-  /// Monotone restriction (RestrictObstaclesByMatrix and merge, seed 4.4): bounds of coarse.x such that every
+  /// Monotone restriction (RestrictObstaclesByMatrix and merge, Krause 4.4): bounds of coarse.x such that every
   /// admissible coarse correction is admissible on the fine level. Truncated directions do not count.
   virtual void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const = 0;
   /// fine.x += interpolation of coarse.x; what rounding carries over a bound is put back onto it.

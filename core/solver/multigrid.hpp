@@ -13,7 +13,7 @@ struct CycleReport {
   bool bounded = true;  ///< false: the energy has no minimum
 };
 
-/// Truncated monotone multigrid (seed, Algorithm 1): nonlinear smoothing on the true constraints, then corrections from
+/// Truncated monotone multigrid (Krause, Alg. 1): nonlinear smoothing on the true constraints, then corrections from
 /// coarser levels within monotonically restricted bounds. Knows no kind of obstacle, mesh or dimension.
 template <int B>
 class MonotoneMultigrid {

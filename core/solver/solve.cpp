@@ -104,8 +104,9 @@ class Solve {
     record(cycle, absolute);
     if (!cycle.bounded)
       return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
+    const bool go_on = !monitor || monitor(summary_.history.back());
     if (finished(absolute)) return true;
-    if (monitor && !monitor(summary_.history.back())) return end(Outcome::interrupted, "interrupted");
+    if (!go_on) return end(Outcome::interrupted, "interrupted");
     if (summary_.iterations >= options_.max_iterations)
       return end(Outcome::iteration_limit,
                  fmt::format("iteration limit {}: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
@@ -113,9 +114,9 @@ class Solve {
     return false;
   }
 
-  // While the phases rest. The residual is recomputed from what it leads to.
+  // Worth it once few phases change. The residual is recomputed from what it leads to.
   void accelerate(const CycleReport& cycle) {
-    if (cycle.changed > 0)
+    if (100 * cycle.changed > cycle.contact)
       recombination_.reset();
     else if (recombination_.improve(x_before_, r_before_, x_, r_))
       residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());

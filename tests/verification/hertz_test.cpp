@@ -49,7 +49,7 @@ normal = [{}, 1]
                      plane ? "0" : "0, 0", plane ? "0" : "0, 0");
 }
 
-/// K. L. Johnson, Contact Mechanics, Cambridge 1985, sec. 4.2 and eq. (5.58).
+/// K. L. Johnson, Contact Mechanics, Cambridge 1985, sec. 4.2 and 5.6.
 Differences cylinder(const Run<2, 2>& r, double delta) {
   const double P = r.contact().force[1], a = std::sqrt(4 * P * R / (pi * modulus)), p0 = 2 * P / (pi * a);
   const double approach = P / (pi * modulus) * (2 * std::log(4 * R / a) - 1);
@@ -57,7 +57,8 @@ Differences cylinder(const Run<2, 2>& r, double delta) {
 }
 
 /// Approach with the compliance of the finite ball, Y. Tatara, J. Eng. Mater. Technol. 113 (1991) 285-291: Hertz's
-/// a^2 / R less the displacement that the force on the other pole causes here, F f(a) / (pi E).
+/// a^2 / R less the displacement that the force on the other pole causes here, F f(a) / (pi E), which for small a is
+/// Boussinesq's.
 Differences ball(const Run<3, 3>& r, double delta) {
   const double F = r.contact().force[2], a = std::cbrt(3 * F * R / (4 * modulus)), p0 = 3 * F / (2 * pi * a * a);
   const double s = a * a + 4 * R * R, f = 2 * (1 + nu) * R * R / (s * std::sqrt(s)) + (1 - nu * nu) / std::sqrt(s);

@@ -116,7 +116,9 @@ TEST(Radial, OrderInABall) {
     energy.add(energy_error<3, 1>(r.mesh(), r.model, r.u(), slope<3>));
     show("ball: energy {:.4e} order {:.2f} volume {:.5f}\n", energy.value.back(), energy.last_order(),
          r.contact().area);
-    if (k == 3) EXPECT_NEAR(std::cbrt(r.contact().area / (4 * pi / 3)), Radial<3>::free_boundary, 0.8 / (1 << k));
+    if (k == 3) {
+      EXPECT_NEAR(std::cbrt(r.contact().area / (4 * pi / 3)), Radial<3>::free_boundary, 0.8 / (1 << k));
+    }
   }
   energy.expect_falling();
   EXPECT_GE(energy.last_order(), 0.9);
@@ -134,7 +136,7 @@ TEST(Radial, OrdersOfTheTorsionOfARoundBar) {
     return std::array{r <= 1 / C ? 1 - 1 / (2 * C) - C * r * r / 2 : 1 - r};
   };
   Errors energy, maximum;
-  for (int k = 0; k <= 4; ++k) {
+  for (int k = 1; k <= 5; ++k) {
     const auto r = run_shipped<2, 1>("obstacle_torsion_disk.toml", {uniform(k)});
     energy.add(energy_error<2, 1>(r.mesh(), r.model, r.u(), gradient));
     maximum.add(max_nodal_error<2, 1>(r.mesh(), r.u(), exact));

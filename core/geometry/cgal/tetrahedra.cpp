@@ -15,6 +15,7 @@
 #include <unordered_map>
 
 #include "core/base/error.hpp"
+#include "core/geometry/cgal/peel.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/validate.hpp"
@@ -213,6 +214,7 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
   complex.clear();
   if (mesh.elements.empty()) input_error(domain.name(), "size: too large to resolve the shape");
   mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
+  peel_slivers(mesh);
   domain.finish(mesh, on_crease);
   validate(mesh, domain.name());
   return mesh;

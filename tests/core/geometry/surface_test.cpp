@@ -105,7 +105,7 @@ TEST(Surface, AnOpenSurfaceHasTheSidesOfItsFacesEvenAtASharpEdge) {
       const bool above = p[2] > slope * std::abs(p[0]);
       EXPECT_EQ(at(*surface, p).value > 0, above);
       EXPECT_EQ(at(*turned, p).value > 0, !above);
-      EXPECT_NEAR(at(*surface, p).value, -at(*turned, p).value, 1e-15);
+      EXPECT_NEAR(at(*surface, p).value, -at(*turned, p).value, 2e-14);  // the roof is up to 28 wide
     }
   }
 }

@@ -62,8 +62,7 @@ inline std::vector<Case<3>> space_cases() {
       {"block3", discretize_all<3, 3>(cube<3>(0, 1, 2), 1, pressed_block<3>(plane<3>({0, 0, 0}, {0, 0, 1}), 0.05))});
   out.push_back(
       {"sphere3", discretize_all<3, 3>(cube<3>(0, 1, 2), 2, pressed_block<3>(sphere<3>({0.4, 0.55, -1}, 0.98), 0.08))});
-  out.push_back(
-      {"held3", discretize_all<3, 3>(cube<3>(0, 1, 2), 1, resting_block<3>({2, 1, -1}, {"left", "front"}))});
+  out.push_back({"held3", discretize_all<3, 3>(cube<3>(0, 1, 2), 1, resting_block<3>({2, 1, -1}, {"left", "front"}))});
   return out;
 }
 

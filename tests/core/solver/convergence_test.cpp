@@ -54,7 +54,7 @@ void expect_solved(const Case<B>& c) {
   for (const Setting& s : settings()) {
     if (scalar_without_frames && s.name.find("rotate") != std::string::npos) continue;
     std::vector<double> x;
-    double last = infinity, scale = 0;
+    double last = infinity, scale = problem.prescribed_energy;  // what the energies are computed from
     const Summary summary = solve_from_zero(c.nested, x, s.options, [&](const IterationRecord& r) {
       scale = std::max(scale, std::abs(r.energy));
       EXPECT_LE(r.energy, last + 1e-13 * scale) << c.name << ", " << s.name << ", cycle " << r.iteration;
