@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "apps/signorini/memory.hpp"
+#include "apps/signorini/unit_shape.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
@@ -40,11 +41,30 @@ struct Mesher {
   template <class Shape>
   Mesh<D> operator()(const Shape& shape) const {
     if constexpr (is_free_shape<D, Shape>) {
-      Mesh<D> mesh = geometry::engine().mesh(shape, target_size<D>(body));
+      Mesh<D> mesh = in_own_units(shape);
       separate_curved_faces(mesh);
       return mesh;
     }
     input_error(body.source.table, fmt::format("this shape has not {} dimensions", D));
+  }
+
+ private:
+  // What goes wrong is told in the user's units.
+  template <class Shape>
+  Mesh<D> in_own_units(const Shape& shape) const {
+    const geometry::Size<D> size = target_size<D>(body);
+    const UnitShape<Shape> own = unit_shape(shape);
+    const auto own_size = [&](Point<D> x) {
+      for (double& c : x) c *= own.unit;
+      return size(x) / own.unit;
+    };
+    try {
+      Mesh<D> mesh = geometry::engine().mesh(own.shape, own_size);
+      scale(mesh, own.unit);
+      return mesh;
+    } catch (const Error&) {
+      return geometry::engine().mesh(shape, size);
+    }
   }
 };
 }  // namespace

@@ -65,7 +65,7 @@ class Obstacle {
   virtual void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
                         Flags* critical) const noexcept = 0;
 
-  /// max over the vectors of ||x_p - Proj_K(x_p + A_pp^-1 r_p)|| where r = b - A x, B per vector, is given.
+  /// max over the vectors of ||x_p - Proj_K(x_p + A_pp^-1 r_p)||, Proj_K in the scalar product of A_pp; r = b - A x.
   virtual double natural_residual(const LevelView<B>& level, Index first, Index last,
                                   const double* r) const noexcept = 0;
 };

@@ -11,8 +11,8 @@ Recombination<B>::Recombination(const Constraints<B>& constraints, std::size_t u
 }
 
 template <int B>
-bool Recombination<B>::improve(const std::vector<double>& x_before, const std::vector<double>& r_before,
-                               std::vector<double>& x, std::vector<double>& r) {
+bool Recombination<B>::propose(const std::vector<double>& x_before, const std::vector<double>& r_before,
+                               const std::vector<double>& x, const std::vector<double>& r, std::vector<double>& trial) {
   Direction& d = directions_[next_];
   const std::size_t n = x.size();
   std::array<const Direction*, depth> older{};
@@ -41,10 +41,7 @@ bool Recombination<B>::improve(const std::vector<double>& x_before, const std::v
     reset();
     return false;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    x[i] = x_before[i] + step * d.p[i];
-    r[i] = r_before[i] - step * d.Ap[i];
-  }
+  for (std::size_t i = 0; i < n; ++i) trial[i] = x_before[i] + step * d.p[i];
   known_ = known_ < depth ? known_ + 1 : depth;
   next_ = (next_ + 1) % (depth + 1);
   return true;

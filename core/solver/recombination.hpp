@@ -17,9 +17,11 @@ class Recombination {
 
   /// Forgets all directions: the phases have changed.
   void reset() { known_ = 0; }
-  /// Improves the result x and its residual r of a cycle that started from x_before. Returns whether it did.
-  bool improve(const std::vector<double>& x_before, const std::vector<double>& r_before, std::vector<double>& x,
-               std::vector<double>& r);
+  /// From the result x and its residual r of a cycle that started from x_before: writes to `trial` the minimiser along
+  /// the new direction. Returns whether there is one that should lower the energy further, within the bounds. Near
+  /// rounding level that may not be so: the caller compares, and resets where it was not.
+  bool propose(const std::vector<double>& x_before, const std::vector<double>& r_before, const std::vector<double>& x,
+               const std::vector<double>& r, std::vector<double>& trial);
 
  private:
   static constexpr int depth = 2;

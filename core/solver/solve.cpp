@@ -76,7 +76,9 @@ class Solve {
         recombination_(problem.constraints, options.krylov ? x.size() : 0),
         r_(x.size()),
         x_before_(x.size()),
-        r_before_(x.size()) {}
+        r_before_(x.size()),
+        x_trial_(options.krylov ? x.size() : 0),
+        r_trial_(x_trial_.size()) {}
 
   Summary run(const Monitor& monitor) {
     summary_.level_unknowns = unknowns();
@@ -114,12 +116,29 @@ class Solve {
     return false;
   }
 
-  // Worth it once few phases change. The residual is recomputed from what it leads to.
+  // Worth it once few phases change.
   void accelerate(const CycleReport& cycle) {
     if (100 * cycle.changed > cycle.contact)
       recombination_.reset();
-    else if (recombination_.improve(x_before_, r_before_, x_, r_))
-      residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());
+    else if (recombination_.propose(x_before_, r_before_, x_, r_, x_trial_))
+      choose_trial();
+  }
+
+  // The trial, if it has the lower energy, with its residual computed anew.
+  void choose_trial() {
+    residual<B>(problem_.A, x_trial_.data(), problem_.b.data(), r_trial_.data());
+    if (gain(x_trial_, r_trial_) >= gain(x_, r_)) {
+      x_.swap(x_trial_);
+      r_.swap(r_trial_);
+    } else {
+      recombination_.reset();
+    }
+  }
+
+  double gain(const std::vector<double>& x, const std::vector<double>& r) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += 0.5 * (x[i] - x_before_[i]) * (r_before_[i] + r[i]);
+    return sum;
   }
 
   // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
@@ -225,6 +244,7 @@ class Solve {
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
   std::vector<double> r_, x_before_, r_before_;
+  std::vector<double> x_trial_, r_trial_;  // empty without acceleration
   ErrorEstimate estimate_;
   Summary summary_;
   double reference_ = 0;

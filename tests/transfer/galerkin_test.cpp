@@ -42,7 +42,9 @@ TYPED_TEST(Galerkin, EqualsTheDenseProduct) {
       for (int i = 0; i < B; ++i)
         if (t.coarse.off[q] >> i & 1) projection(i, i) = 0;
       const auto eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, B, B>>(D).eigenvalues();
-      if (eigenvalues[0] > 1e-3 * eigenvalues[B - 1]) EXPECT_LE((inverse * D - projection).norm(), 1e-10);
+      if (eigenvalues[0] > 1e-3 * eigenvalues[B - 1]) {
+        EXPECT_LE((inverse * D - projection).norm(), 1e-10);
+      }
     }
   }
 }

@@ -118,6 +118,15 @@ TEST(Robustness, ElasticCellsStretchedByAHundred) {
                       patient);
 }
 
+/// A tolerance that rounding forbids ends the iteration as solved, not at the limit.
+TEST(Robustness, StopsWhereRoundingDoes) {
+  const std::vector<std::string> settings{"solver.tolerance=1e-15", uniform(3)};
+  for (const char* scene : {"obstacle_radial_2d.toml", "obstacle_degenerate.toml", "obstacle_torsion_disk.toml"})
+    EXPECT_LE((run_shipped<2, 1>(scene, settings).summary().iterations), 30) << scene;
+  EXPECT_LE((run_shipped<2, 2>("cylinder_on_plane_2d.toml", settings).summary().iterations), 40);
+  EXPECT_LE((run_shipped<3, 3>("punch.toml", settings).summary().iterations), 20);
+}
+
 /// The block's coarse mesh with a vertex inside that comes as near to the next one as `thin` times the mesh width, and
 /// the same with all vertices of a plane, which makes a layer of thin cells.
 Mesh<3> needles(double thin, bool layer) {

@@ -40,12 +40,6 @@ std::vector<Setting> settings() {
 }
 
 template <int B>
-double energy_of(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
-  const Eigen::VectorXd v = vector(x);
-  return 0.5 * v.dot(sparse(problem.A) * v) - vector(problem.b).dot(v);
-}
-
-template <int B>
 void expect_solved(const Case<B>& c) {
   const DiscreteProblem<B>& problem = c.nested.finest();
   const Reference exact = reference(problem);
@@ -65,9 +59,6 @@ void expect_solved(const Case<B>& c) {
     const double error = energy_norm<B>(problem.A, vector(x) - exact.x);
     EXPECT_LE(error, 1e-8 * size) << c.name << ", " << s.name << ", " << summary.iterations << " cycles";
     EXPECT_LE((vector(x) - exact.x).norm(), 1e-8 * exact.x.norm()) << c.name << ", " << s.name;
-    if (std::getenv("SHOW"))
-      std::printf("%-16s %-32s %3d cycles, rate %.3f, error %.1e\n", c.name.c_str(), s.name.c_str(), summary.iterations,
-                  summary.rate, error / size);
   }
 }
 

@@ -163,8 +163,7 @@ Renumbered solve_renumbered(const Nested<B>& nested, const SolverOptions& option
   return out;
 }
 
-// A random order smooths a little worse than the order of the refinement, which runs along the elements, and where
-// convergence takes many cycles two random orders differ as well.
+// A random order smooths a little worse than the order of the refinement, which runs along the elements.
 template <int B>
 void expect_independent_of_numbering(const Case<B>& c, Random& random) {
   SolverOptions options;
@@ -176,11 +175,8 @@ void expect_independent_of_numbering(const Case<B>& c, Random& random) {
   const Renumbered second = solve_renumbered(c.nested, options, random);
   EXPECT_LE((first.x - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
   EXPECT_LE((second.x - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
-  EXPECT_NEAR(first.iterations, second.iterations, std::max(1, original.iterations / 5)) << c.name;
-  EXPECT_LE(original.iterations, first.iterations + std::max(1, original.iterations / 5)) << c.name;
-  if (std::getenv("SHOW"))
-    std::printf("%s: %d cycles, renumbered %d and %d\n", c.name.c_str(), original.iterations, first.iterations,
-                second.iterations);
+  EXPECT_NEAR(first.iterations, second.iterations, 1) << c.name;
+  EXPECT_LE(original.iterations, first.iterations + 1) << c.name;
 }
 
 TEST(Invariance, NumberingOfTheVectors) {
@@ -191,8 +187,7 @@ TEST(Invariance, NumberingOfTheVectors) {
 }
 
 template <int B>
-void expect_mesh_independence(const std::string& name, const Nested<B>& finest, std::size_t first,
-                              const SolverOptions& options = {}) {
+void expect_mesh_independence(const std::string& name, const Nested<B>& finest, std::size_t first) {
   int last = 1000;
   for (std::size_t levels = first; levels <= finest.levels.size(); ++levels) {
     const auto end = static_cast<std::ptrdiff_t>(levels);
@@ -200,11 +195,9 @@ void expect_mesh_independence(const std::string& name, const Nested<B>& finest, 
     here.levels.assign(finest.levels.begin(), finest.levels.begin() + end);
     here.prolongations.assign(finest.prolongations.begin(), finest.prolongations.begin() + end - 1);
     std::vector<double> x;
-    const Summary s = solve_nested(here, x, options);
+    const Summary s = solve_nested(here, x);
     EXPECT_TRUE(s.converged());
     EXPECT_LE(s.iterations, last + 1) << name << ", " << levels << " levels";
-    if (std::getenv("SHOW"))
-      std::printf("%s, %zu levels: %d cycles, rate %.3f\n", name.c_str(), levels, s.iterations, s.rate);
     last = s.iterations;
   }
 }
@@ -214,14 +207,11 @@ TEST(Invariance, IterationsDoNotGrowWithTheMesh) {
   expect_mesh_independence("radial3", discretize_all<3, 1>(cube<3>(-2, 2, 3), 3, radial_model<3>()), 3);
 }
 
-// V cycles lose a little with every level where elastic contact ends in the middle of a coarse face; W cycles do not.
-TEST(Invariance, WCyclesDoNotGrowWithTheMeshInElasticContact) {
-  SolverOptions w;
-  w.cycle = "W";
+TEST(Invariance, IterationsDoNotGrowWithTheMeshInElasticContact) {
   const auto circle = pressed_block<2>(sphere<2>({0.4, -1}, 0.98), 0.08);
-  expect_mesh_independence("circle", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, circle), 4, w);
+  expect_mesh_independence("circle", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, circle), 4);
   const auto held = resting_block<2>({3, -1}, {"left"});
-  expect_mesh_independence("held", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, held), 4, w);
+  expect_mesh_independence("held", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, held), 4);
 }
 
 }  // namespace

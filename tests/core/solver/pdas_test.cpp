@@ -63,10 +63,16 @@ void expect_optimal(const Case<B>& c) {
       const Index i = bounds.vector[slot] * B + k;
       ASSERT_GE(found.x[i], bounds.lower[slot * B + k] - 1e-12 * size) << c.name;
       ASSERT_LE(found.x[i], bounds.upper[slot * B + k] + 1e-12 * size) << c.name;
-      if (found.state[i] == 0) ASSERT_LE(std::abs(found.force[i]), 1e-9 * force + 1e-14) << c.name;
+      if (found.state[i] == 0) {
+        ASSERT_LE(std::abs(found.force[i]), 1e-9 * force + 1e-14) << c.name;
+      }
       if (bounds.lower[slot * B + k] == bounds.upper[slot * B + k]) continue;
-      if (found.state[i] < 0) ASSERT_GE(found.force[i], -1e-9 * force - 1e-14) << c.name;
-      if (found.state[i] == 1) ASSERT_LE(found.force[i], 1e-9 * force + 1e-14) << c.name;
+      if (found.state[i] < 0) {
+        ASSERT_GE(found.force[i], -1e-9 * force - 1e-14) << c.name;
+      }
+      if (found.state[i] == 1) {
+        ASSERT_LE(found.force[i], 1e-9 * force + 1e-14) << c.name;
+      }
     }
 }
 
@@ -80,8 +86,12 @@ TEST(ReferenceSolver, CasesAreWhatTheyAreCalled) {
   for (const auto& c : scalar_cases()) {
     const Reference found = reference(c.nested.finest());
     const int bounded = c.nested.finest().constraints.size();
-    if (c.name == "no_contact") EXPECT_EQ(found.active(), 0);
-    if (c.name == "full_contact") EXPECT_EQ(found.active(), bounded);
+    if (c.name == "no_contact") {
+      EXPECT_EQ(found.active(), 0);
+    }
+    if (c.name == "full_contact") {
+      EXPECT_EQ(found.active(), bounded);
+    }
     if (c.name == "two_sided" || c.name == "radial2" || c.name == "radial3" || c.name == "hill") {
       EXPECT_GT(found.active(), 0) << c.name;
       EXPECT_LT(found.active(), bounded) << c.name;
@@ -98,7 +108,9 @@ TEST(ReferenceSolver, CasesAreWhatTheyAreCalled) {
   for (const auto& c : plane_cases()) {
     const Reference found = reference(c.nested.finest());
     EXPECT_GT(found.active(), 0) << c.name;
-    if (c.name != "block") EXPECT_LT(found.active(), c.nested.finest().constraints.size()) << c.name;
+    if (c.name != "block") {
+      EXPECT_LT(found.active(), c.nested.finest().constraints.size()) << c.name;
+    }
   }
 }
 
