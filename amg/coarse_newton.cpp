@@ -12,9 +12,10 @@ namespace {
 
 constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
-constexpr int worn_out = 6;      // iterations above which a new factorisation pays
-constexpr double enough = 1e-3;  // energy decrease of a step, relative to all so far, that ends the loop
-constexpr int max_sweeps = 60;   // of Gauss-Seidel alone
+constexpr int worn_out = 6;        // iterations above which a new factorisation pays
+constexpr double enough = 1e-3;    // energy decrease of a step, relative to all so far, that ends the loop
+constexpr double rounding = 1e-6;  // components of a direction without energy that are zero but for rounding
+constexpr int max_sweeps = 60;     // of Gauss-Seidel alone
 template <int B>
 constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
 
@@ -51,17 +52,17 @@ void mask_contact(const Level<B>& level, std::vector<Flags>& mask) {
   }
 }
 
-// Largest step <= limit along d that stays within the bounds.
+// Largest step <= limit along d that stays within the bounds. Components of d up to `negligible` do not count.
 template <int B>
-double admissible_step(const Level<B>& level, const std::vector<double>& d, double limit) {
+double admissible_step(const Level<B>& level, const std::vector<double>& d, double limit, double negligible) {
   double step = limit;
   for (Index slot = 0; slot < level.constraints.size(); ++slot) {
     const Index p = level.constraints.vector[slot];
     for (int k = 0; k < B; ++k) {
       const Bound<B> bound(level, slot, k);
       const Offset i = Offset{p} * B + k;
-      if (d[i] > 0) step = std::min(step, (bound.upper - level.x[i]) / d[i]);
-      if (d[i] < 0) step = std::min(step, (bound.lower - level.x[i]) / d[i]);
+      if (d[i] > negligible) step = std::min(step, (bound.upper - level.x[i]) / d[i]);
+      if (d[i] < -negligible) step = std::min(step, (bound.lower - level.x[i]) / d[i]);
     }
   }
   return std::max(step, 0.0);
@@ -103,6 +104,7 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
   mask_contact<B>(level, mask_);
   r_.resize(static_cast<std::size_t>(level.vectors) * B);
   residual<B>(*level.A, level.x, level.b, r_.data());
+  force_ = std::max(force_, force_norm<B>(*level.A, r_));
   apply_mask<B>(mask_, r_);
   const bool direct = level.vectors <= max_direct<B>;
   if (direct && worn_) factorise(level, mask_);
@@ -111,7 +113,7 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
     apply_mask<B>(mask_, z);
   };
   const CgResult cg =
-      masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations, r_, d_);
+      masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations, force_, r_, d_);
   worn_ = cg.iterations > worn_out;
   return move(level, cg.singular);
 }
@@ -120,7 +122,10 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
 // direction without energy the obstacle must end the fall.
 template <int B>
 bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
-  const double step = admissible_step<B>(level, d_, singular ? infinity : 1.0);
+  double largest = 0;
+  for (const double d : d_) largest = std::max(largest, std::abs(d));
+  const double step =
+      singular ? admissible_step<B>(level, d_, infinity, rounding * largest) : admissible_step<B>(level, d_, 1, 0);
   if (step == infinity) return false;
   const auto n = d_.size();
   const std::vector<double> before(level.x, level.x + n);

@@ -24,6 +24,7 @@ class CoarseNewton final : public CoarseSolver<B> {
   std::vector<Flags> mask_;
   std::vector<double> r_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+  double force_ = 0;  // the largest residual so far: the scale of the problem's forces
   bool factorised_ = false;
   bool worn_ = true;
 };

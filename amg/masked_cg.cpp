@@ -15,25 +15,33 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return s;
 }
 
-// p'Dp and r'D^-1 r with the diagonal D of A: the scales that energies and forces are compared with.
+// p'Dp with the diagonal D of A: the scale that energies are compared with.
 template <int B>
-std::pair<double, double> diagonal_norms(const BlockMatrix<B>& A, const std::vector<double>& p,
-                                         const std::vector<double>& r) {
-  double pDp = 0, rDr = 0;
+double diagonal_energy(const BlockMatrix<B>& A, const std::vector<double>& p) {
+  double sum = 0;
   for (Index q = 0; q < A.size(); ++q)
     for (int k = 0; k < B; ++k) {
-      const double D = A.diagonal(q)[k * B + k];
       const Offset i = Offset{q} * B + k;
-      pDp += D * p[i] * p[i];
-      rDr += r[i] * r[i] / D;
+      sum += A.diagonal(q)[k * B + k] * p[i] * p[i];
     }
-  return {pDp, rDr};
+  return sum;
 }
 
 constexpr double without_energy = 1e-14;  // p'Ap below this part of p'Dp is rounding
-constexpr double falling = 1e-7;          // cosine between force and direction above which the fall is no rounding
+constexpr double falling = 1e-9;          // part of all forces along a direction above which it is no rounding
 
 }  // namespace
+
+template <int B>
+double force_norm(const BlockMatrix<B>& A, const std::vector<double>& r) {
+  double sum = 0;
+  for (Index q = 0; q < A.size(); ++q)
+    for (int k = 0; k < B; ++k) {
+      const double value = r[Offset{q} * B + k];
+      sum += value * value / A.diagonal(q)[k * B + k];
+    }
+  return std::sqrt(sum);
+}
 
 template <int B>
 void apply_mask(const std::vector<Flags>& mask, std::vector<double>& v) {
@@ -60,7 +68,7 @@ void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& m
 
 template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
-                   double reduction, int limit, std::vector<double>& r, std::vector<double>& d) {
+                   double reduction, int limit, double force, std::vector<double>& r, std::vector<double>& d) {
   CgResult result;
   d.assign(r.size(), 0.0);
   std::vector<double> z(r.size()), p(r.size()), Ap(r.size());
@@ -73,10 +81,9 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     product<B>(A, p.data(), Ap.data());
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
-    const auto [pDp, rDr] = diagonal_norms<B>(A, p, r);
+    const double pDp = diagonal_energy<B>(A, p);
     if (!(pAp > without_energy * pDp)) {
-      const double rp = dot(r, p);
-      result.singular = rp > falling * std::sqrt(pDp * rDr);
+      result.singular = dot(r, p) > falling * std::sqrt(pDp) * force;
       if (result.singular) d = p;
       return result;
     }
@@ -93,8 +100,11 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
   return result;
 }
 
+template double force_norm(const BlockMatrix<1>&, const std::vector<double>&);
 template void apply_mask<1>(const std::vector<Flags>&, std::vector<double>&);
+template double force_norm(const BlockMatrix<2>&, const std::vector<double>&);
 template void apply_mask<2>(const std::vector<Flags>&, std::vector<double>&);
+template double force_norm(const BlockMatrix<3>&, const std::vector<double>&);
 template void apply_mask<3>(const std::vector<Flags>&, std::vector<double>&);
 template void symmetric_gauss_seidel(const BlockMatrix<1>&, const std::vector<Flags>&, const std::vector<double>&,
                                      std::vector<double>&);
@@ -102,11 +112,11 @@ template void symmetric_gauss_seidel(const BlockMatrix<2>&, const std::vector<Fl
                                      std::vector<double>&);
 template void symmetric_gauss_seidel(const BlockMatrix<3>&, const std::vector<Flags>&, const std::vector<double>&,
                                      std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<1>&, const std::vector<Flags>&, const Precondition&, double, int,
+template CgResult masked_cg(const BlockMatrix<1>&, const std::vector<Flags>&, const Precondition&, double, int, double,
                             std::vector<double>&, std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<2>&, const std::vector<Flags>&, const Precondition&, double, int,
+template CgResult masked_cg(const BlockMatrix<2>&, const std::vector<Flags>&, const Precondition&, double, int, double,
                             std::vector<double>&, std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<3>&, const std::vector<Flags>&, const Precondition&, double, int,
+template CgResult masked_cg(const BlockMatrix<3>&, const std::vector<Flags>&, const Precondition&, double, int, double,
                             std::vector<double>&, std::vector<double>&);
 
 }  // namespace signorini

@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/memory.hpp"
 #include "apps/signorini/unit_shape.hpp"
 #include "core/base/error.hpp"
@@ -55,6 +56,7 @@ struct Mesher {
     const geometry::Size<D> size = target_size<D>(body);
     const UnitShape<Shape> own = unit_shape(shape);
     const auto own_size = [&](Point<D> x) {
+      stop_if_interrupted();
       for (double& c : x) c *= own.unit;
       return size(x) / own.unit;
     };
@@ -62,7 +64,8 @@ struct Mesher {
       Mesh<D> mesh = geometry::engine().mesh(own.shape, own_size);
       scale(mesh, own.unit);
       return mesh;
-    } catch (const Error&) {
+    } catch (const Error& error) {
+      if (error.status() != Exit::input) throw;
       return geometry::engine().mesh(shape, size);
     }
   }

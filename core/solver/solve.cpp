@@ -104,10 +104,10 @@ class Solve {
     refuse_nan(absolute);
     add_gain();
     record(cycle, absolute);
-    if (!cycle.bounded)
-      return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
     const bool go_on = !monitor || monitor(summary_.history.back());
     if (finished(absolute)) return true;
+    if (!cycle.bounded && absolute > rounding_level())
+      return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
     if (!go_on) return end(Outcome::interrupted, "interrupted");
     if (summary_.iterations >= options_.max_iterations)
       return end(Outcome::iteration_limit,
@@ -144,16 +144,14 @@ class Solve {
   // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
   void add_gain() {
     double gain = 0, correction = 0, size = 0;
-    [[maybe_unused]] double rounding = 0;
     for (std::size_t i = 0; i < x_.size(); ++i) {
       const double d = x_[i] - x_before_[i];
-      rounding += std::abs(d * x_[i]) * problem_.A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)];
       gain += 0.5 * d * (r_before_[i] + r_[i]);
       correction += d * (r_before_[i] - r_[i]);
       size += std::abs(d * r_before_[i]) + std::abs(d * r_[i]);
     }
 #ifdef SIGNORINI_CHECKS
-    assert(gain >= -1e-8 * size - 1e-13 * rounding && "the energy must never grow");
+    assert(gain >= -1e-8 * size - rounding_of_gain() && "the energy must never grow");
 #endif
     refuse_nan(size);
     estimate_.add(gain, std::sqrt(std::max(correction, 0.0)));
@@ -163,10 +161,34 @@ class Solve {
     Summary& s = summary_;
     ++s.iterations;
     s.residual = reference_ > 0 ? absolute / reference_ : absolute;
-    const double size = std::sqrt(energy_norm_squared(problem_, x_, r_));
+    const double size = std::sqrt(std::max(energy_norm_squared(problem_, x_, r_), rounding_energy()));
     s.algebraic_error = estimate_.error() == 0 ? 0 : size > 0 ? estimate_.error() / size : 1;
     s.energy = energy(problem_, x_, r_);
     s.history.push_back({s.iterations, s.residual, s.algebraic_error, s.energy, cycle.contact, cycle.changed});
+  }
+
+#ifdef SIGNORINI_CHECKS
+  // The residuals are exact to rounding of the forces in them.
+  double rounding_of_gain() const {
+    double moved = 0, force = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      if (problem_.fixed[i / B] >> (i % B) & 1u) continue;
+      moved += std::abs(x_[i] - x_before_[i]);
+      const double stiffness = problem_.A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)];
+      force = std::max(force, std::abs(problem_.b[i]) + stiffness * std::abs(x_[i]));
+    }
+    return 1e-13 * moved * force;
+  }
+#endif
+
+  // What rounding leaves of x'Ax for a rigid motion, which has no energy.
+  double rounding_energy() const {
+    double sum = 0;
+    for (Index p = 0; p < problem_.A.size(); ++p)
+      for (int k = 0; k < B; ++k)
+        if (const double v = x_[Offset{p} * B + k]; !(problem_.fixed[p] >> k & 1u))
+          sum += problem_.A.diagonal(p)[k * B + k] * v * v;
+    return 16 * std::numeric_limits<double>::epsilon() * sum;
   }
 
   bool finished(double absolute) {
@@ -176,13 +198,16 @@ class Solve {
                                                  s.residual, s.algebraic_error, options_.tolerance));
     stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
     least_ = std::min(least_, absolute);
+    if (stalled_ >= 3 && absolute <= rounding_level() && s.algebraic_error <= 1e-4)
+      return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
+    return false;
+  }
+
+  // Natural residuals below a small multiple of machine precision times the largest unknown say nothing.
+  double rounding_level() const {
     double largest = 0;
     for (const double v : x_) largest = std::max(largest, std::abs(v));
-    constexpr double rounding = 1000 * std::numeric_limits<double>::epsilon();
-    if (stalled_ >= 3 && absolute <= rounding * largest)
-      return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, {:.1e} of the largest unknown: rounding",
-                                                s.residual, absolute / largest));
-    return false;
+    return 1000 * std::numeric_limits<double>::epsilon() * largest;
   }
 
   bool end(Outcome outcome, std::string reason) {
