@@ -114,7 +114,7 @@ void run(bool quick) {
     return sizes;
   };
   const Case radial2{"radial 2D", "obstacle_radial_2d.toml", upto(4, 8), {}, {}};
-  const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(1, 3), {}, {}};
+  const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(1, 3), {}, {1.0}};
   const Case spiral{"spiral", "obstacle_spiral.toml", upto(5, 8), {}, {0.0}};
   const Case ball{"ball on plane", "ball_on_plane.toml", upto(1, 3), {}, {0, 0, -1}};
   const Case fine{"radial 2D, V(2,2) symmetric",
