@@ -13,15 +13,19 @@ class GaussSeidel final : public Smoother<B> {
  public:
   explicit GaussSeidel(SweepOrder order) : order_(order) {}
 
-  void smooth(const Level<B>& level, int steps, Side side) const override {
+  void add_passes(const Level<B>& level, int steps, Side side, Passes& passes) const override {
     const bool forward = order_ == SweepOrder::adjoint ? side == Side::descend : order_ != SweepOrder::backward;
     for (int step = 0; step < steps; ++step) {
-      level.sweep(forward ? Order::forward : Order::backward);
-      if (order_ == SweepOrder::symmetric) level.sweep(Order::backward);
+      add_sweep(level, forward ? Order::forward : Order::backward, passes);
+      if (order_ == SweepOrder::symmetric) add_sweep(level, Order::backward, passes);
     }
   }
 
  private:
+  static void add_sweep(const Level<B>& level, Order order, Passes& passes) {
+    passes.add(order, [&level, order](Index first, Index last) { level.sweep(order, first, last); });
+  }
+
   SweepOrder order_;
 };
 

@@ -26,13 +26,13 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   coarse.inverse.resize(n * B * B);
   coarse.own_b.resize(n * B);
   coarse.own_x.resize(n * B);
-  coarse.r.resize(n * B);
   coarse.b = coarse.own_b.data();
   coarse.x = coarse.own_x.data();
   coarse.A = &coarse.own_matrix;
   inherit_twins(fine, rotate, coarse);
   give_slots(fine, coarse);
   build_pattern(*fine.A, coarse.own_matrix);
+  coarse.chunks = divide(coarse.own_matrix);
 }
 
 // A frame, and what is prescribed in it, passes from a vector to its coarse twin. Without the frame nothing can be
@@ -41,7 +41,7 @@ template <int B>
 void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const {
   coarse.off.assign(static_cast<std::size_t>(coarse.vectors), 0);
   for (Index p = 0; p < fine.vectors; ++p) {
-    if (P_->row[p + 1] != P_->row[p] + 1 || P_->weight[P_->row[p]] != 1) continue;
+    if (!P_->twin(p)) continue;
     const Index q = P_->column[P_->row[p]];
     const double* Q = fine.frames.at(p);
     if (!Q) {
@@ -72,11 +72,15 @@ void BlockTransfer<B>::give_slots(const Level<B>& fine, Level<B>& coarse) const 
 }
 
 template <int B>
-void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Level<B>& coarse) const {
+void BlockTransfer<B>::begin_restriction(Level<B>& coarse) const {
   std::fill(coarse.own_b.begin(), coarse.own_b.end(), 0.0);
   std::fill(coarse.own_x.begin(), coarse.own_x.end(), 0.0);
-  for (Index p = 0; p < fine.vectors; ++p) {
-    const double* r = fine.r.data() + Offset{p} * B;
+}
+
+template <int B>
+void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
+                                         Level<B>& coarse) const {
+  for (Index p = first; p < last; ++p, r += B) {
     double global[B];
     if (modifier::is_plain<B>(fine, p)) {
       for (int i = 0; i < B; ++i) global[i] = r[i];
@@ -88,6 +92,10 @@ void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Level<B>& coarse)
       for (int i = 0; i < B; ++i) b[i] += P_->weight[k] * global[i];
     }
   }
+}
+
+template <int B>
+void BlockTransfer<B>::end_restriction(Level<B>& coarse) const {
   for (Index q = 0; q < coarse.vectors; ++q) {
     const double* Q = coarse.frames.at(q);
     if (!Q && !coarse.off[q]) continue;
@@ -99,15 +107,19 @@ void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Level<B>& coarse)
 }
 
 template <int B>
-void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine) const {
-  if (!coarse.frames.slot.empty())  // the correction is not needed in local coordinates any more
-    for (Index q = 0; q < coarse.vectors; ++q)
-      if (coarse.frames.at(q)) {
-        double global[B];
-        modifier::to_global<B>(coarse, q, 0, coarse.x + Offset{q} * B, global);
-        std::copy(global, global + B, coarse.x + Offset{q} * B);
-      }
-  for (Index p = 0; p < fine.vectors; ++p) {
+void BlockTransfer<B>::begin_prolongation(const Level<B>& coarse) const {
+  if (coarse.frames.slot.empty()) return;
+  for (Index q = 0; q < coarse.vectors; ++q)
+    if (coarse.frames.at(q)) {
+      double global[B];
+      modifier::to_global<B>(coarse, q, 0, coarse.x + Offset{q} * B, global);
+      std::copy(global, global + B, coarse.x + Offset{q} * B);
+    }
+}
+
+template <int B>
+void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const {
+  for (Index p = first; p < last; ++p) {
     double global[B] = {};
     for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
       for (int i = 0; i < B; ++i) global[i] += P_->weight[k] * coarse.x[Offset{P_->column[k]} * B + i];
@@ -121,7 +133,8 @@ void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine) 
     }
   }
   const Constraints<B>& c = fine.constraints;
-  for (Index slot = 0; slot < c.size(); ++slot)
+  const auto [from, to] = slots_between(c, first, last);
+  for (Index slot = from; slot < to; ++slot)
     for (int i = 0; i < B; ++i) {
       double& x = fine.x[Offset{c.vector[slot]} * B + i];
       x = x < c.lower[Offset{slot} * B + i]   ? c.lower[Offset{slot} * B + i]

@@ -10,8 +10,12 @@ class BlockTransfer : public Transfer<B> {
  public:
   void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) override;
   Index assemble(Level<B>& fine, Level<B>& coarse) override;
-  void restrict_residual(const Level<B>& fine, Level<B>& coarse) const override;
-  void prolongate(const Level<B>& coarse, const Level<B>& fine) const override;
+  void begin_restriction(Level<B>& coarse) const override;
+  void restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
+                         Level<B>& coarse) const override;
+  void end_restriction(Level<B>& coarse) const override;
+  void begin_prolongation(const Level<B>& coarse) const override;
+  void prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const override;
 
  protected:
   const Prolongation& weights() const { return *P_; }
@@ -19,6 +23,8 @@ class BlockTransfer : public Transfer<B> {
  private:
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
+  template <class Visit>
+  void visit_reached(const BlockMatrix<B>& A, Index p, const Visit& visit) const;
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);
   void mark_parents(Index p, std::vector<Index>& rows);

@@ -26,23 +26,35 @@ void decouple(BlockMatrix<B>& C, Index q, Flags off) {
 
 }  // namespace
 
+// Calls visit(s) for the coarse vectors s that a parent of p is coupled to through p.
+template <int B>
+template <class Visit>
+void BlockTransfer<B>::visit_reached(const BlockMatrix<B>& A, Index p, const Visit& visit) const {
+  const auto visit_parents = [&](Index r) {
+    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) visit(P_->column[m]);
+  };
+  if (P_->midpoints) return visit_parents(p);
+  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) visit_parents(A.column[k]);
+}
+
 template <int B>
 void BlockTransfer<B>::build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
   const Index n = P_->coarse;
   coarse.row.assign(1, 0);
+  coarse.row.reserve(static_cast<std::size_t>(n) + 1);
   coarse.column.clear();
+  coarse.column.reserve(P_->column.size() + static_cast<std::size_t>(n));
   std::vector<Index> seen(static_cast<std::size_t>(n), -1);
   std::vector<Index> row;
   for (Index q = 0; q < n; ++q) {
     row.clear();
     seen[q] = q;
-    for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c)
-      for (Offset k = A.row[child_[c].vector]; k < A.row[child_[c].vector + 1]; ++k)
-        for (Offset m = P_->row[A.column[k]]; m < P_->row[A.column[k] + 1]; ++m)
-          if (const Index s = P_->column[m]; seen[s] != q) {
-            seen[s] = q;
-            row.push_back(s);
-          }
+    const auto add = [&](Index s) {
+      if (seen[s] == q) return;
+      seen[s] = q;
+      row.push_back(s);
+    };
+    for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) visit_reached(A, child_[c].vector, add);
     std::sort(row.begin(), row.end());
     coarse.column.push_back(q);
     coarse.column.insert(coarse.column.end(), row.begin(), row.end());

@@ -22,15 +22,45 @@ void coupling(const Level<B>& fine, Index p, int direction, const Level<B>& coar
   }
 }
 
+// share * c must stay within the bounds for the coarse component c number `at`.
+template <int B>
+void tighten(Constraints<B>& coarse, Offset at, double share, double lower, double upper) {
+  const double each = 1 / share;
+  coarse.lower[at] = std::max(coarse.lower[at], (share > 0 ? lower : upper) * each);
+  coarse.upper[at] = std::min(coarse.upper[at], (share > 0 ? upper : lower) * each);
+}
+
 }  // namespace
 
 template <int B>
 void MinMerge<B>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) const {
   std::fill(coarse.constraints.lower.begin(), coarse.constraints.lower.end(), -infinity);
   std::fill(coarse.constraints.upper.begin(), coarse.constraints.upper.end(), infinity);
+  const bool plain = fine.frames.slot.empty() && coarse.frames.slot.empty();
   for (Index slot = 0; slot < fine.constraints.size(); ++slot)
-    for (int k = 0; k < B; ++k)
-      if (!(fine.removed[fine.constraints.vector[slot]] >> k & 1u)) merge(fine, slot, k, coarse);
+    for (int k = 0; k < B; ++k) {
+      if (fine.removed[fine.constraints.vector[slot]] >> k & 1u) continue;
+      if (plain)
+        merge_plain(fine, slot, k, coarse);
+      else
+        merge(fine, slot, k, coarse);
+    }
+}
+
+// Where nothing is rotated every direction couples to itself alone.
+template <int B>
+void MinMerge<B>::merge_plain(const Level<B>& fine, Index slot, int direction, Level<B>& coarse) const {
+  const Prolongation& P = this->weights();
+  const double lower = fine.lower[Offset{slot} * B + direction], upper = fine.upper[Offset{slot} * B + direction];
+  if (lower == -infinity && upper == infinity) return;
+  const Index p = fine.constraints.vector[slot];
+  const auto moves = [&](Offset k) { return P.weight[k] != 0 && !(coarse.off[P.column[k]] >> direction & 1u); };
+  int terms = 0;
+  for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) terms += moves(k);
+  for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
+    if (moves(k))
+      tighten(coarse.constraints, Offset{coarse.constraints.slot[P.column[k]]} * B + direction, terms * P.weight[k],
+              lower, upper);
 }
 
 template <int B>
@@ -51,11 +81,7 @@ void MinMerge<B>::merge(const Level<B>& fine, Index slot, int direction, Level<B
     const Offset at = Offset{coarse.constraints.slot[q]} * B;
     for (int j = 0; j < B; ++j) {
       const double share = terms * P.weight[k] * M[j];
-      if (share == 0) continue;
-      double& coarse_lower = coarse.constraints.lower[at + j];
-      double& coarse_upper = coarse.constraints.upper[at + j];
-      coarse_lower = std::max(coarse_lower, (share > 0 ? lower : upper) / share);
-      coarse_upper = std::min(coarse_upper, (share > 0 ? upper : lower) / share);
+      if (share != 0) tighten(coarse.constraints, at + j, share, lower, upper);
     }
   }
 }

@@ -12,6 +12,7 @@ class MinMerge final : public BlockTransfer<B> {
   void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const override;
 
  private:
+  void merge_plain(const Level<B>& fine, Index slot, int direction, Level<B>& coarse) const;
   void merge(const Level<B>& fine, Index slot, int direction, Level<B>& coarse) const;
 };
 

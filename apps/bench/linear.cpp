@@ -68,6 +68,7 @@ LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prol
     result.residual = natural_residual(multigrid.finest(), r) / reference;
     result.algebraic_error = estimate.error() / std::sqrt(energy_norm_squared(problem, x, r));
     done = result.residual <= tolerance && result.algebraic_error <= tolerance;
+    if (done) continue;
     precondition();
     const double next = dot(r, z);
     for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + next / rz * p[i];

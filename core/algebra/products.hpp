@@ -4,26 +4,33 @@
 
 namespace signorini {
 
+/// y = (A x)_p
+template <int B>
+inline void row_product(const BlockMatrix<B>& A, Index p, const double* x, double* y) {
+  const Offset k = A.row[p];
+  block::row_product<B>(A.at(k), A.column.data() + k, A.row[p + 1] - k, x, y);
+}
+
+/// r = b - A x at the vectors first <= p < last; all B per vector, r from `first` on.
+template <int B>
+void residual(const BlockMatrix<B>& A, const double* x, const double* b, Index first, Index last, double* r) {
+  for (Index p = first; p < last; ++p, r += B) {
+    double Ax[B];
+    row_product(A, p, x, Ax);
+    for (int i = 0; i < B; ++i) r[i] = b[Offset{p} * B + i] - Ax[i];
+  }
+}
+
 /// r = b - A x; all B per vector.
 template <int B>
 void residual(const BlockMatrix<B>& A, const double* x, const double* b, double* r) {
-  for (Index p = 0; p < A.size(); ++p) {
-    double s[B];
-    for (int k = 0; k < B; ++k) s[k] = b[Offset{p} * B + k];
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-      block::subtract_product<B>(A.at(k), x + Offset{A.column[k]} * B, s);
-    for (int k = 0; k < B; ++k) r[Offset{p} * B + k] = s[k];
-  }
+  residual(A, x, b, 0, A.size(), r);
 }
 
 /// y = A x
 template <int B>
 void product(const BlockMatrix<B>& A, const double* x, double* y) {
-  for (Index p = 0; p < A.size(); ++p) {
-    double s[B] = {};
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) block::add_product<B>(A.at(k), x + Offset{A.column[k]} * B, s);
-    for (int k = 0; k < B; ++k) y[Offset{p} * B + k] = s[k];
-  }
+  for (Index p = 0; p < A.size(); ++p) row_product(A, p, x, y + Offset{p} * B);
 }
 
 }  // namespace signorini

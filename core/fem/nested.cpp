@@ -9,6 +9,7 @@ namespace signorini {
 Prolongation prolongation(const Refinement& refinement, Index coarse_vertices) {
   Prolongation out;
   out.coarse = coarse_vertices;
+  out.midpoints = refinement.uniform;
   out.row.reserve(refinement.parents.size() + 1);
   out.column.reserve(2 * refinement.parents.size());
   out.weight.reserve(2 * refinement.parents.size());

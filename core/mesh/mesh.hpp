@@ -45,6 +45,7 @@ struct Mesh {
 struct Refinement {
   std::vector<std::array<Index, 2>> parents;  ///< per fine vertex
   std::vector<Index> father;                  ///< per fine element, the coarse element it lies in
+  bool uniform = true;                        ///< every coarse edge is cut
 };
 
 /// Conforming meshes, coarsest first; refinements[k] leads from levels[k] to levels[k + 1].

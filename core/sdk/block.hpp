@@ -20,6 +20,22 @@ inline void subtract_product(const double* M, const double* x, double* y) {
     for (int j = 0; j < B; ++j) y[i] -= M[i * B + j] * x[j];
 }
 
+/// y = sum of the products of `count` consecutive blocks M with the vectors number column[k] of x. Every entry of a
+/// block has a sum of its own, so that no multiplication waits for another.
+template <int B>
+inline void row_product(const double* M, const Index* column, Offset count, const double* x, double* y) {
+  double sum[B * B] = {};
+  for (Offset k = 0; k < count; ++k, M += B * B) {
+    const double* v = x + Offset{column[k]} * B;
+    for (int i = 0; i < B; ++i)
+      for (int j = 0; j < B; ++j) sum[i * B + j] += M[i * B + j] * v[j];
+  }
+  for (int i = 0; i < B; ++i) {
+    y[i] = 0;
+    for (int j = 0; j < B; ++j) y[i] += sum[i * B + j];
+  }
+}
+
 /// y = M x
 template <int B>
 inline void product(const double* M, const double* x, double* y) {

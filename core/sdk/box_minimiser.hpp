@@ -7,6 +7,11 @@ namespace signorini {
 /// allowed). It is the best among the admissible minimisers of all faces of the box; faces without bounds cost nothing.
 template <int B>
 struct BoxMinimiser {
+  /// The minimiser of a scalar problem, from that of the unbounded one. NaN stays visible.
+  static double clamp(double x, double lower, double upper) requires(B == 1) {
+    return x < lower ? lower : x > upper ? upper : x;
+  }
+
   static void correct(const double* M, const double* inverse, const double* r, const double* lower, const double* upper,
                       double* d) {
     block::product<B>(inverse, r, d);

@@ -49,6 +49,11 @@ class BoxObstacle : public Obstacle<B> {
   // Proj_K(x + A_pp^-1 r) - x in the scalar product of A_pp, in which it vanishes at the solution: the local minimiser.
   static void project(const LevelView<B>& level, Index slot, const double* r, double* d) {
     const Index p = level.constrained[slot];
+    if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
+      const double x = level.x[p];
+      *d = Local::clamp(x + level.inverse[p] * *r, level.lower[slot], level.upper[slot]) - x;
+      return;
+    }
     double lower[B], upper[B];
     for (int k = 0; k < B; ++k) {
       const double x = level.x[Offset{p} * B + k];

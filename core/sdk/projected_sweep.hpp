@@ -9,9 +9,10 @@ namespace signorini {
 /// r = b_p - (A x)_p
 template <int B>
 inline void row_residual(const LevelView<B>& level, Index p, double* r) {
-  for (int k = 0; k < B; ++k) r[k] = level.b[Offset{p} * B + k];
-  for (Offset k = level.row[p]; k < level.row[p + 1]; ++k)
-    block::subtract_product<B>(level.value + k * B * B, level.x + Offset{level.column[k]} * B, r);
+  const Offset k = level.row[p];
+  double Ax[B];
+  block::row_product<B>(level.value + k * B * B, level.column + k, level.row[p + 1] - k, level.x, Ax);
+  for (int i = 0; i < B; ++i) r[i] = level.b[Offset{p} * B + i] - Ax[i];
 }
 
 /// Gauss-Seidel at a vector without obstacle.
@@ -28,6 +29,12 @@ template <int B, class Local>
 inline void relax_projected(const LevelView<B>& level, Index slot) {
   const Index p = level.constrained[slot];
   double* x = level.x + Offset{p} * B;
+  if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
+    double r;
+    row_residual<1>(level, p, &r);
+    *x = Local::clamp(*x + level.inverse[p] * r, level.lower[slot], level.upper[slot]);
+    return;
+  }
   const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};
   double r[B], lower[B], upper[B], d[B];
   row_residual<B>(level, p, r);

@@ -14,8 +14,8 @@ template <int B>
 class Smoother {
  public:
   virtual ~Smoother() = default;
-  /// `steps` smoothing steps on level.x, on the way down or up. The energy never grows.
-  virtual void smooth(const Level<B>& level, int steps, Side side) const = 0;
+  /// Adds the passes of `steps` smoothing steps on level.x, on the way down or up. The energy never grows.
+  virtual void add_passes(const Level<B>& level, int steps, Side side, Passes& passes) const = 0;
 };
 
 /// Which coarse vectors take over the frame of their twin on the next finer level.
@@ -32,13 +32,21 @@ class Transfer {
   /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time; clears both lists, and
   /// appends what it recomputed to `coarse.renewed`. Returns the number of rows.
   virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;
-  /// coarse.b from fine.r, coarse.x = 0.
-  virtual void restrict_residual(const Level<B>& fine, Level<B>& coarse) const = 0;
+  /// coarse.b = coarse.x = 0.
+  virtual void begin_restriction(Level<B>& coarse) const = 0;
+  /// Adds to coarse.b what the residuals of the fine vectors first <= p < last contribute; r: B each, from `first` on.
+  virtual void restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
+                                 Level<B>& coarse) const = 0;
+  /// coarse.b in the coordinates of the coarse level, once its matrix is assembled.
+  virtual void end_restriction(Level<B>& coarse) const = 0;
   /// Monotone restriction (RestrictObstaclesByMatrix and merge, Krause 4.4): bounds of coarse.x such that every
   /// admissible coarse correction is admissible on the fine level. Truncated directions do not count.
   virtual void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const = 0;
-  /// fine.x += interpolation of coarse.x; what rounding carries over a bound is put back onto it.
-  virtual void prolongate(const Level<B>& coarse, const Level<B>& fine) const = 0;
+  /// coarse.x in the form that prolongate() reads; it is of no other use afterwards.
+  virtual void begin_prolongation(const Level<B>& coarse) const = 0;
+  /// fine.x += interpolation of coarse.x at the vectors first <= p < last; what rounding carries over a bound is put
+  /// back onto it.
+  virtual void prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const = 0;
 };
 
 template <int B>

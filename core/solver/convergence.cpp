@@ -12,7 +12,10 @@ void ErrorEstimate::add(double gain, double correction) {
   constexpr double slowest = 0.999;
   // Until there are two gains: as if every cycle halved the error.
   double ratio = 0.25;
-  if (!gains_.empty() && gains_.back() > 0) ratio = std::min(gain / gains_.back(), slowest);
+  const std::size_t n = gains_.size();
+  if (n > 0 && gains_[n - 1] > 0) ratio = gain / gains_[n - 1];
+  if (n > 1 && gains_[n - 2] > 0) ratio = std::sqrt(gain / gains_[n - 2]);  // acceleration makes single ones uneven
+  ratio = std::min(ratio, slowest);
   error_ = std::sqrt(2 * gain * ratio / (1 - ratio));
   gains_.push_back(gain);
   corrections_.push_back(correction);
@@ -24,25 +27,24 @@ double ErrorEstimate::rate() const {
   return std::pow(corrections_[n - 1] / corrections_[n - 1 - window], 1.0 / static_cast<double>(window));
 }
 
-namespace {
-
-struct Products {
-  double xAx, bx;
-};
-
-// Sums over the free components: A x = b - r there, with b and A already without the prescribed values.
 template <int B>
-Products free_products(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r) {
-  Products sum{0, 0};
-  for (Index p = 0; p < problem.A.size(); ++p)
+FreeProducts free_products(const DiscreteProblem<B>& problem, const std::vector<double>& x,
+                           const std::vector<double>& r, Index first, Index last) {
+  double xAx = 0, bx = 0;
+  const double *u = x.data(), *b = problem.b.data(), *res = r.data();
+  const Flags* fixed = problem.fixed.data();
+#pragma omp simd reduction(+ : xAx, bx)
+  for (Index p = first; p < last; ++p)
     for (int k = 0; k < B; ++k) {
-      if (problem.fixed[p] >> k & 1u) continue;
       const Offset i = Offset{p} * B + k;
-      sum.xAx += x[i] * (problem.b[i] - r[i]);
-      sum.bx += x[i] * problem.b[i];
+      const double free = fixed[p] >> k & 1u ? 0.0 : u[i];
+      xAx += free * (b[i] - res[i]);
+      bx += free * b[i];
     }
-  return sum;
+  return {xAx, bx};
 }
+
+namespace {
 
 template <int B>
 double coupling(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
@@ -56,32 +58,41 @@ double coupling(const DiscreteProblem<B>& problem, const std::vector<double>& x)
 
 template <int B>
 double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<double>& x,
-                           const std::vector<double>& r) {
-  const double squared = free_products(problem, x, r).xAx + 2 * coupling(problem, x) + problem.prescribed_energy;
+                           const FreeProducts& products) {
+  const double squared = products.xAx + 2 * coupling(problem, x) + problem.prescribed_energy;
   return std::max(squared, 0.0);
 }
 
 template <int B>
-double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r) {
-  const Products p = free_products(problem, x, r);  // b holds -A g already
-  return 0.5 * p.xAx - p.bx + 0.5 * problem.prescribed_energy - problem.prescribed_work;
+double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<double>& x,
+                           const std::vector<double>& r) {
+  return energy_norm_squared(problem, x, free_products(problem, x, r, 0, problem.A.size()));
+}
+
+template <int B>
+double energy(const DiscreteProblem<B>& problem, const FreeProducts& products) {
+  return 0.5 * products.xAx - products.bx +  // b holds -A g already
+         0.5 * problem.prescribed_energy - problem.prescribed_work;
 }
 
 template <int B>
 double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
   std::vector<double> r(x.size());
   residual(problem.A, x.data(), problem.b.data(), r.data());
-  return energy(problem, x, r);
+  return energy(problem, free_products(problem, x, r, 0, problem.A.size()));
 }
 
-template double energy_norm_squared(const DiscreteProblem<1>&, const std::vector<double>&, const std::vector<double>&);
-template double energy_norm_squared(const DiscreteProblem<2>&, const std::vector<double>&, const std::vector<double>&);
-template double energy_norm_squared(const DiscreteProblem<3>&, const std::vector<double>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<1>&, const std::vector<double>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<1>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<2>&, const std::vector<double>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<2>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<3>&, const std::vector<double>&, const std::vector<double>&);
-template double energy(const DiscreteProblem<3>&, const std::vector<double>&);
+#define SIGNORINI_INSTANTIATE(B)                                                                                   \
+  template FreeProducts free_products(const DiscreteProblem<B>&, const std::vector<double>&,                       \
+                                      const std::vector<double>&, Index, Index);                                   \
+  template double energy_norm_squared(const DiscreteProblem<B>&, const std::vector<double>&, const FreeProducts&); \
+  template double energy_norm_squared(const DiscreteProblem<B>&, const std::vector<double>&,                       \
+                                      const std::vector<double>&);                                                 \
+  template double energy(const DiscreteProblem<B>&, const FreeProducts&);                                          \
+  template double energy(const DiscreteProblem<B>&, const std::vector<double>&);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

@@ -22,15 +22,33 @@ class ErrorEstimate {
   double error_ = 0;
 };
 
+/// Sums over the free components, from the residual r = b - A x: there A and b are without the prescribed values.
+struct FreeProducts {
+  double xAx = 0, bx = 0;
+
+  FreeProducts& operator+=(const FreeProducts& other) {
+    xAx += other.xAx;
+    bx += other.bx;
+    return *this;
+  }
+};
+
+/// Of the vectors first <= p < last.
+template <int B>
+FreeProducts free_products(const DiscreteProblem<B>& problem, const std::vector<double>& x,
+                           const std::vector<double>& r, Index first, Index last);
+
 /// ||x||_A^2 with the prescribed values counted in, as before their elimination.
+template <int B>
+double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<double>& x,
+                           const FreeProducts& products);
 template <int B>
 double energy_norm_squared(const DiscreteProblem<B>& problem, const std::vector<double>& x,
                            const std::vector<double>& r);
 
-/// Energy 1/2 a(u, u) - f(u) of the solution x in local coordinates, prescribed values counted in.
-/// @param r b - A x
+/// Energy 1/2 a(u, u) - f(u) of the solution in local coordinates, prescribed values counted in.
 template <int B>
-double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r);
+double energy(const DiscreteProblem<B>& problem, const FreeProducts& products);
 template <int B>
 double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x);
 

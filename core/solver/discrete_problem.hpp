@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/algebra/block_matrix.hpp"
@@ -29,6 +31,14 @@ struct Constraints {
 
   Index size() const { return static_cast<Index>(vector.size()); }
 };
+
+/// Slots of the vectors first <= p < last: the first one, and one behind the last.
+template <int B>
+std::pair<Index, Index> slots_between(const Constraints<B>& c, Index first, Index last) {
+  const auto from = std::lower_bound(c.vector.begin(), c.vector.end(), first);
+  const auto to = std::lower_bound(from, c.vector.end(), last);
+  return {static_cast<Index>(from - c.vector.begin()), static_cast<Index>(to - c.vector.begin())};
+}
 
 /// Vectors first <= p < last whose constraints belong to one obstacle.
 template <int B>

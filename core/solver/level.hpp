@@ -1,7 +1,9 @@
 #pragma once
+#include <algorithm>
 #include <span>
 
 #include "core/solver/discrete_problem.hpp"
+#include "core/solver/passes.hpp"
 
 namespace signorini {
 
@@ -16,7 +18,7 @@ struct Level {
   const double* b = nullptr;
   double* x = nullptr;
   std::vector<double> own_b, own_x;  ///< coarse levels
-  std::vector<double> r;             ///< residual
+  Chunks chunks;                     ///< of A
   Frames<B> frames;
   Constraints<B> constraints;
   std::vector<Segment<B>> segments;
@@ -44,13 +46,22 @@ struct Level {
             constraints.upper.data()};
   }
 
-  /// One projected Gauss-Seidel sweep: one virtual call per segment.
-  void sweep(Order order) const {
+  /// One projected Gauss-Seidel sweep over the vectors first <= p < last: one virtual call per segment.
+  void sweep(Order order, Index from, Index to) const {
     const LevelView<B> v = view();
+    for_each_segment(from, to, order,
+                     [&](const Segment<B>& s, Index first, Index last) { s.obstacle->sweep(v, first, last, order); });
+  }
+  void sweep(Order order) const { sweep(order, 0, vectors); }
+
+  /// Calls visit(segment, first, last) with what each segment has in common with from <= p < to.
+  template <class Visit>
+  void for_each_segment(Index from, Index to, Order order, const Visit& visit) const {
     const auto count = segments.size();
     for (std::size_t i = 0; i < count; ++i) {
       const Segment<B>& s = segments[order == Order::forward ? i : count - 1 - i];
-      s.obstacle->sweep(v, s.first, s.last, order);
+      const Index first = std::max(from, s.first), last = std::min(to, s.last);
+      if (first < last) visit(s, first, last);
     }
   }
 };

@@ -30,7 +30,7 @@ Level<B> finest_level(const DiscreteProblem<B>& problem) {
   level.vectors = problem.A.size();
   level.A = &problem.A;
   level.b = problem.b.data();
-  level.r.resize(problem.b.size());
+  level.chunks = divide(problem.A);
   level.frames = problem.frames;
   level.constraints = problem.constraints;
   if (level.constraints.slot.empty()) level.constraints.slot.assign(static_cast<std::size_t>(level.vectors), -1);
@@ -65,51 +65,73 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
 }
 
 template <int B>
-CycleReport MonotoneMultigrid<B>::cycle(double* x) {
+CycleReport MonotoneMultigrid<B>::cycle(double* x, const Passes::Run& before, const Passes::Run& after) {
   report_ = {};
   levels_.back().x = x;
-  descend(levels_.size() - 1);
+  descend(levels_.size() - 1, before, after);
   return report_;
 }
 
 template <int B>
-void MonotoneMultigrid<B>::descend(std::size_t k) {
+void MonotoneMultigrid<B>::descend(std::size_t k, const Passes::Run& before, const Passes::Run& after) {
   Level<B>& level = levels_[k];
+  Passes down, up;
+  if (before) down.add(before);
   if (k == 0) {
-    if (levels_.size() == 1) update_phases(level);
+    down.run(level.chunks);
+    if (levels_.size() == 1) update_phases(level, 0, level.vectors);
     if (!components_.coarse->solve(level)) report_.bounded = false;
     level.renewed.clear();
-    return;
+  } else {
+    components_.smoother->add_passes(level, settings_.pre, Side::descend, down);
+    transfers_[k - 1]->begin_restriction(levels_[k - 1]);
+    down.add([this, k](Index first, Index last) {
+      update_phases(levels_[k], first, last);
+      restrict_residual(k, first, last);
+    });
+    down.run(level.chunks);
+    correct(k);
+    up.add(
+        [this, k](Index first, Index last) { transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last); });
+    components_.smoother->add_passes(level, settings_.post, Side::ascend, up);
   }
-  components_.smoother->smooth(level, settings_.pre, Side::descend);
-  correct(k);
-  components_.smoother->smooth(level, settings_.post, Side::ascend);
+  if (after) up.add(after);
+  up.run(level.chunks);
 }
 
+// From the restricted residual to the correction that prolongate() adds.
 template <int B>
 void MonotoneMultigrid<B>::correct(std::size_t k) {
   Level<B>& fine = levels_[k];
   Level<B>& coarse = levels_[k - 1];
   Transfer<B>& transfer = *transfers_[k - 1];
-  update_phases(fine);
   report_.renewed += transfer.assemble(fine, coarse);
-  residual<B>(*fine.A, fine.x, fine.b, fine.r.data());
-  transfer.restrict_residual(fine, coarse);
+  transfer.end_restriction(coarse);
   transfer.restrict_bounds(fine, coarse);
   const int visits = k == 1 ? 1 : settings_.gamma;
-  for (int visit = 0; visit < visits; ++visit) descend(k - 1);
-  transfer.prolongate(coarse, fine);
+  for (int visit = 0; visit < visits; ++visit) descend(k - 1, {}, {});
+  transfer.begin_prolongation(coarse);
+}
+
+template <int B>
+void MonotoneMultigrid<B>::restrict_residual(std::size_t k, Index first, Index last) {
+  const Level<B>& fine = levels_[k];
+  r_.resize(static_cast<std::size_t>(last - first) * B);
+  residual<B>(*fine.A, fine.x, fine.b, first, last, r_.data());
+  transfers_[k - 1]->restrict_residual(fine, first, last, r_.data(), levels_[k - 1]);
 }
 
 // Distances and critical flags are recomputed from the iterate; what differs from the state the coarser matrices were
 // made with is listed for their local reassembly.
 template <int B>
-void MonotoneMultigrid<B>::update_phases(Level<B>& level) {
+void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index last) {
   const LevelView<B> view = level.view();
-  for (const Segment<B>& s : level.segments)
-    s.obstacle->distance(view, s.first, s.last, level.lower.data(), level.upper.data(), level.critical.data());
+  level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
+    s.obstacle->distance(view, begin, end, level.lower.data(), level.upper.data(), level.critical.data());
+  });
   Index contact = 0, changed = 0;
-  for (Index slot = 0; slot < level.constraints.size(); ++slot) {
+  const auto [from, to] = slots_between(level.constraints, first, last);
+  for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];
     const Flags critical = level.critical[slot] & static_cast<Flags>(~level.off[p]);
     contact += critical != 0;
@@ -121,8 +143,8 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level) {
     level.changed.push_back(p);
   }
   if (&level == &levels_.back()) {
-    report_.contact = contact;
-    report_.changed = changed;
+    report_.contact += contact;
+    report_.changed += changed;
   }
 }
 

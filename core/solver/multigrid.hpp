@@ -29,22 +29,25 @@ class MonotoneMultigrid {
   MonotoneMultigrid(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                     Components<B> components, Settings settings);
 
-  /// One cycle on x (B per vector, admissible). The energy never grows.
-  CycleReport cycle(double* x);
+  /// One cycle on x (B per vector, admissible). The energy never grows. `before` and `after` see disjoint ranges of
+  /// vectors that cover all: before the cycle touches them, and when they and all that they are coupled to are final.
+  CycleReport cycle(double* x, const Passes::Run& before = {}, const Passes::Run& after = {});
 
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }
 
  private:
-  void descend(std::size_t k);
+  void descend(std::size_t k, const Passes::Run& before, const Passes::Run& after);
   void correct(std::size_t k);
-  void update_phases(Level<B>& level);
+  void update_phases(Level<B>& level, Index first, Index last);
+  void restrict_residual(std::size_t k, Index first, Index last);
 
   std::vector<Level<B>> levels_;  // coarsest first
   std::vector<std::unique_ptr<Transfer<B>>> transfers_;
   Components<B> components_;
   Settings settings_;
   CycleReport report_;
+  std::vector<double> r_;  // residual of one chunk
 };
 
 /// Levels for block size B on the finest matrix alone.

@@ -13,8 +13,11 @@ struct Prolongation {
   std::vector<Offset> row{0};  ///< fine + 1
   std::vector<Index> column;
   std::vector<double> weight;
+  bool midpoints = false;  ///< coarse vectors are coupled only where a fine one lies between them (uniform refinement)
 
   Index fine() const { return static_cast<Index>(row.size()) - 1; }
+  /// Whether the fine vector p is the twin of a coarse one.
+  bool twin(Index p) const { return row[p + 1] == row[p] + 1 && weight[row[p]] == 1; }
 };
 
 }  // namespace signorini

@@ -1,58 +1,69 @@
 #include "core/solver/recombination.hpp"
 
+#include <algorithm>
+
 namespace signorini {
 
 template <int B>
-Recombination<B>::Recombination(const Constraints<B>& constraints, std::size_t unknowns) : constraints_(constraints) {
-  for (Direction& d : directions_) {
-    d.p.resize(unknowns);
-    d.Ap.resize(unknowns);
-  }
-}
-
-template <int B>
 bool Recombination<B>::propose(const std::vector<double>& x_before, const std::vector<double>& r_before,
-                               const std::vector<double>& x, const std::vector<double>& r, std::vector<double>& trial) {
-  Direction& d = directions_[next_];
+                               const std::vector<double>& x, const std::vector<double>& r) {
   const std::size_t n = x.size();
-  std::array<const Direction*, depth> older{};
-  std::array<double, depth> beta{};
-  for (int k = 0; k < known_; ++k) older[k] = &directions_[(next_ + depth - k) % (depth + 1)];
-  double cycle_gain = 0;
+  next_ = (next_ + 1) % (depth + 1);
+  newest().p.resize(n);
+  newest().Ap.resize(n);
+  // What is not known yet counts with the weight zero.
+  const double *p1 = newest().p.data(), *Ap1 = p1, *p2 = p1, *Ap2 = p1;
+  if (known_ > 0) p1 = older(1).p.data(), Ap1 = older(1).Ap.data();
+  if (known_ > 1) p2 = older(2).p.data(), Ap2 = older(2).Ap.data();
+  const double *from = x_before.data(), *r_from = r_before.data(), *to = x.data(), *r_to = r.data();
+  double cycle_gain = 0, beta1 = 0, beta2 = 0;
+#pragma omp simd reduction(+ : cycle_gain, beta1, beta2)
   for (std::size_t i = 0; i < n; ++i) {
-    d.p[i] = x[i] - x_before[i];
-    d.Ap[i] = r_before[i] - r[i];
-    cycle_gain += 0.5 * d.p[i] * (r_before[i] + r[i]);
-    for (int k = 0; k < known_; ++k) beta[k] += d.p[i] * older[k]->Ap[i];
+    const double d = to[i] - from[i];
+    cycle_gain += 0.5 * d * (r_from[i] + r_to[i]);
+    beta1 += d * Ap1[i];
+    beta2 += d * Ap2[i];
   }
-  for (int k = 0; k < known_; ++k) beta[k] /= older[k]->energy;
-  double force = 0;
-  d.energy = 0;
+  beta1 = known_ > 0 ? beta1 / older(1).energy : 0;
+  beta2 = known_ > 1 ? beta2 / older(2).energy : 0;
+  double *p = newest().p.data(), *Ap = newest().Ap.data();
+  double force = 0, energy = 0;
+#pragma omp simd reduction(+ : force, energy)
   for (std::size_t i = 0; i < n; ++i) {
-    for (int k = 0; k < known_; ++k) {
-      d.p[i] -= beta[k] * older[k]->p[i];
-      d.Ap[i] -= beta[k] * older[k]->Ap[i];
-    }
-    force += d.p[i] * r_before[i];
-    d.energy += d.p[i] * d.Ap[i];
+    const double d = to[i] - from[i] - beta1 * p1[i] - beta2 * p2[i];
+    const double Ad = r_from[i] - r_to[i] - beta1 * Ap1[i] - beta2 * Ap2[i];
+    p[i] = d;
+    Ap[i] = Ad;
+    force += d * r_from[i];
+    energy += d * Ad;
   }
-  const double step = force / d.energy;
-  if (!(d.energy > 0) || !(0.5 * step * force >= cycle_gain) || !admissible(x_before, d, step)) {
+  newest().energy = energy;
+  step_ = force / energy;
+  if (!(energy > 0) || !(0.5 * step_ * force >= cycle_gain) || !admissible(x_before)) {
     reset();
     return false;
   }
-  for (std::size_t i = 0; i < n; ++i) trial[i] = x_before[i] + step * d.p[i];
-  known_ = known_ < depth ? known_ + 1 : depth;
-  next_ = (next_ + 1) % (depth + 1);
+  known_ = std::min(known_ + 1, depth);
   return true;
 }
 
 template <int B>
-bool Recombination<B>::admissible(const std::vector<double>& x_before, const Direction& direction, double step) const {
+void Recombination<B>::combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first,
+                               Index last, std::vector<double>& x, std::vector<double>& r) const {
+  const double *from = x_before.data(), *r_from = r_before.data(), *p = newest().p.data(), *Ap = newest().Ap.data();
+  double *to = x.data(), *r_to = r.data();
+  for (Offset i = Offset{first} * B; i < Offset{last} * B; ++i) {
+    to[i] = from[i] + step_ * p[i];
+    r_to[i] = r_from[i] - step_ * Ap[i];
+  }
+}
+
+template <int B>
+bool Recombination<B>::admissible(const std::vector<double>& x_before) const {
   for (std::size_t slot = 0; slot < constraints_.vector.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Offset i = Offset{constraints_.vector[slot]} * B + k;
-      const double x = x_before[i] + step * direction.p[i];
+      const double x = x_before[i] + step_ * newest().p[i];
       if (!(x >= constraints_.lower[slot * B + k] && x <= constraints_.upper[slot * B + k])) return false;
     }
   return true;

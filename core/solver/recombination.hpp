@@ -13,15 +13,18 @@ namespace signorini {
 template <int B>
 class Recombination {
  public:
-  Recombination(const Constraints<B>& constraints, std::size_t unknowns);
+  explicit Recombination(const Constraints<B>& constraints) : constraints_(constraints) {}
 
   /// Forgets all directions: the phases have changed.
   void reset() { known_ = 0; }
-  /// From the result x and its residual r of a cycle that started from x_before: writes to `trial` the minimiser along
-  /// the new direction. Returns whether there is one that should lower the energy further, within the bounds. Near
-  /// rounding level that may not be so: the caller compares, and resets where it was not.
+  /// From the result x and its residual r of a cycle that started from x_before: the new direction. Returns whether
+  /// the minimiser along it is within the bounds and should have a lower energy than x. Near rounding level that may
+  /// not be so: the caller compares, and resets where it was not.
   bool propose(const std::vector<double>& x_before, const std::vector<double>& r_before, const std::vector<double>& x,
-               const std::vector<double>& r, std::vector<double>& trial);
+               const std::vector<double>& r);
+  /// Writes that minimiser and its residual, at the vectors first <= p < last.
+  void combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first, Index last,
+               std::vector<double>& x, std::vector<double>& r) const;
 
  private:
   static constexpr int depth = 2;
@@ -30,11 +33,15 @@ class Recombination {
     double energy = 0;  // p'Ap
   };
 
-  bool admissible(const std::vector<double>& x_before, const Direction& direction, double step) const;
+  bool admissible(const std::vector<double>& x_before) const;
+  Direction& newest() { return directions_[next_]; }
+  const Direction& newest() const { return directions_[next_]; }
+  const Direction& older(int age) const { return directions_[(next_ + depth + 1 - age) % (depth + 1)]; }
 
   const Constraints<B>& constraints_;
-  std::array<Direction, depth + 1> directions_;  // a ring; the newest is at next_ - 1
+  std::array<Direction, depth + 1> directions_;  // a ring
   int known_ = 0, next_ = 0;
+  double step_ = 0;
 };
 
 }  // namespace signorini

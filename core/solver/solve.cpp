@@ -73,19 +73,19 @@ class Solve {
         options_(options),
         x_(x),
         multigrid_(problem, prolongations, components_of<B>(options, registry), settings_of<B>(options)),
-        recombination_(problem.constraints, options.krylov ? x.size() : 0),
+        recombination_(problem.constraints),
         r_(x.size()),
         x_before_(x.size()),
-        r_before_(x.size()),
-        x_trial_(options.krylov ? x.size() : 0),
-        r_trial_(x_trial_.size()) {}
+        r_before_(x.size()) {}
 
   Summary run(const Monitor& monitor) {
     summary_.level_unknowns = unknowns();
+    for (Index p = 0; p < problem_.A.size(); ++p)
+      for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
     reference_ = residual_at_projected_zero();
     make_admissible(problem_, x_);
-    residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());
-    refuse_nan(natural_residual(x_, r_));
+    x_before_ = x_;
+    refuse_nan(evaluate(x_, r_).natural_residual);
     while (!step(monitor)) {
     }
     summary_.rate = estimate_.rate();
@@ -95,18 +95,27 @@ class Solve {
 
  private:
   bool step(const Monitor& monitor) {
-    x_before_ = x_;
-    r_before_ = r_;
-    const CycleReport cycle = multigrid_.cycle(x_.data());
-    residual<B>(problem_.A, x_.data(), problem_.b.data(), r_.data());
-    if (options_.krylov) accelerate(cycle);
-    const double absolute = natural_residual(x_, r_);
-    refuse_nan(absolute);
+    r_before_.swap(r_);
+    sums_ = {};
+    const CycleReport cycle = multigrid_.cycle(
+        x_.data(),
+        [this](Index first, Index last) {
+          std::copy(x_.begin() + Offset{first} * B, x_.begin() + Offset{last} * B,
+                    x_before_.begin() + Offset{first} * B);
+        },
+        [this](Index first, Index last) { evaluate(x_, r_, first, last, sums_); });
+    const bool combined = options_.krylov && accelerate(cycle);
+    refuse_nan(sums_.natural_residual);
     add_gain();
-    record(cycle, absolute);
+    measure();
+    if (combined && within_tolerance()) {  // claimed for a residual that was not computed from the iterate alone
+      sums_ = evaluate(x_, r_);
+      measure();
+    }
+    record(cycle);
     const bool go_on = !monitor || monitor(summary_.history.back());
-    if (finished(absolute)) return true;
-    if (!cycle.bounded && absolute > rounding_level())
+    if (finished()) return true;
+    if (!cycle.bounded && sums_.natural_residual > rounding_level())
       return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
     if (!go_on) return end(Outcome::interrupted, "interrupted");
     if (summary_.iterations >= options_.max_iterations)
@@ -116,55 +125,118 @@ class Solve {
     return false;
   }
 
-  // Worth it once few phases change.
-  void accelerate(const CycleReport& cycle) {
-    if (100 * cycle.changed > cycle.contact)
+  // Worth it once few phases change. Returns whether the iterate is no longer the cycle's own.
+  bool accelerate(const CycleReport& cycle) {
+    if (100 * cycle.changed > cycle.contact) {
       recombination_.reset();
-    else if (recombination_.propose(x_before_, r_before_, x_, r_, x_trial_))
-      choose_trial();
-  }
-
-  // The trial, if it has the lower energy, with its residual computed anew.
-  void choose_trial() {
-    residual<B>(problem_.A, x_trial_.data(), problem_.b.data(), r_trial_.data());
-    if (gain(x_trial_, r_trial_) >= gain(x_, r_)) {
-      x_.swap(x_trial_);
-      r_.swap(r_trial_);
-    } else {
-      recombination_.reset();
+      return false;
     }
+    return recombination_.propose(x_before_, r_before_, x_, r_) && take_combination();
   }
 
-  double gain(const std::vector<double>& x, const std::vector<double>& r) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += 0.5 * (x[i] - x_before_[i]) * (r_before_[i] + r[i]);
-    return sum;
+  // If it has the lower energy.
+  bool take_combination() {
+    x_trial_.resize(x_.size());
+    r_trial_.resize(x_.size());
+    Sums sums;
+    const Chunks& chunks = multigrid_.finest().chunks;
+    for (Index first = 0; first < chunks.vectors; first += chunks.size) {
+      const Index last = std::min(chunks.vectors, first + chunks.size);
+      recombination_.combine(x_before_, r_before_, first, last, x_trial_, r_trial_);
+      add_sums(x_trial_, r_trial_, first, last, sums);
+    }
+    if (!(sums.gain >= sums_.gain)) {
+      recombination_.reset();
+      return false;
+    }
+    x_.swap(x_trial_);
+    r_.swap(r_trial_);
+    sums_ = sums;
+    return true;
   }
 
-  // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
+  // Everything that is recomputed from an iterate, and what was gained since x_before_.
+  struct Sums {
+    double natural_residual = 0;
+    double gain = 0, correction = 0, size = 0;  // J(before) - J, squared energy norm of the step, and their terms
+    FreeProducts products;
+    double largest = 0;  // |x|
+  };
+
+  Sums evaluate(std::vector<double>& x, std::vector<double>& r) const {
+    Sums sums;
+    evaluate(x, r, 0, problem_.A.size(), sums);
+    return sums;
+  }
+
+  void evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const {
+    residual<B>(problem_.A, x.data(), problem_.b.data(), first, last, r.data() + Offset{first} * B);
+    add_sums(x, r, first, last, sums);
+  }
+
+  void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) const {
+    add_natural_residual(x, first, last, r, sums.natural_residual);
+    // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
+    double gain = 0, correction = 0, size = 0, largest = sums.largest;
+    const double *before = x_before_.data(), *r_before = r_before_.data(), *now = x.data(), *r_now = r.data();
+#pragma omp simd reduction(+ : gain, correction, size) reduction(max : largest)
+    for (Offset i = Offset{first} * B; i < Offset{last} * B; ++i) {
+      const double d = now[i] - before[i];
+      gain += 0.5 * d * (r_before[i] + r_now[i]);
+      correction += d * (r_before[i] - r_now[i]);
+      size += std::abs(d * r_before[i]) + std::abs(d * r_now[i]);
+      largest = std::max(largest, std::abs(now[i]));
+    }
+    sums.gain += gain;
+    sums.correction += correction;
+    sums.size += size;
+    sums.largest = largest;
+    sums.products += free_products(problem_, x, r, first, last);
+  }
+
+  void add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
+                            double& largest) const {
+    const Level<B>& level = multigrid_.finest();
+    LevelView<B> view = level.view();
+    view.x = x.data();
+    level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
+      const double found = s.obstacle->natural_residual(view, begin, end, r.data());
+      if (!(found <= largest)) largest = found;  // NaN stays visible
+    });
+  }
+
   void add_gain() {
-    double gain = 0, correction = 0, size = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i) {
-      const double d = x_[i] - x_before_[i];
-      gain += 0.5 * d * (r_before_[i] + r_[i]);
-      correction += d * (r_before_[i] - r_[i]);
-      size += std::abs(d * r_before_[i]) + std::abs(d * r_[i]);
-    }
 #ifdef SIGNORINI_CHECKS
-    assert(gain >= -1e-8 * size - rounding_of_gain() && "the energy must never grow");
+    assert(sums_.gain >= -1e-8 * sums_.size - rounding_of_gain() && "the energy must never grow");
 #endif
-    refuse_nan(size);
-    estimate_.add(gain, std::sqrt(std::max(correction, 0.0)));
+    refuse_nan(sums_.size);
+    estimate_.add(sums_.gain, std::sqrt(std::max(sums_.correction, 0.0)));
   }
 
-  void record(const CycleReport& cycle, double absolute) {
+  void measure() {
+    Summary& s = summary_;
+    s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : sums_.natural_residual;
+    double squared = energy_norm_squared(problem_, x_, sums_.products);
+    if (squared <= trace_ * sums_.largest * sums_.largest * 1e-14) squared = std::max(squared, rounding_energy());
+    const double size = std::sqrt(squared);
+    s.algebraic_error = estimate_.error() == 0 ? 0 : size > 0 ? estimate_.error() / size : 1;
+    s.energy = energy(problem_, sums_.products);
+  }
+
+  void record(const CycleReport& cycle) {
     Summary& s = summary_;
     ++s.iterations;
-    s.residual = reference_ > 0 ? absolute / reference_ : absolute;
-    const double size = std::sqrt(std::max(energy_norm_squared(problem_, x_, r_), rounding_energy()));
-    s.algebraic_error = estimate_.error() == 0 ? 0 : size > 0 ? estimate_.error() / size : 1;
-    s.energy = energy(problem_, x_, r_);
     s.history.push_back({s.iterations, s.residual, s.algebraic_error, s.energy, cycle.contact, cycle.changed});
+  }
+
+  // What rounding leaves of x'Ax for a rigid motion, which has no energy.
+  double rounding_energy() const {
+    double sum = 0;
+    for (Index p = 0; p < problem_.A.size(); ++p)
+      for (int k = 0; k < B; ++k)
+        if (const double v = x_[Offset{p} * B + k]; !(problem_.fixed[p] >> k & 1u))
+          sum += problem_.A.diagonal(p)[k * B + k] * v * v;
+    return 16 * std::numeric_limits<double>::epsilon() * sum;
   }
 
 #ifdef SIGNORINI_CHECKS
@@ -181,19 +253,14 @@ class Solve {
   }
 #endif
 
-  // What rounding leaves of x'Ax for a rigid motion, which has no energy.
-  double rounding_energy() const {
-    double sum = 0;
-    for (Index p = 0; p < problem_.A.size(); ++p)
-      for (int k = 0; k < B; ++k)
-        if (const double v = x_[Offset{p} * B + k]; !(problem_.fixed[p] >> k & 1u))
-          sum += problem_.A.diagonal(p)[k * B + k] * v * v;
-    return 16 * std::numeric_limits<double>::epsilon() * sum;
+  bool within_tolerance() const {
+    return summary_.residual <= options_.tolerance && summary_.algebraic_error <= options_.tolerance;
   }
 
-  bool finished(double absolute) {
+  bool finished() {
     Summary& s = summary_;
-    if (s.residual <= options_.tolerance && s.algebraic_error <= options_.tolerance)
+    const double absolute = sums_.natural_residual;
+    if (within_tolerance())
       return end(Outcome::converged, fmt::format("residual {:.3e} and algebraic error {:.3e} are at most {:.3e}",
                                                  s.residual, s.algebraic_error, options_.tolerance));
     stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
@@ -204,11 +271,7 @@ class Solve {
   }
 
   // Natural residuals below a small multiple of machine precision times the largest unknown say nothing.
-  double rounding_level() const {
-    double largest = 0;
-    for (const double v : x_) largest = std::max(largest, std::abs(v));
-    return 1000 * std::numeric_limits<double>::epsilon() * largest;
-  }
+  double rounding_level() const { return 1000 * std::numeric_limits<double>::epsilon() * sums_.largest; }
 
   bool end(Outcome outcome, std::string reason) {
     summary_.outcome = outcome;
@@ -223,25 +286,11 @@ class Solve {
     summary_.linear_phase_from = from;
   }
 
-  double natural_residual(std::vector<double>& x, const std::vector<double>& r) const {
-    const Level<B>& level = multigrid_.finest();
-    LevelView<B> view = level.view();
-    view.x = x.data();
-    double largest = 0;
-    for (const Segment<B>& s : level.segments) {
-      const double found = s.obstacle->natural_residual(view, s.first, s.last, r.data());
-      if (!(found <= largest)) largest = found;
-    }
-    return largest;
-  }
-
   // Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.
   double residual_at_projected_zero() {
-    std::vector<double> zero(x_.size(), 0.0);
-    make_admissible(problem_, zero);
-    residual<B>(problem_.A, zero.data(), problem_.b.data(), r_.data());
-    const double found = natural_residual(zero, r_);
-    if (found == 0) x_ = std::move(zero);
+    make_admissible(problem_, x_before_);
+    const double found = evaluate(x_before_, r_).natural_residual;
+    if (found == 0) x_ = x_before_;
     return found;
   }
 
@@ -270,6 +319,8 @@ class Solve {
   Recombination<B> recombination_;
   std::vector<double> r_, x_before_, r_before_;
   std::vector<double> x_trial_, r_trial_;  // empty without acceleration
+  Sums sums_;
+  double trace_ = 0;  // of A
   ErrorEstimate estimate_;
   Summary summary_;
   double reference_ = 0;

@@ -174,7 +174,9 @@ TEST(GaussSeidelOrder, IsWhatTheNameSays) {
     std::vector<double> x = start;
     Level<2> level = finest_level(problem);
     level.x = x.data();
-    GaussSeidel<2>(order).smooth(level, steps, side);
+    Passes passes;
+    GaussSeidel<2>(order).add_passes(level, steps, side, passes);
+    passes.run(level.chunks);
     return x;
   };
   constexpr Order f = Order::forward, b = Order::backward;

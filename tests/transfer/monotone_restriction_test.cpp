@@ -141,14 +141,15 @@ TYPED_TEST(MonotoneRestriction, ProlongatesWhatTheDefinitionSays) {
     t.transfer.restrict_bounds(t.fine, t.coarse);
     const Eigen::MatrixXd T = interpolation(t.fine, t.P, t.coarse);
 
-    for (double& r : t.fine.r) r = random.between(-1, 1);
-    t.transfer.restrict_residual(t.fine, t.coarse);
-    EXPECT_LE((vector(t.coarse.own_b) - T.transpose() * vector(t.fine.r)).norm(), 1e-13);
+    std::vector<double> r(t.x.size());
+    for (double& value : r) value = random.between(-1, 1);
+    t.restrict_residual(r);
+    EXPECT_LE((vector(t.coarse.own_b) - T.transpose() * vector(r)).norm(), 1e-13);
 
     // Fine bounds are on the iterate, which starts from zero here.
     const std::vector<double> correction = random_correction(random, t.coarse, true);
     t.coarse.own_x = correction;
-    t.transfer.prolongate(t.coarse, t.fine);
+    t.prolongate();
     EXPECT_LE((vector(t.x) - T * vector(correction)).norm(), 1e-14 * (1 + vector(correction).norm()) * T.norm());
     for (Index slot = 0; slot < t.fine.constraints.size(); ++slot)
       for (int k = 0; k < B; ++k) {

@@ -91,6 +91,19 @@ struct TwoLevels {
     fine.constraints.lower = fine.lower;
     fine.constraints.upper = fine.upper;
   }
+
+  /// coarse.b from a residual on the whole fine level.
+  void restrict_residual(const std::vector<double>& r) {
+    transfer.begin_restriction(coarse);
+    transfer.restrict_residual(fine, 0, fine.vectors, r.data(), coarse);
+    transfer.end_restriction(coarse);
+  }
+
+  /// x += interpolation of coarse.x.
+  void prolongate() {
+    transfer.begin_prolongation(coarse);
+    transfer.prolongate(coarse, fine, 0, fine.vectors);
+  }
 };
 
 }  // namespace signorini::test

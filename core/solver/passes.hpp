@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+#include "core/sdk/level_view.hpp"
+
+namespace signorini {
+
+/// The vectors of a level in chunks of consecutive ones that fit into the cache, and how far the matrix couples them:
+/// no vector of chunks <= c is coupled to one of chunks > highest[c], none of chunks >= c to one of chunks < lowest[c].
+struct Chunks {
+  Index vectors = 0, size = 1;
+  std::vector<Index> highest, lowest;
+
+  Index count() const { return static_cast<Index>(highest.size()); }
+};
+
+/// @param bytes of the matrix in one chunk: several chunks of several passes share the second level cache
+template <int B>
+Chunks divide(const BlockMatrix<B>& A, Offset bytes = 1 << 19);
+
+/// Passes over the vectors of a level, one after the other, that read no further than the matrix couples. They follow
+/// each other through memory: a pass enters a chunk as soon as the one before it has left all chunks coupled to that.
+/// The result is bitwise that of whole passes, but the matrix is fetched from memory once for all of them, as far as
+/// the numbering keeps neighbours together (Wellein et al., Efficient temporal blocking for stencil computations,
+/// 2009).
+class Passes {
+ public:
+  using Run = std::function<void(Index first, Index last)>;
+
+  /// `run` treats the vectors first <= p < last; chunks come in the given order.
+  void add(Order order, Run run) { passes_.push_back({order, true, std::move(run)}); }
+  /// A pass of which any order of chunks is fine.
+  void add(Run run) { passes_.push_back({Order::forward, false, std::move(run)}); }
+  void run(const Chunks& chunks) const;
+
+ private:
+  struct Pass {
+    Order order;
+    bool ordered;
+    Run run;
+  };
+  std::vector<Pass> passes_;
+};
+
+}  // namespace signorini
