@@ -32,6 +32,9 @@ target_compile_features(signorini_settings INTERFACE cxx_std_20)
 target_compile_options(signorini_settings INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wno-psabi>)
 if(SIGNORINI_NATIVE)
   target_compile_options(signorini_settings INTERFACE -march=native)
+  # For what includes Eigen: GCC 12 takes registers that AVX-512 intrinsics leave undefined on purpose, and vectors that
+  # small matrices never fill, for mistakes.
+  set(eigen_warnings $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized;-Wno-array-bounds>)
 endif()
 if(SIGNORINI_CHECKS)
   target_compile_definitions(signorini_settings INTERFACE $<BUILD_INTERFACE:SIGNORINI_CHECKS=1>)

@@ -19,6 +19,21 @@ auto constructor(const ObstacleType& type) {
   if constexpr (B == 3) return type.create3;
 }
 
+template <int B>
+[[noreturn]] void wrong_equation(const Scene::Obstacle& scene, const ObstacleType& type) {
+  const bool scalar = type.create1, elastic = type.create2 || type.create3;
+  const std::string& place = scene.source.of("type");
+  if (B == 1 && elastic)
+    input_error(place, fmt::format("the obstacle type '{}' is for elastic bodies, and body '{}' has equation = "
+                                   "'diffusion'; expected a type for scalar unknowns, such as 'scalar'",
+                                   scene.type, scene.body));
+  if (B > 1 && scalar && !elastic)
+    input_error(place, fmt::format("the obstacle type '{}' is for scalar unknowns, and body '{}' has equation = "
+                                   "'elasticity'; expected a type for elastic bodies, such as 'contact'",
+                                   scene.type, scene.body));
+  input_error(place, fmt::format("the obstacle type '{}' knows no problem with {} unknowns per vertex", scene.type, B));
+}
+
 /// The obstacle with the settings it holds on to.
 template <int B>
 std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene, int dimension,
@@ -26,9 +41,7 @@ std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene,
   const ObstacleType& type = registry.obstacle(scene.type);
   const std::string& origin = scene.source.table;
   const auto create = constructor<B>(type);
-  if (!create)
-    input_error(origin, fmt::format("the obstacle type '{}' knows no problem with {} unknown{} per vertex", scene.type,
-                                    B, B == 1 ? "" : "s"));
+  if (!create) wrong_equation<B>(scene, type);
   if (scene.shape && !type.takes_shape)
     input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
   std::shared_ptr<const DistanceFunction> shape;

@@ -8,7 +8,7 @@
 #include "apps/signorini/components.hpp"
 #include "apps/signorini/problem.hpp"
 #include "apps/signorini/results.hpp"
-#include "core/fem/bounds.hpp"
+#include "core/fem/discretize.hpp"
 
 namespace signorini {
 namespace {
@@ -56,19 +56,24 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry) {
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B);
-  const Model<B> model = build_model<B>(scene, D, registry, 1);
   locate_probes(hierarchy.finest(), scene);
+  // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
+  if (scene.steps.count > 1)
+    discretize<D, B>(hierarchy.finest(), build_model<B>(scene, D, registry, 1.0 / scene.steps.count));
+  const Model<B> model = build_model<B>(scene, D, registry, 1);
+  discretize<D, B>(hierarchy.finest(), model);
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
-  for (const std::string& warning : scene_warnings(scene, hierarchy.levels.front()))
-    fmt::print("warning: {}\n", warning);
+  print_warnings(scene_warnings(scene, hierarchy.levels.front()));
+  print_warnings(fix_warnings(scene, hierarchy.finest(), model));
 }
 }  // namespace
 
 void check_command(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const Scene scene = read_scene(file, overrides);
   Registry registry = own_components();
+  check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
   const auto& body = scene.bodies.front();
   fmt::print("{}: {}\ndimension: {}\nequation: {}\n", file.string(), scene.title, dimension_of(scene),

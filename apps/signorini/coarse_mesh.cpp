@@ -6,7 +6,6 @@
 
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/memory.hpp"
-#include "apps/signorini/unit_shape.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
@@ -18,7 +17,10 @@ namespace {
 
 template <int D>
 geometry::Size<D> target_size(const Scene::Body& body) {
-  return [field = *body.size](const Point<D>& x) { return field(site<D>(x, 1)); };
+  return [field = *body.size](const Point<D>& x) {
+    stop_if_interrupted();
+    return field(site<D>(x, 1));
+  };
 }
 
 Mesh<2> structured(const Scene::Block<2>& block) { return rectangle(block.from, block.to, block.cells); }
@@ -42,7 +44,7 @@ struct Mesher {
   template <class Shape>
   Mesh<D> operator()(const Shape& shape) const {
     if constexpr (is_free_shape<D, Shape>) {
-      Mesh<D> mesh = in_own_units(shape);
+      Mesh<D> mesh = free_mesh(shape);
       separate_curved_faces(mesh);
       return mesh;
     }
@@ -50,23 +52,12 @@ struct Mesher {
   }
 
  private:
-  // What goes wrong is told in the user's units.
   template <class Shape>
-  Mesh<D> in_own_units(const Shape& shape) const {
-    const geometry::Size<D> size = target_size<D>(body);
-    const UnitShape<Shape> own = unit_shape(shape);
-    const auto own_size = [&](Point<D> x) {
-      stop_if_interrupted();
-      for (double& c : x) c *= own.unit;
-      return size(x) / own.unit;
-    };
+  Mesh<D> free_mesh(const Shape& shape) const {
     try {
-      Mesh<D> mesh = geometry::engine().mesh(own.shape, own_size);
-      scale(mesh, own.unit);
-      return mesh;
-    } catch (const Error& error) {
-      if (error.status() != Exit::input) throw;
-      return geometry::engine().mesh(shape, size);
+      return geometry::engine().mesh(shape, target_size<D>(body));
+    } catch (const geometry::ShapeError& error) {
+      input_error(body.source.of(error.key()), error.complaint());
     }
   }
 };

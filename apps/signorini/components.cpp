@@ -1,5 +1,7 @@
 #include "apps/signorini/components.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "amg/registration.hpp"
@@ -9,6 +11,12 @@
 #include "transfer/registration.hpp"
 
 namespace signorini {
+namespace {
+
+/// Obstacle types of the interface that a later version brings; a plugin of this id may be there all the same.
+bool is_later_type(const std::string& id) { return id == "coulomb" || id == "elastic" || id == "elastic_coulomb"; }
+
+}  // namespace
 
 Registry own_components() {
   Registry registry;
@@ -27,12 +35,28 @@ std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
     try {
       loader.require(obstacle.type);
     } catch (const Error& error) {
+      if (is_later_type(obstacle.type))
+        input_error(obstacle.source.of("type"),
+                    fmt::format("type = '{}' is not available in this version", obstacle.type));
       throw Error(error.status(), obstacle.source.of("type") + ": " + error.what());
     }
     const Entry& entry = registry.entry("obstacle", obstacle.type);
     plugins.push_back({entry.id, entry.file, entry.version});
   }
   return plugins;
+}
+
+void check_components(const Scene& scene, const Registry& registry) {
+  const auto check = [&](const char* kind, const char* key, const std::string& id) {
+    try {
+      registry.entry(kind, id);
+    } catch (const Error& error) {
+      input_error(scene.solver.source.of(key), error.what());
+    }
+  };
+  check("smoother", "smoother", scene.solver.smoother);
+  check("transfer", "transfer", scene.solver.transfer);
+  check("coarse", "coarse", scene.solver.coarse);
 }
 
 }  // namespace signorini

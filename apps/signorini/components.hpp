@@ -11,4 +11,7 @@ Registry own_components();
 /// Loads the plugins of the obstacles that a scene names, and says which file each came from.
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry);
 
+/// Error(Exit::input) at the key of [solver] that names no registered component.
+void check_components(const Scene& scene, const Registry& registry);
+
 }  // namespace signorini

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +41,7 @@ CLI::App* add_solve(CLI::App& app, Arguments& arguments) {
   add_scene(*command, arguments);
   command
       ->add_option("--out", arguments.solve.out,
-                   "folder for report.json, solution.vtu, convergence.csv and pictures; "
+                   "folder for report.json, solution.vtu, convergence.csv and pictures, in place of an earlier run's; "
                    "default: the scene's name in the current folder")
       ->type_name("DIR");
   command->add_flag("--quiet", arguments.solve.quiet, "print nothing but errors");
@@ -75,6 +77,15 @@ int report_error(const std::string& message, Exit status) {
   return static_cast<int>(status);
 }
 
+/// What is wrong with the first argument, if it is no option and no command.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
+  return fmt::format("there is no command '{}'{}; see 'signorini --help'", argv[1], did_you_mean(argv[1], names));
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Obstacle and contact problems by monotone multigrid.", "signorini");
   Arguments arguments;
@@ -87,6 +98,8 @@ int run(int argc, char** argv) {
   add_future(app, "qp", "minimise a quadratic function within bounds, from Matrix Market files");
   add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
   add_future(app, "plugin", "start a plugin project, or check a plugin");
+  if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty())
+    return report_error(wrong, Exit::usage);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <regex>
 
 #include "apps/signorini/show.hpp"
 #include "core/io/convergence.hpp"
@@ -46,16 +47,20 @@ template <int D, int B>
 Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results) {
   const std::size_t vertices = hierarchy.finest().points.size();
   ContactFields contact = contact_fields(results.contact, vertices);
-  Shown<D> out{hierarchy, {}, {}, {}, std::vector<Flags>(contact.contact.begin(), contact.contact.end()), {}, {}};
+  Shown<D> out{hierarchy,
+               {},
+               {},
+               B == 1 ? "u" : "von Mises stress",
+               std::vector<Flags>(contact.contact.begin(), contact.contact.end()),
+               {},
+               {}};
   for (const auto& node : results.contact.nodes)
     if (out.touched.empty() || out.touched.back() != node.vertex) out.touched.push_back(node.vertex);
   if constexpr (B == 1) {
     out.value = results.u;
-    out.label = "u";
   } else {
     out.displacement = results.u;
     out.value = equivalent(results.stress);
-    out.label = "von Mises stress";
     out.pressure = std::move(contact.pressure);
   }
   return out;
@@ -106,6 +111,12 @@ void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields
 
 void SolutionFiles::finish() const {
   if (wanted_ && steps_ > 1) write_pvd(files_.stage("solution.pvd"), entries_);
+}
+
+bool is_result_file(const std::string& name) {
+  static const std::regex names(
+      R"(report\.json|solution\.vtu|solution_\d{3,}\.vtu|solution\.pvd|convergence\.(csv|png)|result\.png)");
+  return std::regex_match(name, names);
 }
 
 template <int D, int B>

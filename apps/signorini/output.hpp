@@ -25,6 +25,9 @@ class SolutionFiles {
   std::vector<PvdEntry> entries_;
 };
 
+/// Whether a run may write a file of this name; one that another run left is out of date.
+bool is_result_file(const std::string& name);
+
 /// convergence.csv and the pictures, as far as they are wanted; what could not be drawn goes to `warnings`.
 template <int D, int B>
 void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,

@@ -24,6 +24,10 @@ void Progress::cycle(const IterationRecord& record) const {
   if (shown_) fmt::print(stderr, "{}\n", convergence_row(record));
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning);
+}
+
 Stopwatch::Stopwatch() : start_(now()) {}
 
 double Stopwatch::elapsed() const { return now() - start_; }

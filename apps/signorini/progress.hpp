@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/solver/summary.hpp"
 
@@ -16,6 +17,9 @@ class Progress {
  private:
   bool shown_;
 };
+
+/// On standard error, a line each.
+void print_warnings(const std::vector<std::string>& warnings);
 
 /// Seconds since its construction or the last lap().
 class Stopwatch {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
+#include "core/fem/fixes.hpp"
 
 namespace signorini {
 
@@ -85,11 +86,22 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh)
   return {fmt::format("linear elements lock for nearly incompressible material (poisson = {})", poisson)};
 }
 
+template <int D, int B>
+std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model) {
+  std::vector<std::string> warnings;
+  for (const FixConflict& conflict : fix_conflicts(mesh, model))
+    warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
+                                   scene.fixes[conflict.later].source.table, scene.fixes[conflict.earlier].source.table,
+                                   conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
+  return warnings;
+}
+
 #define SIGNORINI_RESULTS(D, B)                                                                                        \
   template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                                 \
   template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&);     \
   template std::vector<std::string> violated_contacts<D, B>(const Mesh<D>&, const Model<B>&, const Discretization<B>&, \
-                                                            const std::vector<double>&);
+                                                            const std::vector<double>&);                               \
+  template std::vector<std::string> fix_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)
 SIGNORINI_RESULTS(2, 2)

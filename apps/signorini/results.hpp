@@ -45,4 +45,8 @@ std::vector<std::string> violated_contacts(const Mesh<D>& mesh, const Model<B>& 
 template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh);
 
+/// Fixes that contradict each other, one sentence per pair.
+template <int D, int B>
+std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model);
+
 }  // namespace signorini

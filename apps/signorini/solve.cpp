@@ -49,6 +49,9 @@ class SolveRun {
     const double t = static_cast<double>(step) / scene_.steps.count;
     if (scene_.steps.count > 1) progress_.phase(fmt::format("step {} of {}", step, scene_.steps.count));
     const Model<B> model = build_model<B>(scene_, D, registry_, t);
+    if (step == 1)
+      for (auto& warning : fix_warnings(scene_, hierarchy_.finest(), model))
+        report_.warnings.push_back(std::move(warning));
     const Solution<B> solution = step == 1 ? solver.solve(model) : solver.solve_from(model, results_.u);
     add_results(model, solution);
   }
@@ -100,7 +103,7 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
   fmt::print(
       "seconds: mesh {:.2f}, assemble {:.2f}, setup {:.2f}, solve {:.2f}, output {:.2f}, total {:.2f}; {:.0f} MB\n",
       time.mesh, time.assemble, time.setup, time.solve, time.output, time.total, report.peak_memory_mb);
-  for (const std::string& warning : report.warnings) fmt::print("warning: {}\n", warning);
+  print_warnings(report.warnings);
   for (const auto& file : written) fmt::print("wrote {}\n", file.string());
 }
 }  // namespace
@@ -113,6 +116,7 @@ Exit solve_command(const SolveArguments& arguments) {
   report.scene = arguments.scene.string();
   report.title = scene.title;
   Registry registry = own_components();
+  check_components(scene, registry);
   report.plugins = load_plugins(scene, registry);
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out);
   dispatch(scene, [&]<int D, int B>() { SolveRun<D, B>(scene, registry, progress, files, report).run(); });
@@ -120,7 +124,7 @@ Exit solve_command(const SolveArguments& arguments) {
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
   stop_if_interrupted();
-  const auto written = files.commit();
+  const auto written = files.commit(is_result_file);
   if (!arguments.quiet) print_result(report, written);
   return report.converged() ? Exit::solved : Exit::not_converged;
 }

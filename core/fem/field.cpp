@@ -9,6 +9,9 @@
 namespace signorini {
 
 double Field::operator()(const Site& site) const {
+  if (uses_normal_ && site.n[0] == 0 && site.n[1] == 0 && site.n[2] == 0)
+    input_error(origin_, fmt::format("'{}' uses nx, ny or nz, and there is no normal at x = [{:g}, {:g}, {:g}]", text_,
+                                     site.x[0], site.x[1], site.x[2]));
   const double value = function_ ? function_(site) : constant_;
   if (!std::isfinite(value))
     input_error(origin_.empty() ? "value" : origin_,

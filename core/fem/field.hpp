@@ -17,10 +17,12 @@ struct Site {
 class Field {
  public:
   Field(double constant = 0) : constant_(constant) {}  // NOLINT: a number is a field
-  Field(std::function<double(const Site&)> function, std::string text, std::string origin)
-      : function_(std::move(function)), text_(std::move(text)), origin_(std::move(origin)) {}
+  /// @param uses_normal whether the value depends on Site::n
+  Field(std::function<double(const Site&)> function, std::string text, std::string origin, bool uses_normal = false)
+      : function_(std::move(function)), text_(std::move(text)), origin_(std::move(origin)), uses_normal_(uses_normal) {}
 
-  /// The value; one that is not finite is an Error(Exit::input) that names origin, text and position.
+  /// The value; Error(Exit::input) that names origin, text and position where it is not finite, or uses the normal
+  /// where there is none.
   double operator()(const Site& site) const;
   /// The number, if this is no expression.
   std::optional<double> constant() const;
@@ -31,6 +33,7 @@ class Field {
   std::function<double(const Site&)> function_;
   double constant_ = 0;
   std::string text_, origin_;
+  bool uses_normal_ = false;
 };
 
 }  // namespace signorini

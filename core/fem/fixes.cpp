@@ -1,8 +1,10 @@
 #include "core/fem/fixes.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double same_direction = 1e-6;  // sine of the angle below which two directions are one
 constexpr double axis_rounding = 1e-12;
+constexpr double same_value = 1e-9;  // difference below which two values are one, relative to the largest prescribed
 const double smooth_cosine = std::cos(std::numbers::pi / 6);
 
 // Replaces a unit vector within rounding of a coordinate axis by that axis.
@@ -51,63 +54,104 @@ std::vector<Point<D>> group_normals(const Mesh<D>& mesh, const Index* faces, std
   return normals;
 }
 
-template <int B>
-void add_global(const Fix<B>& fix, const Site& where, FixedDirections<B>& fixed) {
-  for (int i = 0; i < B; ++i) {
-    if (!fix.value[i]) continue;
-    double axis[B] = {};
-    axis[i] = 1;
-    fixed.add(axis, (*fix.value[i])(where));
-  }
-}
-
-template <int D>
-void add_normal(const Fix<D>& fix, const Site& where, const Point<D>& normal, FixedDirections<D>& fixed) {
-  if (fix.value[0]) fixed.add(normal.data(), (*fix.value[0])(where));
-  const auto tangent = tangents(normal);
-  for (int i = 1; i < D; ++i)
-    if (fix.value[i]) fixed.add(tangent[i - 1].data(), (*fix.value[i])(where));
-}
-
+/// Collects the conditions of all fixes and their conflicts.
 template <int D, int B>
-void add_fix(const Mesh<D>& mesh, const Fix<B>& fix, double t, std::vector<Index>& slot,
-             std::vector<FixedDirections<B>>& fixes) {
-  const Surface<D> picked = surface(mesh, select_faces(mesh, fix.on, t));
-  const std::vector<Point<D>> normals = vertex_normals(mesh, picked);
-  for (std::size_t v = 0; v < picked.vertices.size(); ++v) {
-    const Index p = picked.vertices[v];
-    if (slot[p] < 0) {
-      slot[p] = static_cast<Index>(fixes.size());
-      fixes.push_back({.vertex = p});
-    }
-    FixedDirections<B>& fixed = fixes[slot[p]];
-    if constexpr (B == D)
-      if (fix.frame == Frame::normal) {
-        const Index* faces = picked.around.data() + picked.first[v];
-        for (const Point<D>& n : group_normals(mesh, faces, picked.first[v + 1] - picked.first[v]))
-          add_normal<D>(fix, site<D>(mesh.points[p], t, n), n, fixed);
-        continue;
-      }
-    add_global(fix, site<D>(mesh.points[p], t, normals[v]), fixed);
+class FixCollector {
+ public:
+  FixCollector(const Mesh<D>& mesh, const Model<B>& model) : mesh_(mesh), t_(model.t), slot_(mesh.points.size(), -1) {
+    // What is prescribed first stays, hence backwards.
+    for (auto number = static_cast<Index>(model.fixes.size()) - 1; number >= 0; --number)
+      add_fix(model.fixes[number], number);
   }
-}
+
+  std::vector<FixedDirections<B>> fixes;
+
+  std::vector<FixConflict> conflicts() const {
+    std::map<std::pair<Index, Index>, std::set<Index>> vertices;
+    for (const Doubt& doubt : doubts_)
+      if (doubt.by > same_value * largest_) vertices[{doubt.earlier, doubt.later}].insert(doubt.vertex);
+    std::vector<FixConflict> result;
+    for (const auto& [fixes_of, where] : vertices)
+      result.push_back({fixes_of.first, fixes_of.second, static_cast<Index>(where.size())});
+    return result;
+  }
+
+ private:
+  struct Doubt {
+    Index earlier, later, vertex;
+    double by;
+  };
+
+  void add_fix(const Fix<B>& fix, Index number) {
+    const Surface<D> picked = surface(mesh_, select_faces(mesh_, fix.on, t_));
+    const std::vector<Point<D>> normals = vertex_normals(mesh_, picked);
+    for (std::size_t v = 0; v < picked.vertices.size(); ++v) {
+      const Index p = picked.vertices[v];
+      if (slot_[p] < 0) {
+        slot_[p] = static_cast<Index>(fixes.size());
+        fixes.push_back({.vertex = p});
+      }
+      if constexpr (B == D)
+        if (fix.frame == Frame::normal) {
+          const Index* faces = picked.around.data() + picked.first[v];
+          for (const Point<D>& n : group_normals(mesh_, faces, picked.first[v + 1] - picked.first[v]))
+            add_normal(fix, number, p, n);
+          continue;
+        }
+      add_global(fix, number, p, normals[v]);
+    }
+  }
+
+  void add_global(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
+    for (int i = 0; i < B; ++i) {
+      double axis[B] = {};
+      axis[i] = 1;
+      add(fix.value[i], number, p, normal, axis);
+    }
+  }
+
+  void add_normal(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
+    add(fix.value[0], number, p, normal, normal.data());
+    const auto tangent = tangents(normal);
+    for (int i = 1; i < D; ++i) add(fix.value[i], number, p, normal, tangent[i - 1].data());
+  }
+
+  void add(const std::optional<Field>& value, Index number, Index p, const Point<D>& normal, const double* direction) {
+    if (!value) return;
+    const double v0 = (*value)(site<D>(mesh_.points[p], t_, normal));
+    largest_ = std::max(largest_, std::fabs(v0));
+    const auto found = fixes[slot_[p]].add(direction, v0, number);
+    if (found.by > 0 && found.fix != number) doubts_.push_back({number, found.fix, p, found.by});
+  }
+
+  const Mesh<D>& mesh_;
+  double t_;
+  std::vector<Index> slot_;
+  std::vector<Doubt> doubts_;  // differences, some of them by rounding only
+  double largest_ = 0;
+};
 
 }  // namespace
 
 template <int B>
-void FixedDirections<B>::add(const double* d, double v0) {
-  double rest[B], rest_value = v0;
+typename FixedDirections<B>::Found FixedDirections<B>::add(const double* d, double v0, Index number) {
+  double rest[B], rest_value = v0, most = 0;
+  Index other = -1;
   std::copy_n(d, B, rest);
   for (int k = 0; k < count; ++k) {
     const double c = std::inner_product(direction[k], direction[k] + B, rest, 0.0);
     for (int i = 0; i < B; ++i) rest[i] -= c * direction[k][i];
     rest_value -= c * value[k];
+    if (std::fabs(c) > most) other = fix[k];
+    most = std::max(most, std::fabs(c));
   }
   const double length = std::sqrt(std::inner_product(rest, rest + B, rest, 0.0));
-  if (length < same_direction || count == B) return;
+  if (length < same_direction || count == B) return {other, std::fabs(rest_value)};
   for (int i = 0; i < B; ++i) direction[count][i] = rest[i] / length;
   snap_to_axis<B>(direction[count]);
+  fix[count] = number;
   value[count++] = rest_value / length;
+  return {};
 }
 
 template <int B>
@@ -119,14 +163,16 @@ bool FixedDirections<B>::along_axes() const {
 
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>& mesh, const Model<B>& model) {
-  std::vector<FixedDirections<B>> fixes;
-  if (model.fixes.empty()) return fixes;
-  std::vector<Index> slot(mesh.points.size(), -1);
-  // What is prescribed first stays, hence backwards.
-  for (auto fix = model.fixes.rbegin(); fix != model.fixes.rend(); ++fix) add_fix(mesh, *fix, model.t, slot, fixes);
+  if (model.fixes.empty()) return {};
+  std::vector<FixedDirections<B>> fixes = FixCollector<D, B>(mesh, model).fixes;
   std::erase_if(fixes, [](const auto& f) { return f.count == 0; });
   std::sort(fixes.begin(), fixes.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   return fixes;
+}
+
+template <int D, int B>
+std::vector<FixConflict> fix_conflicts(const Mesh<D>& mesh, const Model<B>& model) {
+  return FixCollector<D, B>(mesh, model).conflicts();
 }
 
 std::array<Point<2>, 1> tangents(const Point<2>& normal) { return {{{-normal[1], normal[0]}}}; }
@@ -145,9 +191,13 @@ std::array<Point<3>, 2> tangents(const Point<3>& normal) {
 template struct FixedDirections<1>;
 template struct FixedDirections<2>;
 template struct FixedDirections<3>;
-template std::vector<FixedDirections<1>> collect_fixes(const Mesh<2>&, const Model<1>&);
-template std::vector<FixedDirections<1>> collect_fixes(const Mesh<3>&, const Model<1>&);
-template std::vector<FixedDirections<2>> collect_fixes(const Mesh<2>&, const Model<2>&);
-template std::vector<FixedDirections<3>> collect_fixes(const Mesh<3>&, const Model<3>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                        \
+  template std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>&, const Model<B>&); \
+  template std::vector<FixConflict> fix_conflicts(const Mesh<D>&, const Model<B>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

@@ -12,12 +12,23 @@ struct FixedDirections {
   int count = 0;
   double direction[B][B] = {};
   double value[B] = {};
+  Index fix[B] = {};  ///< number in Model::fixes that each comes from
 
   /// Adds the condition d . v = v0 (d a unit vector), solved for the part of d that is not yet prescribed. Nothing
-  /// happens where there is no such part.
-  void add(const double* d, double v0);
+  /// happens where there is no such part; then what is returned says what holds instead.
+  struct Found {
+    Index fix = -1;  ///< the one that prescribes most of d
+    double by = 0;   ///< how far its value is from v0
+  };
+  Found add(const double* d, double v0, Index number);
   /// Only coordinate axes.
   bool along_axes() const;
+};
+
+/// Two conditions that contradict each other.
+struct FixConflict {
+  Index earlier, later;  ///< numbers in Model::fixes; the later one holds
+  Index vertices;        ///< at so many of them
 };
 
 /// All Dirichlet conditions of a model, per vertex, ascending. Where conditions contradict each other in a direction,
@@ -26,6 +37,9 @@ struct FixedDirections {
 /// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal.
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>& mesh, const Model<B>& model);
+
+template <int D, int B>
+std::vector<FixConflict> fix_conflicts(const Mesh<D>& mesh, const Model<B>& model);
 
 /// Unit tangents to a unit normal: D = 2: the normal turned by +90 degrees; D = 3: first the projection of the
 /// coordinate axis that is farthest from the normal, then the cross product of both.

@@ -1,9 +1,12 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <functional>
 #include <memory>
 #include <string>
 #include <variant>
 
+#include "core/base/error.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/sdk/settings.hpp"
 
@@ -39,11 +42,28 @@ struct Solid {
 using Shape2 = std::variant<Disk, Polygon>;
 using Shape3 = std::variant<Ball, Cylinder, Solid>;
 
+/// What is wrong with a shape: Error(Exit::input, "SHAPE: KEY: COMPLAINT").
+class ShapeError : public Error {
+ public:
+  /// @param key of the shape as scenes name it, or "size"; "" for the shape as a whole
+  ShapeError(const std::string& shape, const std::string& key, const std::string& complaint)
+      : Error(Exit::input, fmt::format("{}: {}{}{}", shape, key, key.empty() ? "" : ": ", complaint)),
+        key_(key),
+        complaint_(complaint) {}
+  const std::string& key() const { return key_; }
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  std::string key_, complaint_;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
   /// Meshes with the parts and curves that the shape promises; the boundary vertices of curved shapes lie on the true
-  /// surface. Errors are Error(Exit::input): unreadable file, surface not closed, self-intersecting polygon, bad size.
+  /// surface. Meshes of other shapes than solids depend on no units: those in other ones are scaled. What is wrong is a
+  /// ShapeError: unreadable file, surface not closed, self-intersecting polygon, bad size, details that would take
+  /// very many elements.
   virtual Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const = 0;
   virtual Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const = 0;
   /// Distance to a triangle surface file: negative inside a closed one. The normal of an open surface is oriented by

@@ -40,7 +40,17 @@ void AtomicFiles::remove_traces() noexcept {
   for (auto path = created_.rbegin(); path != created_.rend(); ++path) fs::remove(*path, ignored);  // only if empty
 }
 
-std::vector<fs::path> AtomicFiles::commit() {
+void AtomicFiles::remove_outdated(const std::vector<fs::path>& written,
+                                  const std::function<bool(const std::string&)>& outdated) const {
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (entry.is_regular_file() && outdated(entry.path().filename().string()) &&
+        !std::binary_search(written.begin(), written.end(), entry.path()))
+      old.push_back(entry.path());
+  for (const fs::path& file : old) fs::remove(file);
+}
+
+std::vector<fs::path> AtomicFiles::commit(const std::function<bool(const std::string&)>& outdated) {
   std::vector<fs::path> written;
   try {
     for (const auto& entry : fs::directory_iterator(staging_)) written.push_back(entry.path().filename());
@@ -50,6 +60,7 @@ std::vector<fs::path> AtomicFiles::commit() {
       fs::rename(staging_ / name, folder_ / name);
       name = folder_ / name;
     }
+    if (outdated) remove_outdated(written, outdated);
   } catch (const fs::filesystem_error& error) {
     input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
   }

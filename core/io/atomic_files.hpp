@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,15 @@ class AtomicFiles {
   /// Where to write the file that is to be called `name`.
   std::filesystem::path stage(const std::string& name) const { return staging_ / name; }
 
-  /// Renames all files written so far and returns their final names, sorted.
-  std::vector<std::filesystem::path> commit();
+  /// Renames all files written so far and returns their final names, sorted. Other files in the folder are removed
+  /// where `outdated` holds for their name: what an earlier run wrote there.
+  std::vector<std::filesystem::path> commit(const std::function<bool(const std::string&)>& outdated = {});
 
  private:
   void create_folder();
   void remove_traces() noexcept;
+  void remove_outdated(const std::vector<std::filesystem::path>& written,
+                       const std::function<bool(const std::string&)>& outdated) const;
 
   std::filesystem::path folder_, staging_;
   std::vector<std::filesystem::path> created_;  ///< folders made for this run, outermost first

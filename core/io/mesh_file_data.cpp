@@ -41,8 +41,8 @@ std::vector<Point<2>> flatten(const MeshFileData& data, std::string_view place) 
       extent = std::max({extent, std::abs(p[0] - origin[0]), std::abs(p[1] - origin[1]), std::abs(p[2])});
     }
   if (high - low > 1e-10 * extent)
-    input_error(place, fmt::format("found triangles with z from {} to {} and no tetrahedra; expected tetrahedra, or "
-                                   "triangles in a plane z = const",
+    input_error(place, fmt::format("found a surface in space, its triangles with z from {} to {}, and no tetrahedra; "
+                                   "expected its volume meshed, or triangles in a plane z = const",
                                    low, high));
   return points;
 }

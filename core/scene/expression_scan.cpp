@@ -119,7 +119,7 @@ class Scan {
       negative = false;
       nots = nots == 1 ? 2 : 1;
     }
-    const std::string reduced = (negative ? "-" : "") + std::string(nots, '!');
+    const std::string reduced = std::string(negative ? 1 : 0, '-').append(static_cast<std::size_t>(nots), '!');
     std::fill(result_.text.begin() + begin, result_.text.begin() + at_, ' ');
     std::copy(reduced.begin(), reduced.end(), result_.text.begin() + begin);
   }
@@ -140,6 +140,7 @@ class Scan {
     if (is_function && !called) fail(begin, fmt::format("'{0}' is a function: write {0}(...)", word));
     if (!is_function && called) fail(begin, fmt::format("'{}' is no function", word));
     result_.has_variables |= is_variable;
+    result_.has_normal |= is_variable && word[0] == 'n';
     wants_value_ = is_function;
     if (!is_function) return;
     at_ = after;

@@ -14,7 +14,7 @@ constexpr double most_cells = 2e8;  // six tetrahedra each must be numbered by I
 template <class Value, std::size_t D>
 std::array<Value, D> exactly(const std::vector<Value>& list, const std::string& place, std::string_view what) {
   if (list.size() != D) input_error(place, fmt::format("expected {} {}, found {}", D, what, list.size()));
-  std::array<Value, D> fixed;
+  std::array<Value, D> fixed{};
   std::copy(list.begin(), list.end(), fixed.begin());
   return fixed;
 }
@@ -95,6 +95,7 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
     input_error(reader.origin(), reader.given("mesh") ? "both 'shape' and 'mesh' are given, expected one of them"
                                                       : "neither 'shape' nor 'mesh' is given, expected one of them");
   Scene::Body body;
+  reader.know_shapes(body_shapes());
   const ShapeSpec* spec = reader.given("shape") ? &reader.use_shape(body_shapes()) : nullptr;
   reader.check_keys();
   body.source = reader.source();

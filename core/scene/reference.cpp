@@ -95,7 +95,7 @@ File names are relative to the scene's folder. Any key can be changed on the com
 ## Expressions
 
 Where a number is expected, a text is an expression. Where the table below says *number or expression*, it may use `x`,
-`y`, `z` (position), `nx`, `ny`, `nz` (outer normal, on boundaries) and `t` (step parameter, from 1/count to 1);
+`y`, `z` (position), `nx`, `ny`, `nz` (outer normal, on boundaries only) and `t` (step parameter, from 1/count to 1);
 elsewhere only numbers and `pi`. Functions are named and meant as in C (`log` is natural; `min` and `max` take two or
 more arguments; `sign` is -1, 0 or 1):
 

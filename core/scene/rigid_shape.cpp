@@ -1,5 +1,8 @@
 #include "core/scene/rigid_shape.hpp"
 
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
 #include "core/geometry/shapes.hpp"
 
 namespace signorini {
@@ -19,7 +22,13 @@ struct Converter {
   Result operator()(const Scene::CylinderShape& s) const {
     return geometry::cylinder(s.center, s.axis, s.radius, false, t, origin);
   }
-  Result operator()(const Scene::SurfaceShape& s) const { return geometry::engine().surface(s.file.string()); }
+  Result operator()(const Scene::SurfaceShape& s) const {
+    try {
+      return geometry::engine().surface(s.file.string());
+    } catch (const Error& error) {
+      throw Error(error.status(), fmt::format("{}: {}", origin, error.what()));
+    }
+  }
   Result operator()(const Scene::ExpressionShape& s) const {
     return geometry::expression(s.distance, s.normal, dimension, 0, t, origin);
   }

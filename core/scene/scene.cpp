@@ -68,7 +68,11 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
   scene.steps = {steps.integer("count"), steps.source()};
   const TableReader output = reader("output");
   scene.output = {output.flag("vtu"), output.flag("pictures"), output.flag("convergence")};
-  for (const std::string& path : reader("plugins").texts("path")) scene.plugin_path.push_back(folder / path);
+  const TableReader plugins = reader("plugins");
+  for (const std::string& path : plugins.texts("path")) {
+    scene.plugin_path.push_back(folder / path);
+    check_folder(scene.plugin_path.back(), plugins.origin("path"));
+  }
 }
 
 std::string read_file(const std::filesystem::path& file) {

@@ -74,7 +74,7 @@ constexpr KeySpec load[] = {
 };
 
 constexpr KeySpec obstacle[] = {
-    {"type", text, nullptr, "", "coulomb | elastic | elastic_coulomb", "id of an obstacle plugin, such as \"contact\""},
+    {"type", text, nullptr, "", "", "id of an obstacle plugin, such as \"contact\""},
     {"body", text, nullptr, "", "", "name of a body"},
     {"on", text, "", "", "", on_help},
     {"where", condition, "", "", "", where_help},

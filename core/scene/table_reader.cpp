@@ -28,6 +28,12 @@ bool is_later(const KeySpec& spec, const RawValue& raw) {
 
 }  // namespace
 
+void check_folder(const std::filesystem::path& folder, const std::string& place) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error))
+    input_error(place, fmt::format("there is no folder {}", in_quotes(folder.string())));
+}
+
 void check_file(const std::filesystem::path& file, const std::string& place) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
@@ -70,9 +76,13 @@ const KeySpec& TableReader::spec(std::string_view key) const {
 
 void TableReader::unknown_key(const std::string& key, const RawValue& raw) const {
   for (const ShapeSpec& other : shapes_)
-    if (find_key(other.keys, key))
+    if (find_key(other.keys, key)) {
+      if (!shape_)
+        input_error(raw.origin,
+                    fmt::format("'{}' is a key of shape '{}' and has no meaning without 'shape'", key, other.name));
       input_error(raw.origin, fmt::format("'{}' is no key of shape '{}', whose keys are {}", key, shape_->name,
                                           fmt::join(names_of(shape_->keys), ", ")));
+    }
   std::vector<std::string> names = names_of(keys_);
   if (shape_)
     for (const std::string& name : names_of(shape_->keys)) names.push_back(name);

@@ -23,6 +23,8 @@ class TableReader {
 
   /// Adds the keys of the shape that the key `shape` names.
   const ShapeSpec& use_shape(std::span<const ShapeSpec> shapes);
+  /// For messages about keys of shapes in a table without the key `shape`.
+  void know_shapes(std::span<const ShapeSpec> shapes) { shapes_ = shapes; }
   /// Errors for keys that no specification knows, and for values that are not available in this version.
   void check_keys() const;
   /// The same, but unknown keys are returned: they are a plugin's.
@@ -68,6 +70,9 @@ class TableReader {
   const ShapeSpec* shape_ = nullptr;
   std::filesystem::path folder_;
 };
+
+/// Error(Exit::input) unless `folder` is an existing folder.
+void check_folder(const std::filesystem::path& folder, const std::string& place);
 
 /// Error(Exit::input) unless `file` is an existing file; names the nearest one of its folder.
 void check_file(const std::filesystem::path& file, const std::string& place);

@@ -26,6 +26,22 @@ TEST_P(BrokenScene, EndsWithItsStatusNamesThePlaceAndWritesNothing) {
   EXPECT_THAT(ended.err, testing::HasSubstr(broken.message));
   EXPECT_EQ(ended.out, "");
   EXPECT_THAT(written(), testing::IsEmpty());
+  const Ended checked = signorini({"check", "scene.toml"});
+  EXPECT_EQ(checked.status, ended.status);
+  EXPECT_EQ(checked.err, ended.err);
+}
+
+/// How often a text holds another one.
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST_P(BrokenScene, NamesItsPlaceOnce) {
+  Broken broken = GetParam();
+  write("scene.toml", broken.scene.replace(broken.scene.find(broken.from), broken.from.size(), broken.to));
+  EXPECT_LE(count(signorini({"solve", "scene.toml"}).err, "scene.toml:"), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -47,17 +63,55 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"CellsBeyondMemory", membrane, "cells = [4, 4]", "cells = [14000, 14000]", 2, "unknowns"},
         Broken{"TooManyCells", membrane, "cells = [4, 4]", "cells = [1000000, 1000000]", 2, "cells"},
         Broken{"ProbeOutside", membrane, "at = [0, 0]", "at = [5, 0]", 2, "probe.0"},
-        Broken{"NothingHolds", membrane, "[[fix]]\nbody = \"m\"\non = \"boundary\"\nvalue = [0]",
-               "[[load]]\nbody = \"m\"\nvalue = [1]", 4, "signorini"},
         Broken{"ObstacleBeyondTheBoundary", membrane, "0.5 - x^2 - y^2", "0.5", 4, "obstacle.0"},
         Broken{"CrossedBounds", membrane, "lower = \"0.5 - x^2 - y^2\"", "lower = \"-x^2\"\nupper = \"-1-x^2\"", 4,
                "obstacle.0"},
-        Broken{"UnknownSmoother", membrane, "[refine]", "[solver]\nsmoother = \"symetric\"\n[refine]", 2, "symmetric"},
+        Broken{"UnknownSmoother", membrane, "[refine]", "[solver]\nsmoother = \"symetric\"\n[refine]", 2,
+               "scene.toml:18: solver.smoother: there is no smoother 'symetric', did you mean 'symmetric'?"},
+        Broken{"UnknownTransfer", membrane, "[refine]", "[solver]\ntransfer = \"minmerge\"\n[refine]", 2,
+               "scene.toml:18: solver.transfer: there is no transfer 'minmerge', did you mean 'min_merge'?"},
+        Broken{"UnknownCoarse", membrane, "[refine]", "[solver]\ncoarse = \"newtn\"\n[refine]", 2,
+               "scene.toml:18: solver.coarse: there is no coarse 'newtn', did you mean 'newton'?"},
+        Broken{"ModulusNegativeSomewhere", punch, "young = 1.0", "young = \"x - 0.5\"", 2,
+               "scene.toml:8: body.0.young: "},
+        Broken{"DiffusionNotFiniteSomewhere", membrane, "equation =", "diffusion = \"log(x + 0.5)\"\nequation =", 2,
+               "scene.toml:8: body.0.diffusion: "},
+        Broken{"NormalInsideTheBody", punch, "young = 1.0", "young = \"1 + nx\"", 2,
+               "scene.toml:8: body.0.young: '1 + nx' uses nx, ny or nz"},
+        Broken{"NormalInABodyForce", punch, "[refine]", "[[load]]\nbody = \"b\"\nvalue = [0, 0, \"nz\"]\n[refine]", 2,
+               "load.0.value[2]: 'nz' uses nx, ny or nz"},
+        Broken{"NormalInABoundInsideTheBody", membrane, "0.5 - x^2 - y^2", "nx - 2", 2,
+               "obstacle.0.lower: 'nx - 2' uses nx, ny or nz"},
+        Broken{"LaterObstacle", punch, "\"contact\"", "\"elastic_coulomb\"", 2,
+               "obstacle.0.type: type = 'elastic_coulomb' is not available in this version"},
+        Broken{"NoPluginFolder", membrane, "[refine]", "[plugins]\npath = \"nowhere\"\n[refine]", 2,
+               "scene.toml:18: plugins.path: there is no folder 'nowhere'"},
+        Broken{"NarrowPolygon", membrane, "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]",
+               "shape = \"polygon\"\npoints = [[0, 0], [1, 0], [1, 1e-9]]\nsize = 0.3", 2,
+               "scene.toml:6: body.0.size: the mesh does not come to an end: points[2] is 1e-09 away from edge0"},
+        Broken{"CrossingPolygon", membrane, "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]",
+               "shape = \"polygon\"\npoints = [[0, 0], [1, 1], [1, 0], [0, 1]]\nsize = 0.3", 2,
+               "scene.toml:5: body.0.points: edge0 and edge2 meet or cross"},
+        Broken{"ShapeKeyBesideMesh", membrane, "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]",
+               "mesh = \"scene.toml\"\nradius = 1", 2,
+               "body.0.radius: 'radius' is a key of shape 'disk' and has no meaning without 'shape'"},
         Broken{"UnknownOption", membrane, "lower =", "lowr =", 2, "lower"},
-        Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2, "obstacle.0"},
+        Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2,
+               "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
+               "'elasticity'; expected a type for elastic bodies, such as 'contact'"},
         Broken{"Adaptive", membrane, "uniform = 3", "adaptive = true", 2, "not available in this version"},
         Broken{"Quadratic", punch, "young = 1.0", "young = 1.0\norder = 2", 2, "not available in this version"}),
     [](const auto& test) { return std::string(test.param.name); });
+
+TEST_F(Program, ABodyThatNothingHoldsHasNoSolution) {
+  const std::string held = "[[fix]]\nbody = \"m\"\non = \"boundary\"\nvalue = [0]";
+  std::string loose = membrane;
+  loose.replace(loose.find(held), held.size(), "[[load]]\nbody = \"m\"\nvalue = [1]");
+  write("scene.toml", loose);
+  const Ended ended = signorini({"solve", "scene.toml"});
+  EXPECT_EQ(ended.status, 4) << ended.err;
+  EXPECT_THAT(written(), testing::IsEmpty());
+}
 
 TEST_F(Program, MissingSceneIsBadInput) {
   const Ended ended = signorini({"solve", "none.toml"});

@@ -1,5 +1,7 @@
 #include "program.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <thread>
 
@@ -40,6 +42,10 @@ TEST_F(CommandLine, WrongUsageIsStatusOneWithAMessage) {
     EXPECT_EQ(ended.status, 1) << testing::PrintToString(arguments);
     EXPECT_THAT(ended.err, StartsWith("signorini: error: "));
   }
+}
+
+TEST_F(CommandLine, NamesTheNearestCommand) {
+  EXPECT_THAT(signorini({"lst"}).err, HasSubstr("there is no command 'lst', did you mean 'list'?"));
 }
 
 TEST_F(CommandLine, UnknownPathOfSetIsWrongUsage) {
@@ -111,12 +117,46 @@ TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
   }
 }
 
+TEST_F(CommandLine, InterruptEndsTheMeshing) {
+  for (const char* shape : {"disk\"\ncenter = [0, 0]", "ball\"\ncenter = [0, 0, 0]"}) {
+    write("round.toml", fmt::format("[[body]]\nname = \"b\"\nshape = \"{}\nradius = 1\nsize = \"x < 2 ? {} : 1\"\n"
+                                    "equation = \"diffusion\"\n[[fix]]\nbody = \"b\"\non = \"boundary\"\nvalue = 0\n",
+                                    shape, shape[0] == 'd' ? 0.002 : 0.03));
+    const pid_t child = start("signorini", {"check", "round.toml"});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const auto asked = std::chrono::steady_clock::now();
+    kill(child, SIGINT);
+    EXPECT_EQ(wait_for(child).status, 130);
+    EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::seconds(5));
+  }
+}
+
 TEST_F(CommandLine, SecondRunReplacesTheFirstResults) {
   write("membrane.toml", membrane);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=1"}).status, 0);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=2"}).status, 0);
   EXPECT_EQ(report("o").at("unknowns"), 225);
   EXPECT_EQ(written("o").size(), 5u);
+}
+
+TEST_F(CommandLine, ARunRemovesWhatAnEarlierOneWroteAndNothingElse) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "steps.count=2"}).status, 0);
+  write("o/solution_x.vtu", "");
+  write("o/notes", "");
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "output.pictures=false"}).status, 0);
+  EXPECT_THAT(written("o"), testing::UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv",
+                                                          "solution_x.vtu", "notes"));
+}
+
+TEST_F(CommandLine, FixesThatContradictEachOtherAreAWarning) {
+  write("membrane.toml", membrane + "[[fix]]\nbody = \"m\"\non = \"left\"\nvalue = [1]\n");
+  const char* warning = "membrane.toml:23: fix.1: prescribes other values than membrane.toml:9: fix.0 at 33 vertices";
+  EXPECT_THAT(signorini({"check", "membrane.toml"}).err, HasSubstr(warning));
+  EXPECT_THAT(signorini({"solve", "membrane.toml", "--out", "o"}).err, HasSubstr(warning));
+  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("33 vertices"));
+  write("membrane.toml", membrane + "[[fix]]\nbody = \"m\"\non = \"left\"\nvalue = [\"1e-15 * y - 1\"]\n");
+  EXPECT_EQ(signorini({"check", "membrane.toml", "--set", "fix.0.value=x", "--set", "obstacle.0.lower=-2"}).err, "");
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST_F(Solve, WithoutGnuplotThereIsANoteInsteadOfPictures) {
   const Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(ended.status, 0);
-  EXPECT_THAT(ended.out, HasSubstr("gnuplot is not installed"));
+  EXPECT_THAT(ended.err, HasSubstr("gnuplot is not installed"));
   EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv"));
 }
 

@@ -53,7 +53,7 @@ check_gpl() {
 }
 
 check_paths() {
-  grep -rnIE '(^|[^A-Za-z0-9_.~-])/(home|root|work|Users)/' . --exclude-dir=.git --exclude-dir='build*' --exclude-dir=out |
+  grep -rnIE '(^|[^A-Za-z0-9_.~-])/(home|root|work|Users)/' . --exclude-dir=.git --exclude=.git --exclude-dir='build*' --exclude-dir=out |
     sed 's/$/ (a path of one machine)/' || true
 }
 

@@ -1,5 +1,6 @@
 // Hertz's contact of a ball and of a cylinder with a rigid plane.
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
@@ -15,38 +16,27 @@ struct Differences {
 /// Lower half of a ball or cylinder between two planes that approach each other by 2 delta: by symmetry the middle
 /// plane moves down by delta and is free to widen. A small part around the axis keeps the body from sliding away.
 template <int D>
-std::string pressed_half(double delta, const std::string& size) {
+SceneText pressed_half(double delta, const std::string& size) {
   const bool plane = D == 2;
-  return fmt::format(R"(
-title = "{}"
-[[body]]
-name = "b"
+  const char *zeros = plane ? "0" : "0, 0", *free = plane ? "\"free\"" : "\"free\", \"free\"";
+  const char* core = plane ? "y > -1e-9 && abs(x) < 0.09" : "z > -1e-9 && x^2 + y^2 < 0.16";
+  return {.body = fmt::format(R"(
 shape = "{}"
-center = [{}]
+center = [{}, 0]
 radius = 1
 size = "{}"
 young = 1
-poisson = 0.3
-[[fix]]
-body = "b"
-on = "flat"
-value = [{}, {}]
-[[fix]]
-body = "b"
-where = "{}"
-value = [{}, "free"]
-[[obstacle]]
+poisson = 0.3)",
+                              plane ? "half_disk" : "half_ball", zeros, size),
+          .fixes = {fmt::format("on = \"flat\"\nvalue = [{}, {}]", free, -delta),
+                    fmt::format("where = \"{}\"\nvalue = [{}, \"free\"]", core, zeros)},
+          .obstacle = fmt::format(R"(
 type = "contact"
-body = "b"
 on = "curved"
 shape = "plane"
-point = [{}, -1]
-normal = [{}, 1]
-)",
-                     plane ? "cylinder" : "ball", plane ? "half_disk" : "half_ball", plane ? "0, 0" : "0, 0, 0", size,
-                     plane ? "\"free\"" : "\"free\", \"free\"", -delta,
-                     plane ? "y > -1e-9 && abs(x) < 0.09" : "z > -1e-9 && x^2 + y^2 < 0.16", plane ? "0" : "0, 0",
-                     plane ? "0" : "0, 0", plane ? "0" : "0, 0");
+point = [{0}, -1]
+normal = [{0}, 1])",
+                                  zeros)};
 }
 
 /// K. L. Johnson, Contact Mechanics, Cambridge 1985, sec. 4.2 and 5.6.

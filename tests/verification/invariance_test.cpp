@@ -5,6 +5,7 @@
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"
+#include "scene_text.hpp"
 #include "tests/support/random.hpp"
 
 namespace signorini::test {
@@ -34,64 +35,32 @@ struct Frame {
     for (double& v : y) v *= modulus;
     return text(y);
   }
-  std::string body() const {
-    return fmt::format("title = \"moved\"\n[[body]]\nname = \"b\"\nmesh = \"{}\"\nyoung = {:.17g}\npoisson = 0.3\n",
-                       file, modulus);
-  }
+  std::string body() const { return fmt::format("mesh = \"{}\"\nyoung = {:.17g}\npoisson = 0.3", file, modulus); }
 };
 
 /// A half ball pushed obliquely on a sphere, with a load on its flat side's rim.
-std::string ball_on_sphere(const Frame<3>& f) {
-  return f.body() + fmt::format(R"(
-[[fix]]
-body = "b"
-on = "flat"
-value = {}
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "curved"
-shape = "sphere"
-center = {}
-radius = {:.17g}
-[refine]
-uniform = 1
-)",
-                                f.length({0.02, -0.01, -0.05}), f.point({0.1, 0.05, -2.99}), 2 * f.motion.scale);
+SceneText ball_on_sphere(const Frame<3>& f) {
+  return {
+      .body = f.body(),
+      .fixes = {"on = \"flat\"\nvalue = " + f.length({0.02, -0.01, -0.05})},
+      .obstacle = fmt::format("type = \"contact\"\non = \"curved\"\nshape = \"sphere\"\ncenter = {}\nradius = {:.17g}",
+                              f.point({0.1, 0.05, -2.99}), 2 * f.motion.scale),
+      .refinements = 1};
 }
 
 /// A square that slides along two walls in normal direction and is pressed on an incline by a traction and its weight.
-std::string square_on_incline(const Frame<2>& f) {
+SceneText square_on_incline(const Frame<2>& f) {
   Point<2> weight{0.02 * f.modulus / f.motion.scale, -0.1 * f.modulus / f.motion.scale};
-  return f.body() + fmt::format(R"(
-[[fix]]
-body = "b"
-on = "left"
-frame = "normal"
-value = [0, "free"]
-[[load]]
-body = "b"
-on = "top"
-value = {}
-[[load]]
-body = "b"
-value = {}
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "bottom"
-shape = "plane"
-point = {}
-normal = {}
-[refine]
-uniform = 3
-)",
-                                f.traction({0.01, -0.05}), text(f.motion.turned(weight)), f.point({0, -1.01}),
-                                f.direction({-0.02, 1}));
+  return {.body = f.body(),
+          .fixes = {"on = \"left\"\nframe = \"normal\"\nvalue = [0, \"free\"]"},
+          .loads = {"on = \"top\"\nvalue = " + f.traction({0.01, -0.05}), "value = " + text(f.motion.turned(weight))},
+          .obstacle = fmt::format("type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = {}\nnormal = {}",
+                                  f.point({0, -1.01}), f.direction({-0.02, 1})),
+          .refinements = 3};
 }
 
 template <int D>
-using Scenes = std::string (*)(const Frame<D>&);
+using Scenes = SceneText (*)(const Frame<D>&);
 
 /// Solves the scene as it is and moved, and compares the displacements after moving back.
 template <int D>
@@ -155,39 +124,30 @@ TEST(Invariance, Units) {
 /// The same with a shape that the program meshes itself. The mesher compares lengths that differ by rounding in other
 /// units, so that the mesh is the same where units differ by a power of two only.
 TEST(Invariance, UnitsOfAMeshedShape) {
-  const auto scene = [](double l) {
-    return fmt::format(R"(
-title = "cylinder"
-[[body]]
-name = "b"
+  const auto scene = [](double l) -> SceneText {
+    return {.body = fmt::format(R"(
 shape = "half_disk"
 center = [0, 0]
-radius = {0:.17g}
-size = {1:.17g}
+radius = {:.17g}
+size = {:.17g}
 young = 2e5
-poisson = 0.3
-[[fix]]
-body = "b"
-on = "flat"
-value = [0, {2:.17g}]
-[[obstacle]]
+poisson = 0.3)",
+                                l, 0.2 * l),
+            .fixes = {fmt::format("on = \"flat\"\nvalue = [0, {:.17g}]", -0.01 * l)},
+            .obstacle = fmt::format(R"(
 type = "contact"
-body = "b"
 on = "curved"
 shape = "plane"
-point = [0, {3:.17g}]
-normal = [0, 1]
-[refine]
-uniform = 3
-[solver]
-tolerance = 1e-10
-)",
-                       l, 0.2 * l, -0.01 * l, -l);
+point = [0, {:.17g}]
+normal = [0, 1])",
+                                    -l),
+            .refinements = 3};
   };
-  const auto one = run<2, 2>(scene(1));
+  const std::vector<std::string> settings{"solver.tolerance=1e-10"};
+  const auto one = run<2, 2>(scene(1), settings);
   for (const double l : {0x1p-10, 0x1p10, 0x1p20}) {
     SCOPED_TRACE(l);
-    const auto other = run<2, 2>(scene(l));
+    const auto other = run<2, 2>(scene(l), settings);
     ASSERT_EQ(other.mesh().points.size(), one.mesh().points.size());
     EXPECT_NEAR(other.summary().iterations, one.summary().iterations, 1);
     EXPECT_NEAR(other.contact().force[1], l * one.contact().force[1], 1e-8 * l * one.contact().force[1]);

@@ -1,5 +1,6 @@
 // What the solver's work must not depend on: the fineness of the mesh; and how fast it converges in the end.
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
@@ -28,28 +29,20 @@ TEST(Iterations, DoNotGrowWithTheMesh) {
 }
 
 /// The ball of the documentation.
-constexpr const char* ball = R"(
-title = "Ball pressed on a plane"
-[[body]]
-name     = "ball"
+const SceneText ball{.body = R"(
 shape    = "ball"
 center   = [0, 0, 0]
 radius   = 1.0
 size     = 0.25
 young    = 1.0
-poisson  = 0.3
-[[fix]]
-body  = "ball"
-where = "z > 0.5"
-value = [0, 0, -0.02]
-[[obstacle]]
+poisson  = 0.3)",
+                     .fixes = {"where = \"z > 0.5\"\nvalue = [0, 0, -0.02]"},
+                     .obstacle = R"(
 type  = "contact"
-body  = "ball"
 on    = "boundary"
 shape = "plane"
 point = [0, 0, -1]
-normal = [0, 0, 1]
-)";
+normal = [0, 0, 1])"};
 
 /// V(2,2) with symmetric smoothing.
 const std::vector<std::string> symmetric{"solver.smoother=symmetric", "solver.pre=2", "solver.post=2",
@@ -69,14 +62,15 @@ std::vector<std::string> with(std::vector<std::string> settings, const std::stri
 
 TEST(Iterations, AsymptoticRate) {
   expect_fast<2, 1>(read_scene(shipped_scenes / "obstacle_radial_2d.toml", symmetric));
-  for (int k = 1; k <= 2; ++k) expect_fast<3, 3>(parse_scene(ball, "ball", ".", with(symmetric, uniform(k))));
+  for (int k = 1; k <= 2; ++k)
+    expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(symmetric, uniform(k))));
 }
 
 // After two refinements of the ball the cycle alone is at 0.32.
 TEST(Iterations, AsymptoticRateWithoutAcceleration) {
   const auto alone = with(symmetric, "solver.krylov=false");
   expect_fast<2, 1>(read_scene(shipped_scenes / "obstacle_radial_2d.toml", alone));
-  expect_fast<3, 3>(parse_scene(ball, "ball", ".", with(alone, uniform(1))));
+  expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(alone, uniform(1))));
 }
 
 }  // namespace

@@ -1,34 +1,23 @@
 // Energies of obstacle problems whose discrete minima are published.
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
 
-std::string square_torsion(int cells) {
-  return fmt::format(R"(
-title = "torsion of a square bar"
-[[body]]
-name = "m"
-shape = "rectangle"
-from = [0, 0]
-to = [1, 1]
-cells = [{0}, {0}]
-equation = "diffusion"
-[[fix]]
-body = "m"
-on = "boundary"
-value = [0]
-[[load]]
-body = "m"
-value = [5]
-[[obstacle]]
-type = "scalar"
-body = "m"
-upper = 'min(min(x, 1 - x), min(y, 1 - y))'
-[refine]
-uniform = 3
-)",
-                     cells);
+/// A membrane held along the boundary of a rectangle.
+SceneText membrane(const std::string& body, const std::string& source, const std::string& bound) {
+  return {.body = "shape = \"rectangle\"\nfrom = [0, 0]\nequation = \"diffusion\"\n" + body,
+          .fixes = {"on = \"boundary\"\nvalue = [0]"},
+          .loads = {fmt::format("value = ['{}']", source)},
+          .obstacle = "type = \"scalar\"\n" + bound};
+}
+
+SceneText square_torsion(int cells) {
+  SceneText scene = membrane(fmt::format("to = [1, 1]\ncells = [{0}, {0}]", cells), "5",
+                             "upper = 'min(min(x, 1 - x), min(y, 1 - y))'");
+  scene.refinements = 3;
+  return scene;
 }
 
 TEST(Minima, SquareTorsion) {
@@ -50,29 +39,10 @@ TEST(Minima, JournalBearing) {
     };
     return fmt::format("((1 - {0})*{1} + {0}*{2})", part, at(cell), at("(" + cell + " + 1)"));
   };
-  const std::string scene = fmt::format(R"(
-title = "journal bearing"
-[[body]]
-name = "film"
-shape = "rectangle"
-from = [0, 0]
-to = [{:.17g}, 20]
-cells = [9, 13]
-equation = "diffusion"
-diffusion = '{}'
-[[fix]]
-body = "film"
-on = "boundary"
-value = [0]
-[[load]]
-body = "film"
-value = ['0.1*{}*3/(2 + cos({:.17g}))']
-[[obstacle]]
-type = "scalar"
-body = "film"
-lower = 0
-)",
-                                        2 * pi, interpolated("(1 + 0.1*cos({0}))^3"), interpolated("sin({0})"), h);
+  const SceneText scene =
+      membrane(fmt::format("to = [{:.17g}, 20]\ncells = [9, 13]\ndiffusion = '{}'", 2 * pi,
+                           interpolated("(1 + 0.1*cos({0}))^3")),
+               fmt::format("0.1*{}*3/(2 + cos({:.17g}))", interpolated("sin({0})"), h), "lower = 0");
   EXPECT_NEAR((run<2, 1>(scene).summary().energy), -0.183437, 5e-7);
 }
 

@@ -1,6 +1,7 @@
 // Obstacle problems with rotational symmetry and known solutions: orders of convergence and the free boundary.
 #include "core/fem/error_norm.hpp"
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
@@ -14,7 +15,8 @@ struct Radial<2> {
   static constexpr double free_boundary = 0.697965148223374, A = 0.680259411891719, B = 0.471519893402112;
   static double outside(double r) { return -A * std::log(r) + B; }
   static double slope(double r) { return -A / r; }
-  static constexpr const char *shape = "rectangle", *r = "sqrt(x^2+y^2)", *coordinates = "2, 2";
+  static constexpr const char* domain = "shape = \"rectangle\"\nfrom = [-2, -2]\nto = [2, 2]\ncells = [{0}, {0}]";
+  static constexpr const char* r = "sqrt(x^2+y^2)";
   static constexpr const char* boundary = "-0.680259411891719*log(sqrt(x^2+y^2)) + 0.471519893402112";
 };
 
@@ -23,36 +25,21 @@ struct Radial<3> {
   static constexpr double free_boundary = 0.789244119040808, A = 0.800588621249054;
   static double outside(double r) { return A * (1 / r - 0.5); }
   static double slope(double r) { return -A / (r * r); }
-  static constexpr const char *shape = "box", *r = "sqrt(x^2+y^2+z^2)", *coordinates = "2, 2, 2";
+  static constexpr const char* domain = "shape = \"box\"\nfrom = [-2, -2, -2]\nto = [2, 2, 2]\ncells = [{0}, {0}, {0}]";
+  static constexpr const char* r = "sqrt(x^2+y^2+z^2)";
   static constexpr const char* boundary = "0.800588621249054*(1/sqrt(x^2+y^2+z^2) - 0.5)";
 };
 
 /// On (-2, 2)^D with the solution as boundary values.
 template <int D>
-std::string radial(int cells) {
+SceneText radial(int cells) {
   using P = Radial<D>;
-  const std::string n = std::to_string(cells), corner = P::coordinates;
-  std::string low = corner;
-  for (std::size_t at = 0; (at = low.find('2', at)) != std::string::npos; at += 2) low.insert(at, "-");
-  return fmt::format(R"(
-title = "radial obstacle problem"
-[[body]]
-name = "m"
-shape = "{0}"
-from = [{1}]
-to = [{2}]
-cells = [{3}]
-equation = "diffusion"
-[[fix]]
-body = "m"
-on = "boundary"
-value = ['{4}']
-[[obstacle]]
+  return {.body = fmt::format(fmt::runtime(P::domain), cells) + "\nequation = \"diffusion\"",
+          .fixes = {fmt::format("on = \"boundary\"\nvalue = ['{}']", P::boundary)},
+          .obstacle = fmt::format(R"(
 type = "scalar"
-body = "m"
-lower = '{5} <= 0.9 ? sqrt(1 - {5}^2) : sqrt(0.19) - 0.9/sqrt(0.19)*({5} - 0.9)'
-)",
-                     P::shape, low, corner, D == 2 ? n + "," + n : n + "," + n + "," + n, P::boundary, P::r);
+lower = '{0} <= 0.9 ? sqrt(1 - {0}^2) : sqrt(0.19) - 0.9/sqrt(0.19)*({0} - 0.9)')",
+                                  P::r)};
 }
 
 template <int D>

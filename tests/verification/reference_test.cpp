@@ -1,5 +1,6 @@
 // Scenes of every kind against an independent solver: the same coincidence set and the same solution.
 #include "run.hpp"
+#include "scene_text.hpp"
 #include "tests/support/pdas.hpp"
 
 namespace signorini::test {
@@ -52,32 +53,19 @@ void expect_shipped_reference(const std::string& file, int refinements) {
   expect_reference<D, B>(read_scene(shipped_scenes / file, std::vector{exactly.front(), uniform(refinements)}));
 }
 
-/// A membrane over the unit square.
-std::string membrane(const std::string& source, const std::string& bounds, const std::string& boundary = "0") {
-  return fmt::format(R"(
-title = "membrane"
-[[body]]
-name = "m"
+constexpr const char* square = R"(
 shape = "rectangle"
 from = [0, 0]
 to = [1, 1]
 cells = [3, 3]
-equation = "diffusion"
-[[fix]]
-body = "m"
-on = "boundary"
-value = ["{}"]
-[[load]]
-body = "m"
-value = ["{}"]
-[[obstacle]]
-type = "scalar"
-body = "m"
-{}
-[refine]
-uniform = 4
-)",
-                     boundary, source, bounds);
+equation = "diffusion")";
+
+SceneText membrane(const std::string& source, const std::string& bounds, const std::string& boundary = "0") {
+  return {.body = square,
+          .fixes = {fmt::format("on = \"boundary\"\nvalue = [\"{}\"]", boundary)},
+          .loads = {fmt::format("value = [\"{}\"]", source)},
+          .obstacle = "type = \"scalar\"\n" + bounds,
+          .refinements = 4};
 }
 
 TEST(Reference, TwoSidedBounds) {
@@ -117,125 +105,74 @@ TEST(Reference, ContactWithoutForce) {
 TEST(Reference, Spiral) { expect_shipped_reference<2, 1>("obstacle_spiral.toml", 4); }
 
 TEST(Reference, ScalarSignoriniOnAPart) {
-  expect_reference<2, 1>(R"(
-title = "source against a wall"
-[[body]]
-name = "m"
+  expect_reference<2, 1>(SceneText{.body = R"(
 shape = "disk"
 center = [0, 0]
 radius = 1
 size = 0.3
-equation = "diffusion"
-[[fix]]
-body = "m"
-where = "y > 0.7"
-value = [0]
-[[load]]
-body = "m"
-value = ['4*sin(5*x + 1)']
-[[obstacle]]
+equation = "diffusion")",
+                                   .fixes = {"where = \"y > 0.7\"\nvalue = [0]"},
+                                   .loads = {"value = ['4*sin(5*x + 1)']"},
+                                   .obstacle = R"(
 type = "scalar"
-body = "m"
 where = "y < 0.2"
 lower = -0.05
-upper = 0.4
-[refine]
-uniform = 3
-)");
+upper = 0.4)",
+                                   .refinements = 3});
 }
 
 TEST(Reference, TorsionOfARoundBar) { expect_shipped_reference<2, 1>("obstacle_torsion_disk.toml", 3); }
 
 /// An elastic block over a rigid obstacle.
-std::string block2(const std::string& obstacle, const std::string& fixes) {
-  return fmt::format(R"(
-title = "block"
-[[body]]
-name = "b"
+SceneText block2(const std::string& obstacle) {
+  return {.body = R"(
 shape = "rectangle"
 from = [0, 0]
 to = [2, 1]
 cells = [4, 2]
 young = 1.0
-poisson = 0.3
-{}
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "bottom"
-{}
-[refine]
-uniform = 3
-)",
-                     fixes, obstacle);
+poisson = 0.3)",
+          .fixes = {"on = \"top\"\nvalue = [0.01, -0.05]"},
+          .obstacle = "type = \"contact\"\non = \"bottom\"\n" + obstacle,
+          .refinements = 3};
 }
 
-constexpr const char* pushed2 = "[[fix]]\nbody = \"b\"\non = \"top\"\nvalue = [0.01, -0.05]\n";
-
 TEST(Reference, ElasticBlockOnACircle) {
-  expect_reference<2, 2>(block2("shape = \"sphere\"\ncenter = [0.8, -3]\nradius = 2.98", pushed2));
+  expect_reference<2, 2>(block2("shape = \"sphere\"\ncenter = [0.8, -3]\nradius = 2.98"));
 }
 
 TEST(Reference, ElasticBlockOnAnIncline) {
-  expect_reference<2, 2>(block2("shape = \"plane\"\npoint = [0, -0.04]\nnormal = [-0.1, 1]", pushed2));
+  expect_reference<2, 2>(block2("shape = \"plane\"\npoint = [0, -0.04]\nnormal = [-0.1, 1]"));
 }
 
 TEST(Reference, ElasticBlockOnAHillByExpression) {
-  expect_reference<2, 2>(block2("shape = \"expression\"\ndistance = \"y + 0.02 + 0.02*cos(6*x)\"", pushed2));
+  expect_reference<2, 2>(block2("shape = \"expression\"\ndistance = \"y + 0.02 + 0.02*cos(6*x)\""));
 }
 
 TEST(Reference, BodyHeldByTheObstacleOnly) {
   // Nothing but the plane stops the block from moving down, and from turning.
-  expect_reference<2, 2>(block2("shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]",
-                                "[[fix]]\nbody = \"b\"\non = \"left\"\nframe = \"normal\"\nvalue = [0, \"free\"]\n"
-                                "[[load]]\nbody = \"b\"\nvalue = [0.01, -0.1]\n[[load]]\nbody = \"b\"\non = \"top\"\n"
-                                "value = [0, \"-0.2*(x > 0.5)\"]\n"));
+  SceneText block = block2("shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]");
+  block.fixes = {"on = \"left\"\nframe = \"normal\"\nvalue = [0, \"free\"]"};
+  block.loads = {"value = [0.01, -0.1]", "on = \"top\"\nvalue = [0, \"-0.2*(x > 0.5)\"]"};
+  expect_reference<2, 2>(block);
   // A membrane with a flux, held by a bump of the obstacle.
-  expect_reference<2, 1>(R"(
-title = "held by the obstacle"
-[[body]]
-name = "m"
-shape = "rectangle"
-from = [0, 0]
-to = [1, 1]
-cells = [3, 3]
-equation = "diffusion"
-[[load]]
-body = "m"
-value = ["-1 - x"]
-[[obstacle]]
-type = "scalar"
-body = "m"
-lower = "0.2 - x^2 - y"
-[refine]
-uniform = 3
-)");
+  SceneText loose = membrane("-1 - x", "lower = \"0.2 - x^2 - y\"");
+  loose.fixes.clear();
+  loose.refinements = 3;
+  expect_reference<2, 1>(loose);
 }
 
-std::string half_ball(const std::string& obstacle) {
-  return fmt::format(R"(
-title = "half ball"
-[[body]]
-name = "b"
+SceneText half_ball(const std::string& obstacle) {
+  return {.body = R"(
 shape = "half_ball"
 center = [0, 0, 0]
 radius = 1
 size = 0.5
 young = 1.0
-poisson = 0.3
-[[fix]]
-body = "b"
-on = "flat"
-value = [0.01, 0, -0.05]
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "curved"
-{}
-[refine]
-uniform = 1
-)",
-                     obstacle);
+poisson = 0.3)",
+          .fixes = {"on = \"flat\"\nvalue = [0.01, 0, -0.05]"},
+          .obstacle = "type = \"contact\"\non = \"curved\"\n" + obstacle,
+          .refinements = 1};
 }
 
 TEST(Reference, BallOnAPlane) {

@@ -2,6 +2,7 @@
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"
+#include "scene_text.hpp"
 #include "tests/support/pdas.hpp"
 
 namespace signorini::test {
@@ -24,32 +25,19 @@ void expect_solved(const std::string& scene, std::vector<std::string> settings =
 /// need more cycles than the default limit of 200.
 const std::vector<std::string> patient{"solver.max_iterations=5000"};
 
-std::string membrane(const std::string& diffusion, double width, const std::string& lower) {
-  return fmt::format(R"(
-title = "membrane"
-[[body]]
-name = "m"
+SceneText membrane(const std::string& diffusion, double width, const std::string& lower) {
+  return {.body = fmt::format(R"(
 shape = "rectangle"
 from = [0, 0]
 to = [{:.17g}, 1]
 cells = [4, 4]
 equation = "diffusion"
-diffusion = "{}"
-[[fix]]
-body = "m"
-on = "boundary"
-value = [0]
-[[load]]
-body = "m"
-value = ['-10*({})']
-[[obstacle]]
-type = "scalar"
-body = "m"
-lower = "{}"
-[refine]
-uniform = 4
-)",
-                     width, diffusion, diffusion, lower);
+diffusion = "{}")",
+                              width, diffusion),
+          .fixes = {"on = \"boundary\"\nvalue = [0]"},
+          .loads = {fmt::format("value = ['-10*({})']", diffusion)},
+          .obstacle = fmt::format("type = \"scalar\"\nlower = \"{}\"", lower),
+          .refinements = 4};
 }
 
 TEST(Robustness, JumpsOfTheDiffusion) {
@@ -65,29 +53,16 @@ TEST(Robustness, CellsStretchedByAHundred) {
   expect_solved<2, 1>(membrane("1", 0.01, "-1e-4 + 0.5e-4*sin(5*y)"), patient);
 }
 
-std::string block(const std::string& from_to, const std::string& young, double poisson, int refinements) {
-  return fmt::format(R"(
-title = "block"
-[[body]]
-name = "b"
-{}
-young = "{}"
-poisson = {}
-[[fix]]
-body = "b"
-on = "top"
-value = [0, 0, -0.02]
-[[obstacle]]
+SceneText block(const std::string& shape, const std::string& young, double poisson, int refinements) {
+  return {.body = fmt::format("{}\nyoung = \"{}\"\npoisson = {}", shape, young, poisson),
+          .fixes = {"on = \"top\"\nvalue = [0, 0, -0.02]"},
+          .obstacle = R"(
 type = "contact"
-body = "b"
 on = "bottom"
 shape = "sphere"
 center = [0.4, 0.6, -2]
-radius = 2
-[refine]
-uniform = {}
-)",
-                     from_to, young, poisson, refinements);
+radius = 2)",
+          .refinements = refinements};
 }
 
 constexpr const char* cube = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]";
@@ -103,7 +78,7 @@ TEST(Robustness, NearlyIncompressible) { expect_solved<3, 3>(block(cube, "1", 0.
 
 TEST(Robustness, SaysThatLinearElementsLock) {
   const auto warnings = [](double poisson) {
-    const Scene scene = parse_scene(block(cube, "1", poisson, 0), "test.toml", ".", {});
+    const Scene scene = parse_scene(std::string(block(cube, "1", poisson, 0)), "test.toml", ".", {});
     return scene_warnings(scene, build_hierarchy<3>(scene, 3).levels.front());
   };
   ASSERT_EQ(warnings(0.499).size(), 1u);

@@ -6,6 +6,7 @@
 
 #include "core/fem/error_norm.hpp"
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
@@ -13,25 +14,16 @@ namespace {
 using Complex = std::complex<double>;
 
 /// u = r^(3/2) cos(3 theta / 2): free for x > 0, on the obstacle for x < 0.
-constexpr const char* scalar = R"(
-title = "scalar Signorini problem"
-[[body]]
-name = "m"
+const SceneText scalar{.body = R"(
 shape = "rectangle"
 from = [-1, 0]
 to = [1, 1]
 cells = [4, 2]
-equation = "diffusion"
-[[fix]]
-body = "m"
+equation = "diffusion")",
+                       .fixes = {R"(
 where = "y == 1 || abs(x) == 1"
-value = ['(x^2 + y^2)^0.75*cos(1.5*atan2(y, x))']
-[[obstacle]]
-type = "scalar"
-body = "m"
-on = "bottom"
-lower = 0
-)";
+value = ['(x^2 + y^2)^0.75*cos(1.5*atan2(y, x))'])"},
+                       .obstacle = "type = \"scalar\"\non = \"bottom\"\nlower = 0"};
 
 TEST(Signorini, OrderOfTheScalarProblem) {
   // u = Re z^(3/2), whose derivative is 3/2 z^(1/2) = u_x - i u_y.

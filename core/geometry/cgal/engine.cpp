@@ -6,27 +6,43 @@
 #include "core/geometry/cgal/solid.hpp"
 #include "core/geometry/cgal/surface_distance.hpp"
 #include "core/geometry/cgal/tetrahedra.hpp"
+#include "core/geometry/cgal/unit_shape.hpp"
 #include "core/geometry/geometry.hpp"
 
 namespace signorini::geometry {
 
 namespace {
 
-Mesh<3> mesh_of(const Ball& ball, const Size<3>& size) {
+void check(const Ball& ball) {
   const char* shape = ball.lower_half ? "half_ball" : "ball";
   require_finite(shape, "center", ball.center);
   require_positive(shape, "radius", ball.radius);
-  return tetrahedralize(RoundDomain(ball), size);
 }
 
-Mesh<3> mesh_of(const Cylinder& cylinder, const Size<3>& size) {
+void check(const Cylinder& cylinder) {
   require_finite("cylinder", "center", cylinder.center);
   require_positive("cylinder", "radius", cylinder.radius);
   require_positive("cylinder", "height", cylinder.height);
-  return tetrahedralize(RoundDomain(cylinder), size);
 }
 
-Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(SolidDomain(solid.file), size); }
+template <class Round>
+Mesh<3> mesh_of(const Round& round, const Size<3>& size) {
+  check(round);
+  const auto own = unit_shape(round);
+  Mesh<3> mesh = tetrahedralize(RoundDomain(own.shape), size, own.unit);
+  scale(mesh, own.unit);
+  return mesh;
+}
+
+SolidDomain domain_of(const Solid& solid) {
+  try {
+    return SolidDomain(solid.file);
+  } catch (const Error& error) {
+    throw ShapeError("solid", "file", error.what());
+  }
+}
+
+Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(domain_of(solid), size, 1); }
 
 /// Calls `work`; what CGAL finds itself unable to do, and what does not fit memory, becomes the user's error.
 template <class Work>
@@ -34,11 +50,12 @@ auto guarded(const char* what, const Work& work) {
   try {
     return work();
   } catch (const CGAL::Failure_exception& failure) {
-    input_error(what, fmt::format("failed for this geometry ({}); expected one without degenerate details, or another "
-                                  "size",
-                                  failure.expression()));
+    throw ShapeError(what, "",
+                     fmt::format("failed for this geometry ({}); expected one without degenerate details, or another "
+                                 "size",
+                                 failure.expression()));
   } catch (const std::bad_alloc&) {
-    input_error(what, "out of memory; expected a larger size");
+    throw ShapeError(what, "", "out of memory; expected a larger size");
   }
 }
 

@@ -21,7 +21,7 @@ Outline outline_of(const Disk& disk) {
   const Point<2>& c = disk.center;
   const double r = disk.radius;
   const Point<2> left{c[0] - r, c[1]}, right{c[0] + r, c[1]};
-  Outline result{shape, {}, Curve<2>{c, r, false}, 2 * r, r};
+  Outline result{shape, {}, Curve<2>{c, r, false}, 2 * r, r, {}};
   if (disk.lower_half)
     result.sides = {{left, right, true, "curved"}, {right, left, false, "flat"}};
   else
@@ -31,8 +31,9 @@ Outline outline_of(const Disk& disk) {
 
 Outline outline_of(const Polygon& polygon) {
   const auto& points = polygon.points;
-  Outline result{"polygon", {}, {}};
+  Outline result{"polygon", {}, {}, 0, infinity, {}};
   const bool clockwise = check_polygon(points);
+  result.narrowest = narrowest_place(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point<2>&a = points[i], &b = points[(i + 1) % points.size()];
     result.sides.push_back({clockwise ? b : a, clockwise ? a : b, false, fmt::format("edge{}", i)});

@@ -22,9 +22,10 @@ struct Outline {
   std::optional<Curve<2>> circle;
   double diameter = 0;
   double coarsest_size = infinity;  ///< the largest size that still resolves the shape
+  std::string narrowest;            ///< says where that is, for messages
 };
 
-/// Errors are Error(Exit::input): a radius that is not positive, less than three points, repeated points, sides that
+/// Errors are ShapeError: a radius that is not positive, less than three points, repeated points, sides that
 /// meet or cross, no area. Polygons may be given clockwise.
 Outline outline(const Shape2& shape);
 

@@ -10,10 +10,11 @@
 
 #include <algorithm>
 
+#include "core/geometry/cgal/checks.hpp"
 #include "core/geometry/cgal/outline.hpp"
+#include "core/geometry/cgal/unit_shape.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
-#include "core/mesh/validate.hpp"
 
 namespace signorini::geometry {
 
@@ -159,25 +160,45 @@ void name_sides(Mesh<2>& mesh, const Outline& outline, const std::vector<Index>&
   }
 }
 
-}  // namespace
-
-Mesh<2> triangulate(const Shape2& shape, const Size<2>& size) {
-  const Outline outline = geometry::outline(shape);
-  Sizing<2> sizing(size, outline.coarsest_size, outline.diameter, outline.shape);
-  Triangulation triangulation;
-  const auto starts = insert(triangulation, outline, sizing);
-
+// Divides sides without looking at the size, for ever in places too narrow for its arithmetic. Hence an evaluation per
+// vertex: it counts, and ends what the user interrupts.
+void refine(Triangulation& triangulation, Sizing<2>& sizing) {
   CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation, Criteria(&sizing));
   mesher.init();
   sizing.expect(expected(triangulation, sizing));
-  mesher.refine_mesh();
+  const Point<2> anywhere = plain(triangulation.finite_vertices_begin()->point());
+  try {
+    while (mesher.try_one_step_refine_mesh()) sizing(anywhere);
+  } catch (const CGAL::Failure_exception&) {
+    sizing.no_end();
+  }
+}
 
+Mesh<2> in_own_units(const Outline& outline, const Size<2>& size, double unit, const std::string& narrowest) {
+  Sizing<2> sizing(size, outline.coarsest_size, outline.diameter, unit, outline.shape, narrowest);
+  Triangulation triangulation;
+  const auto starts = insert(triangulation, outline, sizing);
+  refine(triangulation, sizing);
   Mesh<2> mesh = extract(triangulation);
   std::vector<Index> numbers;
   for (const auto vertex : starts) numbers.push_back(vertex->info());
   name_sides(mesh, outline, numbers);
-  validate(mesh, outline.shape);
+  require_valid(outline.shape, mesh);
   return mesh;
+}
+
+}  // namespace
+
+Mesh<2> triangulate(const Shape2& shape, const Size<2>& size) {
+  const std::string narrowest = outline(shape).narrowest;  // what is wrong is told in the user's units
+  return std::visit(
+      [&](const auto& s) {
+        const auto own = unit_shape(s);
+        Mesh<2> mesh = in_own_units(outline(own.shape), size, own.unit, narrowest);
+        scale(mesh, own.unit);
+        return mesh;
+      },
+      shape);
 }
 
 }  // namespace signorini::geometry

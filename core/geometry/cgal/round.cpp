@@ -101,13 +101,17 @@ std::vector<Point<3>> RoundDomain::surface_points() const {
 
 std::vector<Polyline> RoundDomain::creases() const {
   constexpr int n = 4096;  // within 3e-7 radii of the circle; vertices are moved onto it in the end
+  // The mesher searches polylines segment by segment, hence the rims of flat cylinders come in arcs.
+  const double edges = 2 * pi * curve_.radius / coarsest_size_;
+  const int arcs = static_cast<int>(std::clamp(edges / 64, 1.0, 64.0));
   std::vector<Polyline> rims;
-  for (const Plane& plane : planes_) {
-    Polyline& rim = rims.emplace_back();
-    for (int i = 0; i <= n; ++i)
-      rim.push_back({curve_.center[0] + curve_.radius * std::cos(2 * pi * (i % n) / n),
-                     curve_.center[1] + curve_.radius * std::sin(2 * pi * (i % n) / n), plane.z});
-  }
+  for (const Plane& plane : planes_)
+    for (int arc = 0; arc < arcs; ++arc) {
+      Polyline& rim = rims.emplace_back();
+      for (int i = arc * n / arcs; i <= (arc + 1) * n / arcs; ++i)
+        rim.push_back({curve_.center[0] + curve_.radius * std::cos(2 * pi * (i % n) / n),
+                       curve_.center[1] + curve_.radius * std::sin(2 * pi * (i % n) / n), plane.z});
+    }
   return rims;
 }
 

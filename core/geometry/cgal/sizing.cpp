@@ -7,8 +7,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/base/error.hpp"
-
 namespace signorini::geometry {
 
 namespace {
@@ -21,6 +19,9 @@ constexpr double most_elements = 2e8;
 template <int D>
 constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 
+// A shape thinner than any size asked for may take so many elements by itself; some ten seconds.
+constexpr double most_unasked = 2e5, most_stretch = 2;
+
 double available_bytes() {
   std::ifstream info("/proc/meminfo");
   for (std::string key; info >> key;)
@@ -31,34 +32,61 @@ double available_bytes() {
 }  // namespace
 
 template <int D>
-Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, std::string shape)
-    : size_(size), ceiling_(ceiling), floor_(1e-6 * diameter), shape_(std::move(shape)) {}
+Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, double unit, std::string shape,
+                  std::string narrowest)
+    : size_(size),
+      ceiling_(ceiling),
+      floor_(1e-6 * diameter),
+      unit_(unit),
+      shape_(std::move(shape)),
+      narrowest_(std::move(narrowest)) {}
 
 template <int D>
-double Sizing<D>::operator()(const Point<D>& p) const {
-  const double h = size_(p);
+double Sizing<D>::operator()(Point<D> p) const {
+  for (double& x : p) x *= unit_;
+  last_ = p;
+  const double h = size_(p) / unit_;
   if (!std::isfinite(h) || h <= 0)
-    input_error(shape_, fmt::format("size: found {} at [{:g}], expected a positive length", h, fmt::join(p, ", ")));
+    fail(fmt::format("found {} at [{:g}], expected a positive length", h * unit_, fmt::join(p, ", ")));
   if (h < floor_)
-    input_error(shape_, fmt::format("size: found {:g} at [{:g}], too small for this shape (the least is {:g})", h,
-                                    fmt::join(p, ", "), floor_));
-  if (++evaluations_ > limit_)
-    input_error(shape_,
-                "size: the mesh does not come to an end; expected a size that varies gradually, on a shape "
-                "without gaps and angles far below it");
+    fail(fmt::format("found {:g} at [{:g}], too small for this shape (the least is {:g})", h * unit_,
+                     fmt::join(p, ", "), floor_ * unit_));
+  if (++evaluations_ > limit_) no_end();
+  smallest_ = std::min(smallest_, h);
   return std::min(h, ceiling_);
+}
+
+template <int D>
+void Sizing<D>::fail(const std::string& complaint) const {
+  throw ShapeError(shape_, "size", complaint);
+}
+
+template <int D>
+void Sizing<D>::no_end() const {
+  fail(fmt::format(
+      "the mesh does not come to an end{}{}; expected a size that varies gradually, on a shape without gaps "
+      "and angles far below it",
+      narrowest_.empty() ? "" : ": ", narrowest_));
 }
 
 template <int D>
 void Sizing<D>::expect(double elements) {
   if (elements > most_elements)
-    input_error(shape_, fmt::format("size: too small, about {:.1g} elements; at most {:.1g} are possible", elements,
-                                    most_elements));
+    fail(fmt::format("too small, about {:.1g} elements; at most {:.1g} are possible", elements, most_elements));
   if (const double available = available_bytes(); elements * bytes_per_element > available)
-    input_error(shape_, fmt::format("size: too small, about {:.1g} elements would need {:.1f} GB of memory, {:.1f} GB "
-                                    "are available",
-                                    elements, elements * bytes_per_element / 1e9, available / 1e9));
+    fail(fmt::format("too small, about {:.1g} elements would need {:.1f} GB of memory, {:.1f} GB are available",
+                     elements, elements * bytes_per_element / 1e9, available / 1e9));
   limit_ = evaluations_ + spare_evaluations<D> + 100 * elements;
+}
+
+template <int D>
+void Sizing<D>::check_thickness(double measure) const {
+  const double elements = expected_elements<D>(measure, {ceiling_});
+  if (smallest_ <= most_stretch * ceiling_ || elements <= most_unasked) return;
+  fail(
+      fmt::format("the shape is only {0:.3g} thick, about {1:.1g} elements no larger than that would fill it, and the "
+                  "least size is {2:.3g}; expected a thicker shape, or size = {0:.3g} if so many are meant",
+                  ceiling_ * unit_, elements, smallest_ * unit_));
 }
 
 template <int D>

@@ -5,27 +5,41 @@
 
 namespace signorini::geometry {
 
-/// The user's size field made safe for a mesher: values are checked (Error(Exit::input) unless finite and positive),
+/// The user's size field made safe for a mesher: values are checked (ShapeError unless finite and positive),
 /// cut at `ceiling`, the largest size that still resolves the shape, and counted, so that a field or a shape that would
 /// never let the mesher end is an error instead.
 template <int D>
 class Sizing {
  public:
-  /// `diameter` of the shape: sizes below 1e-6 of it are errors. `shape` names it in messages.
-  Sizing(const Size<D>& size, double ceiling, double diameter, std::string shape);
+  /// @param ceiling, diameter in units of `unit`, as the points asked for and the values; sizes below 1e-6 of the
+  ///   diameter are errors
+  /// @param unit of the mesher in the user's
+  /// @param shape names it in messages, which are in the user's units
+  /// @param narrowest says where the shape is that, for messages; "" if unknown
+  Sizing(const Size<D>& size, double ceiling, double diameter, double unit, std::string shape,
+         std::string narrowest = "");
 
-  double operator()(const Point<D>& p) const;
-  const std::string& shape() const { return shape_; }
-  /// Bounds the number of evaluations from now on by the elements to be expected. Throws Error(Exit::input) when
-  /// these are too many for memory, or for a mesh of 2e8 elements.
+  double operator()(Point<D> p) const;
+  /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
+  void poll() const { size_(last_); }
+  /// Bounds the number of evaluations from now on by the elements to be expected. Throws ShapeError when these are too
+  /// many for memory, or for a mesh of 2e8 elements.
   void expect(double elements);
+  /// Throws ShapeError: too many evaluations, or a failure that has the same cause.
+  [[noreturn]] void no_end() const;
+  /// Throws ShapeError when the shape is so thin that it takes very many elements wherever the sizes asked for until
+  /// now are larger than it.
+  void check_thickness(double measure) const;
 
  private:
+  [[noreturn]] void fail(const std::string& complaint) const;
+
   const Size<D>& size_;
-  double ceiling_, floor_;
-  std::string shape_;
+  double ceiling_, floor_, unit_;
+  std::string shape_, narrowest_;
+  mutable Point<D> last_{};
   double limit_ = 1e7;
-  mutable double evaluations_ = 0;
+  mutable double evaluations_ = 0, smallest_ = infinity;
 };
 
 /// Elements to be expected in a region of the given measure (area, volume) from size values at points spread over it.

@@ -3,6 +3,8 @@
 #include "core/geometry/cgal/tetrahedra.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mesh_3/Slivers_exuder.h>
+#include <CGAL/Mesh_3/sliver_criteria.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_domain_with_polyline_features_3.h>
@@ -14,11 +16,10 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "core/base/error.hpp"
+#include "core/geometry/cgal/checks.hpp"
 #include "core/geometry/cgal/peel.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
-#include "core/mesh/validate.hpp"
 
 namespace signorini::geometry {
 
@@ -29,7 +30,7 @@ namespace {
 constexpr double edge_bound = 0.7, facet_bound = 0.65, cell_bound = 0.74;
 // Dihedral angle in degrees below which slivers are exuded; what remains is 9 degrees or better on round shapes.
 // CGAL's perturbation would add four degrees, but its result differs from run to run (5.5).
-constexpr double sliver_bound = 15;
+constexpr double least_dihedral_angle = 15;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
@@ -152,6 +153,29 @@ struct ScaledSize {
   FT operator()(const Point_3& p, int, const Index&) const { return factor * (*sizing)(plain(p)); }
 };
 
+/// CGAL's criterion for exudation, which also ends what the user interrupts.
+class Slivers : public CGAL::Mesh_3::Min_dihedral_angle_criterion<Triangulation> {
+  using Base = CGAL::Mesh_3::Min_dihedral_angle_criterion<Triangulation>;
+
+ public:
+  Slivers(const Triangulation& triangulation, const Sizing<3>* sizing)
+      : Base(least_dihedral_angle, triangulation), sizing_(sizing) {}
+  using Base::operator();
+  double operator()(const Kernel::Tetrahedron_3& tetrahedron) const override {
+    if (++calls_ % 1024 == 0) sizing_->poll();
+    return Base::operator()(tetrahedron);
+  }
+
+ private:
+  const Sizing<3>* sizing_;
+  mutable std::size_t calls_ = 0;
+};
+
+// Not by make_mesh_3, which limits its time by that of the refinement: meshes would differ from run to run.
+void exude(Complex& complex, const Sizing<3>& sizing) {
+  CGAL::Mesh_3::Slivers_exuder<Complex, Slivers>(complex, Slivers(complex.triangulation(), &sizing))();
+}
+
 Mesh<3> extract(const Complex& complex, std::vector<bool>& on_crease) {
   Mesh<3> mesh;
   std::unordered_map<Triangulation::Vertex_handle, Index, CGAL::Handle_hash_function> numbers;
@@ -187,11 +211,13 @@ std::vector<double> sampled_sizes(const Domain& domain, const Sizing<3>& sizing)
 
 }  // namespace
 
-Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
+Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size, double unit) {
   const auto [low, high] = domain.box();
-  Sizing<3> sizing(size, domain.coarsest_size(), std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]),
+  Sizing<3> sizing(size, domain.coarsest_size(), std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]), unit,
                    domain.name());
-  sizing.expect(expected_elements<3>(domain.volume(), sampled_sizes(domain, sizing)));
+  const auto sizes = sampled_sizes(domain, sizing);
+  sizing.check_thickness(domain.volume());
+  sizing.expect(expected_elements<3>(domain.volume(), sizes));
 
   CGAL::get_default_random() = CGAL::Random(0);
   MeshDomain mesh_domain(&domain);
@@ -207,16 +233,16 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
                           p::facet_size = ScaledSize{&sizing, facet_bound},
                           p::facet_distance = ScaledSize{&sizing, domain.flatness()}, p::cell_radius_edge_ratio = 2,
                           p::cell_size = ScaledSize{&sizing, cell_bound});
-  auto complex = CGAL::make_mesh_3<Complex>(mesh_domain, criteria, p::manifold(), p::no_perturb(),
-                                            p::exude(p::sliver_bound = sliver_bound));
+  auto complex = CGAL::make_mesh_3<Complex>(mesh_domain, criteria, p::manifold(), p::no_perturb(), p::no_exude());
+  exude(complex, sizing);
   std::vector<bool> on_crease;
   Mesh<3> mesh = extract(complex, on_crease);
   complex.clear();
-  if (mesh.elements.empty()) input_error(domain.name(), "size: too large to resolve the shape");
+  if (mesh.elements.empty()) throw ShapeError(domain.name(), "size", "too large to resolve the shape");
   mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
   peel_slivers(mesh);
   domain.finish(mesh, on_crease);
-  validate(mesh, domain.name());
+  require_valid(domain.name(), mesh);
   return mesh;
 }
 

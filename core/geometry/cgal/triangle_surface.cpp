@@ -10,6 +10,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -41,8 +42,8 @@ void read_soup(const std::string& file, std::vector<Kernel::Point_3>& points, Po
   if (polygons.empty()) input_error(file, "no faces; expected a triangle surface");
   for (std::size_t i = 0; i < points.size(); ++i) require_finite(file, fmt::format("vertex {}", i), plain(points[i]));
   for (std::size_t f = 0; f < polygons.size(); ++f) {
-    if (polygons[f].size() != 3)
-      input_error(file, fmt::format("face {} has {} vertices; expected triangles", f, polygons[f].size()));
+    if (polygons[f].size() < 3)
+      input_error(file, fmt::format("face {} has {} vertices; expected at least 3", f, polygons[f].size()));
     for (const std::size_t v : polygons[f])
       if (v >= points.size()) input_error(file, fmt::format("face {} names vertex {} of {}", f, v, points.size()));
   }
@@ -57,6 +58,7 @@ void read(const std::string& file, SurfaceMesh& mesh) {
   if (polygons.empty()) input_error(file, "all faces are degenerate; expected a triangle surface");
   if (!PMP::is_polygon_soup_a_polygon_mesh(polygons)) input_error(file, "the faces do not form a surface");
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  if (!PMP::triangulate_faces(mesh)) input_error(file, "a face cannot be divided into triangles; expected triangles");
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ namespace signorini::geometry {
 /// Queries are thread-safe and deterministic.
 class TriangleSurface {
  public:
-  /// Reads OFF, OBJ, STL or PLY. Equal vertices are merged, duplicate triangles dropped, and neighbours oriented alike;
-  /// a closed surface is oriented outwards. Throws Error(Exit::input) when the file cannot be read, holds other faces
-  /// than triangles, or none.
+  /// Reads OFF, OBJ, STL or PLY. Equal vertices are merged, duplicate faces dropped, faces of more than three vertices
+  /// divided into triangles, and neighbours oriented alike; a closed surface is oriented outwards. Throws
+  /// Error(Exit::input) when the file cannot be read or holds no faces.
   explicit TriangleSurface(const std::string& file);
   ~TriangleSurface();
 

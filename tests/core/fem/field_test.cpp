@@ -34,6 +34,12 @@ TEST(Field, AValueThatIsNotFiniteNamesOriginTextAndPosition) {
   }
 }
 
+TEST(Field, WhereThereIsNoNormalNoneIsUsed) {
+  const Field field([](const Site& s) { return s.n[0]; }, "nx", "here", true);
+  EXPECT_EQ(field(Site{{0, 0, 0}, {1, 0, 0}}), 1);
+  EXPECT_THROW(field(Site{{1, 0, 0}}), Error);
+}
+
 TEST(Field, ANumberThatIsNotFiniteIsAnErrorToo) { EXPECT_THROW(Field(std::nan(""))(Site{}), Error); }
 
 }  // namespace

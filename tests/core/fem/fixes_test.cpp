@@ -82,9 +82,11 @@ TEST(Fixes, ObliqueDirectionsAreSolvedFor) {
   FixedDirections<3> fixed;
   const Eigen::Vector3d u(0.3, -0.7, 0.2), a = Eigen::Vector3d(1, 2, 0).normalized(),
                                            b = Eigen::Vector3d(1, 1, 1).normalized();
-  fixed.add(a.data(), a.dot(u));
-  fixed.add(b.data(), b.dot(u));
-  fixed.add(a.data(), 17);  // already prescribed
+  fixed.add(a.data(), a.dot(u), 2);
+  fixed.add(b.data(), b.dot(u), 1);
+  const auto found = fixed.add(a.data(), 17, 0);  // already prescribed
+  EXPECT_EQ(found.fix, 2);
+  EXPECT_NEAR(found.by, std::abs(17 - a.dot(u)), 1e-12);
   ASSERT_EQ(fixed.count, 2);
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   for (int k = 0; k < 2; ++k) v += fixed.value[k] * Eigen::Map<const Eigen::Vector3d>(fixed.direction[k]);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "geometry_checks.hpp"
 
 namespace signorini {
@@ -137,7 +139,20 @@ TEST(PlanarErrors, NameWhatIsWrongWithTheSize) {
     EXPECT_THAT(complaint(Disk{{0, 0}, 1}, h), AllOf(HasSubstr("size"), HasSubstr("positive")));
   EXPECT_THAT(complaint(Disk{{0, 0}, 1}, 1e-5), HasSubstr("elements"));
   EXPECT_THAT(complaint(Disk{{0, 0}, 1}, 1e-9), HasSubstr("too small for this shape"));
-  EXPECT_THAT(complaint(Polygon{{{0, 0}, {1, 0}, {1, 1e-9}, {0, 1e-9}}}), HasSubstr("come to an end"));
+}
+
+TEST(PlanarErrors, NameTheNarrowestPlaceOfAPolygonWithoutAMesh) {
+  for (const double width : {1e-7, 1e-9}) {
+    const std::string place = fmt::format(" is {:.3g} away from edge", 20 * width);
+    for (const Polygon& narrow :
+         {Polygon{{{0, 0}, {20, 0}, {20, 20 * width}}}, Polygon{{{0, 0}, {20, 0}, {20, 20 * width}, {0, 20 * width}}}})
+      EXPECT_THAT(complaint(narrow, 6),
+                  AllOf(HasSubstr("polygon: size: "), HasSubstr("come to an end: points["), HasSubstr(place)));
+  }
+}
+
+TEST(Planar, ShortSidesAreNoNarrowPlaces) {
+  test::expect_consistent(mesh(Polygon{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {-1e-7, 1 - 1e-7}}}, 0.3));
 }
 
 TEST(PlanarErrors, OfTheSizeComeThrough) {

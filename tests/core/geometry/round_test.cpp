@@ -134,6 +134,12 @@ TEST(RoundErrors, NameWhatIsWrongWithTheSize) {
   EXPECT_THAT(complaint(Ball{{0, 0, 0}, 1}, 1e-7), HasSubstr("too small for this shape"));
 }
 
+TEST(RoundErrors, TellOfAShapeTooThinForItsSize) {
+  EXPECT_THAT(complaint(Cylinder{{0, 0, 0}, 100, 0.1}, 50),
+              AllOf(HasSubstr("cylinder: size: "), HasSubstr("only 0.1 thick"), HasSubstr("3e+07 elements"),
+                    HasSubstr("least size is 50")));
+}
+
 TEST(RoundErrors, OfTheSizeComeThrough) {
   for (const auto& shape : shapes) {
     const auto size = [](const Point<3>& p) -> double {

@@ -42,6 +42,15 @@ TEST(Solid, FormatsAndOrientationsAgree) {
   }
 }
 
+TEST(Solid, FacesOfMoreThanThreeVerticesAreDivided) {
+  const char* quads =
+      "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+      "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  const Mesh<3> m = mesh(TemporaryFile("quads.off", quads), 0.4);
+  test::expect_consistent(m);
+  EXPECT_NEAR(test::volume(m), 1, 1e-12);
+}
+
 TEST(Solid, AHollowCubeIsMeshedAroundItsHole) {
   Surface hollow = cube(0, 3);
   hollow.add(cube(1, 2));
@@ -86,8 +95,8 @@ TEST(SolidErrors, NameWhatIsWrongWithTheFile) {
   EXPECT_THAT(complaint(TemporaryFile("text.off", "no surface")), HasSubstr("expected OFF, OBJ, STL or PLY"));
   EXPECT_THAT(complaint(TemporaryFile("cube.xyz", cube(0, 1).off())), HasSubstr("expected OFF, OBJ, STL or PLY"));
   EXPECT_THAT(complaint(TemporaryFile("empty.off", "OFF\n0 0 0\n")), HasSubstr("expected"));
-  EXPECT_THAT(complaint(TemporaryFile("quad.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n")),
-              HasSubstr("face 0 has 4 vertices"));
+  EXPECT_THAT(complaint(TemporaryFile("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n2 0 1\n")),
+              HasSubstr("face 0 has 2 vertices"));
   EXPECT_THAT(complaint(TemporaryFile("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), HasSubstr("expected"));
 }
 

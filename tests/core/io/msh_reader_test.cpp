@@ -220,7 +220,8 @@ TEST(MshErrors, NameTheTypeOfElementsThatAreNotRead) {
 }
 
 TEST(MshErrors, TellSurfacesInSpaceFromPlaneOnes) {
-  EXPECT_THAT(complaint(with(gmsh_41, "0.5 0.5 0", "0.5 0.5 1")), HasSubstr("z from 0 to 1"));
+  EXPECT_THAT(complaint(with(gmsh_41, "0.5 0.5 0", "0.5 0.5 1")),
+              HasSubstr("surface in space, its triangles with z from 0 to 1"));
 }
 
 TEST(MshErrors, WrongMarkerOfTheByteOrder) {

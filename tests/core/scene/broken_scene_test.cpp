@@ -149,6 +149,10 @@ const std::vector<Broken> broken = {
     {ball, "[solver]", "[output]\nvtu = \"no\"\n[solver]", {"scene.toml:32: output.vtu", "true or false", "'no'"}},
     {ball, "[solver]", "[output]\nvtk = true\n[solver]", {"scene.toml:32: output.vtk", "did you mean 'vtu'?"}},
     {ball, "[solver]", "[plugins]\npath = [1]\n[solver]", {"scene.toml:32: plugins.path[0]", "expected a text"}},
+    {ball,
+     "[solver]",
+     "[plugins]\npath = 'none'\n[solver]",
+     {"scene.toml:32: plugins.path: there is no folder './none'"}},
     // probes
     {ball, "at   = [0, 0, -1]", "at = [0, 0]", {"scene.toml:40: probe.0.at", "expected 3 coordinates, found 2"}},
     {ball, "body = \"ball\"\nat", "body = \"balls\"\nat", {"scene.toml:39: probe.0.body", "did you mean 'ball'?"}},
@@ -188,9 +192,6 @@ struct Later {
 
 const std::vector<Later> later = {{ball, "body.0.order=2"},
                                   {ball, "body.0.plane=axisymmetric"},
-                                  {ball, "obstacle.0.type=coulomb"},
-                                  {ball, "obstacle.0.type=elastic"},
-                                  {ball, "obstacle.0.type=elastic_coulomb"},
                                   {ball, "obstacle.0.friction=0"},
                                   {ball, "obstacle.0.other=ball"},
                                   {ball, "obstacle.0.other_on=boundary"},

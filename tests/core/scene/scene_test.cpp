@@ -108,7 +108,7 @@ start = "zero"
 [steps]
 count = 4
 [plugins]
-path = ["a", "/b"]
+path = ["..", "/"]
 [output]
 vtu = false
 pictures = false
@@ -126,7 +126,7 @@ convergence = false
   EXPECT_EQ(scene.solver.rotate, "not_coarsest");
   EXPECT_EQ(scene.solver.start, "zero");
   EXPECT_EQ(scene.steps.count, 4);
-  EXPECT_THAT(scene.plugin_path, ElementsAre("./a", "/b"));
+  EXPECT_THAT(scene.plugin_path, ElementsAre("./..", "/"));
   EXPECT_FALSE(scene.output.vtu || scene.output.pictures || scene.output.convergence);
 }
 

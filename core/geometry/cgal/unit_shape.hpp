@@ -4,10 +4,9 @@
 
 #include "core/geometry/geometry.hpp"
 
-namespace signorini {
+namespace signorini::geometry {
 
-/// A shape in units of its own extent, so that its mesh does not depend on the user's units. A solid keeps those of its
-/// file.
+/// A shape in units of its own extent, so that its mesh does not depend on the user's units.
 template <class Shape>
 struct UnitShape {
   double unit;
@@ -24,7 +23,7 @@ UnitShape<Shape> unit_shape(Shape shape) {
   return {unit, shape};
 }
 
-inline UnitShape<geometry::Polygon> unit_shape(geometry::Polygon polygon) {
+inline UnitShape<Polygon> unit_shape(Polygon polygon) {
   double unit = 0;
   for (const auto& p : polygon.points)
     for (int i = 0; i < 2; ++i) unit = std::max(unit, std::abs(p[i] - polygon.points.front()[i]));
@@ -33,8 +32,6 @@ inline UnitShape<geometry::Polygon> unit_shape(geometry::Polygon polygon) {
     for (double& x : p) x /= unit;
   return {unit, std::move(polygon)};
 }
-
-inline UnitShape<geometry::Solid> unit_shape(geometry::Solid solid) { return {1, std::move(solid)}; }
 
 template <int D>
 void scale(Mesh<D>& mesh, double unit) {
@@ -46,4 +43,4 @@ void scale(Mesh<D>& mesh, double unit) {
   }
 }
 
-}  // namespace signorini
+}  // namespace signorini::geometry
