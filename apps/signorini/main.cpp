@@ -14,7 +14,8 @@ constexpr const char* footer = R"(Exit status:
   0    solved to the tolerance
   1    wrong usage
   2    bad input (file, scene, matrix); nothing is written but the message
-  3    the iteration limit was reached; results are written, marked "converged": false
+  3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
+       held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C); nothing is written)";
