@@ -20,6 +20,7 @@ struct Level {
   Frames<B> frames;
   Constraints<B> constraints;
   std::vector<Segment<B>> segments;
+  double inherited_rounding = 0;  ///< rounding_of_work() of the next finer level
 
   std::vector<Flags> off;            ///< per vector: components prescribed, or without any fine function left
   std::vector<Flags> removed;        ///< per vector: off or truncated; such components do not interpolate

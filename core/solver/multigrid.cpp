@@ -2,6 +2,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/sdk/box_obstacle.hpp"
+#include "core/solver/rounding.hpp"
 
 namespace signorini {
 
@@ -96,6 +97,7 @@ void MonotoneMultigrid<B>::correct(std::size_t k) {
   residual<B>(*fine.A, fine.x, fine.b, fine.r.data());
   transfer.restrict_residual(fine, coarse);
   transfer.restrict_bounds(fine, coarse);
+  coarse.inherited_rounding = rounding_of_work(fine);
   const int visits = k == 1 ? 1 : settings_.gamma;
   for (int visit = 0; visit < visits; ++visit) descend(k - 1);
   transfer.prolongate(coarse, fine);
