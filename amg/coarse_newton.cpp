@@ -5,6 +5,7 @@
 
 #include "amg/masked_cg.hpp"
 #include "core/algebra/products.hpp"
+#include "core/solver/rounding.hpp"
 
 namespace signorini {
 
@@ -12,10 +13,12 @@ namespace {
 
 constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
-constexpr int worn_out = 6;        // iterations above which a new factorisation pays
-constexpr double enough = 1e-3;    // energy decrease of a step, relative to all so far, that ends the loop
-constexpr double rounding = 1e-6;  // components of a direction without energy that are zero but for rounding
-constexpr int max_sweeps = 60;     // of Gauss-Seidel alone
+constexpr int max_motions = 20;     // without energy that are held one by one
+constexpr double no_pivot = 1e-11;  // where the diagonal is 1
+constexpr int worn_out = 6;         // iterations above which a new factorisation pays
+constexpr double enough = 1e-3;     // energy decrease of a step, relative to all so far, that ends the loop
+constexpr double rounding = 1e-6;   // components of a direction without energy that are zero but for rounding
+constexpr int max_sweeps = 60;      // of Gauss-Seidel alone
 template <int B>
 constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
 
@@ -104,7 +107,6 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
   mask_contact<B>(level, mask_);
   r_.resize(static_cast<std::size_t>(level.vectors) * B);
   residual<B>(*level.A, level.x, level.b, r_.data());
-  force_ = std::max(force_, force_norm<B>(*level.A, r_));
   apply_mask<B>(mask_, r_);
   const bool direct = level.vectors <= max_direct<B>;
   if (direct && worn_) factorise(level, mask_);
@@ -112,8 +114,8 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
     precondition(level, r, z);
     apply_mask<B>(mask_, z);
   };
-  const CgResult cg =
-      masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations, force_, r_, d_);
+  const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations,
+                                   rounding_of_work(level), r_, d_);
   worn_ = cg.iterations > worn_out;
   return move(level, cg.singular);
 }
@@ -151,29 +153,39 @@ void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>&
   for (Index p = 0; p < A.size(); ++p)
     for (int k = 0; k < B; ++k)
       if (!(mask[p] >> k & 1u)) scale_[p * B + k] = 1 / std::sqrt(A.diagonal(p)[k * B + k]);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(A.value.size() / 2 + static_cast<std::size_t>(n));
+  for (Index p = 0; p < A.size(); ++p)
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) {
+          const Index row = p * B + i, column = A.column[k] * B + j;
+          if (row < column) continue;
+          const double value = A.at(k)[i * B + j] * scale_[row] * scale_[column];
+          entries.emplace_back(row, column, row == column ? 1 : value);
+        }
   Eigen::SparseMatrix<double> S(n, n);
-  const auto fill = [&](double regularisation) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(A.value.size() / 2 + static_cast<std::size_t>(n));
-    for (Index p = 0; p < A.size(); ++p)
-      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-        for (int i = 0; i < B; ++i)
-          for (int j = 0; j < B; ++j) {
-            const Index row = p * B + i, column = A.column[k] * B + j;
-            if (row < column) continue;
-            const bool diagonal = row == column;
-            const double value = A.at(k)[i * B + j] * scale_[row] * scale_[column];
-            entries.emplace_back(row, column, diagonal ? 1 + regularisation : value);
-          }
-    S.setFromTriplets(entries.begin(), entries.end());
-  };
-  fill(0);
-  factor_.compute(S);
-  if (factor_.info() != Eigen::Success || factor_.vectorD().minCoeff() < 1e-11) {
-    fill(1e-9);
-    factor_.compute(S);
-  }
+  S.setFromTriplets(entries.begin(), entries.end());
+  factorise(S);
   factorised_ = true;
+}
+
+// Where a pivot vanishes there is a motion without energy, and a spring holds its component. That leaves the solutions
+// of consistent systems as they are, and does not magnify what rounding does along the motion.
+template <int B>
+void CoarseNewton<B>::factorise(Eigen::SparseMatrix<double>& S) {
+  factor_.setShift(0);
+  factor_.analyzePattern(S);
+  for (int motions = 0; motions < max_motions; ++motions) {
+    factor_.factorize(S);
+    const auto& pivots = factor_.vectorD();
+    const auto vanishing = std::find_if(pivots.begin(), pivots.end(), [](double d) { return !(d > no_pivot); });
+    if (vanishing == pivots.end()) return;
+    const auto component = factor_.permutationPinv().indices()[vanishing - pivots.begin()];
+    S.coeffRef(component, component) += 1;
+  }
+  factor_.setShift(1e-9);
+  factor_.factorize(S);
 }
 
 template <int B>

@@ -18,13 +18,13 @@ class CoarseNewton final : public CoarseSolver<B> {
  private:
   bool newton_step(const Level<B>& level);
   void factorise(const Level<B>& level, const std::vector<Flags>& mask);
+  void factorise(Eigen::SparseMatrix<double>& S);
   void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
   bool move(const Level<B>& level, bool singular);
 
   std::vector<Flags> mask_;
   std::vector<double> r_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  double force_ = 0;  // the largest residual so far: the scale of the problem's forces
   bool factorised_ = false;
   bool worn_ = true;
 };

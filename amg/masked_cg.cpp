@@ -27,21 +27,18 @@ double diagonal_energy(const BlockMatrix<B>& A, const std::vector<double>& p) {
   return sum;
 }
 
-constexpr double without_energy = 1e-14;  // p'Ap below this part of p'Dp is rounding
-constexpr double falling = 1e-9;          // part of all forces along a direction above which it is no rounding
+// Parts of p'Dp. p'Ap below the first is rounding. Below the second p is smooth: rounding adds up along all of it, and
+// would be answered by large steps.
+constexpr double without_energy = 1e-13;
+constexpr double little_energy = 1e-5;
+
+double largest(const std::vector<double>& v) {
+  double size = 0;
+  for (const double value : v) size = std::max(size, std::abs(value));
+  return size;
+}
 
 }  // namespace
-
-template <int B>
-double force_norm(const BlockMatrix<B>& A, const std::vector<double>& r) {
-  double sum = 0;
-  for (Index q = 0; q < A.size(); ++q)
-    for (int k = 0; k < B; ++k) {
-      const double value = r[Offset{q} * B + k];
-      sum += value * value / A.diagonal(q)[k * B + k];
-    }
-  return std::sqrt(sum);
-}
 
 template <int B>
 void apply_mask(const std::vector<Flags>& mask, std::vector<double>& v) {
@@ -68,7 +65,7 @@ void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& m
 
 template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
-                   double reduction, int limit, double force, std::vector<double>& r, std::vector<double>& d) {
+                   double reduction, int limit, double rounding, std::vector<double>& r, std::vector<double>& d) {
   CgResult result;
   d.assign(r.size(), 0.0);
   std::vector<double> z(r.size()), p(r.size()), Ap(r.size());
@@ -82,9 +79,10 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
     const double pDp = diagonal_energy<B>(A, p);
+    if (!(pAp > little_energy * pDp) && !(rz > rounding * largest(p))) return result;
     if (!(pAp > without_energy * pDp)) {
-      result.singular = dot(r, p) > falling * std::sqrt(pDp) * force;
-      if (result.singular) d = p;
+      result.singular = true;
+      d = p;
       return result;
     }
     const double alpha = rz / pAp;
@@ -100,11 +98,8 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
   return result;
 }
 
-template double force_norm(const BlockMatrix<1>&, const std::vector<double>&);
 template void apply_mask<1>(const std::vector<Flags>&, std::vector<double>&);
-template double force_norm(const BlockMatrix<2>&, const std::vector<double>&);
 template void apply_mask<2>(const std::vector<Flags>&, std::vector<double>&);
-template double force_norm(const BlockMatrix<3>&, const std::vector<double>&);
 template void apply_mask<3>(const std::vector<Flags>&, std::vector<double>&);
 template void symmetric_gauss_seidel(const BlockMatrix<1>&, const std::vector<Flags>&, const std::vector<double>&,
                                      std::vector<double>&);

@@ -18,16 +18,11 @@ using Precondition = std::function<void(const std::vector<double>& r, std::vecto
 /// Conjugate gradients for A d = r on the components whose bit is not set in `mask` (per vector), from d = 0. Stops at
 /// `reduction` of the preconditioned residual. A may be semidefinite.
 /// @param r on entry the right-hand side, zero on masked components; overwritten
-/// @param force the scale of forces of the whole problem, in the norm (r'D^-1 r)^(1/2) of D = diag(A): what is far
-/// smaller
-///   is rounding, and does not make a direction without energy one without minimum
+/// @param rounding work along a direction with entries up to one that may be rounding, and does not make a direction
+///   without energy one without minimum
 template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
-                   double reduction, int limit, double force, std::vector<double>& r, std::vector<double>& d);
-
-/// (r'D^-1 r)^(1/2) with the diagonal D of A.
-template <int B>
-double force_norm(const BlockMatrix<B>& A, const std::vector<double>& r);
+                   double reduction, int limit, double rounding, std::vector<double>& r, std::vector<double>& d);
 
 /// z = M^-1 r with M symmetric Gauss-Seidel on the unmasked components.
 template <int B>

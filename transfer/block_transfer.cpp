@@ -48,9 +48,7 @@ void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>
       coarse.off[q] = fine.off[p];
     } else if (rotate) {
       coarse.off[q] = fine.off[p];
-      if (coarse.frames.slot.empty()) coarse.frames.slot.assign(coarse.off.size(), -1);
-      coarse.frames.slot[q] = static_cast<Index>(coarse.frames.basis.size()) / (B * B);
-      coarse.frames.basis.insert(coarse.frames.basis.end(), Q, Q + B * B);
+      coarse.frames.add(coarse.off.size(), q, Q, fine.frames.dual_at(p));
     }
   }
 }
@@ -85,7 +83,7 @@ void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Inde
     if (modifier::is_plain<B>(fine, p)) {
       for (int i = 0; i < B; ++i) global[i] = r[i];
     } else {
-      modifier::to_global<B>(fine, p, fine.removed[p], r, global);
+      modifier::force_to_global<B>(fine, p, r, global);
     }
     for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) {
       double* b = coarse.own_b.data() + Offset{P_->column[k]} * B;
@@ -101,7 +99,7 @@ void BlockTransfer<B>::end_restriction(Level<B>& coarse) const {
     if (!Q && !coarse.off[q]) continue;
     double* b = coarse.own_b.data() + Offset{q} * B;
     double local[B];
-    modifier::to_local<B>(coarse, q, coarse.off[q], b, local);
+    modifier::force_to_local<B>(coarse, q, b, local);
     std::copy(local, local + B, b);
   }
 }
@@ -112,7 +110,7 @@ void BlockTransfer<B>::begin_prolongation(const Level<B>& coarse) const {
   for (Index q = 0; q < coarse.vectors; ++q)
     if (coarse.frames.at(q)) {
       double global[B];
-      modifier::to_global<B>(coarse, q, 0, coarse.x + Offset{q} * B, global);
+      block::product<B>(coarse.frames.at(q), coarse.x + Offset{q} * B, global);
       std::copy(global, global + B, coarse.x + Offset{q} * B);
     }
 }
@@ -128,7 +126,7 @@ void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine, 
       for (int i = 0; i < B; ++i) x[i] += global[i];
     } else {
       double local[B];
-      modifier::to_local<B>(fine, p, fine.removed[p], global, local);
+      modifier::value_to_local<B>(fine, p, global, local);
       for (int i = 0; i < B; ++i) x[i] += local[i];
     }
   }

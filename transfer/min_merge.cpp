@@ -13,11 +13,11 @@ constexpr double negligible = 1e-14;
 // d(fine direction) / d(coarse component j), for weight one
 template <int B>
 void coupling(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, Index q, double* M) {
-  const double *Qp = fine.frames.at(p), *Qq = coarse.frames.at(q);
+  const double *Np = fine.frames.dual_at(p), *Qq = coarse.frames.at(q);
   for (int j = 0; j < B; ++j) {
     M[j] = 0;
     for (int i = 0; i < B; ++i)
-      M[j] += (Qp ? Qp[i * B + direction] : double(i == direction)) * (Qq ? Qq[i * B + j] : double(i == j));
+      M[j] += (Np ? Np[i * B + direction] : double(i == direction)) * (Qq ? Qq[i * B + j] : double(i == j));
     if ((coarse.off[q] >> j & 1u) || std::fabs(M[j]) <= negligible) M[j] = 0;
   }
 }

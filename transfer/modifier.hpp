@@ -17,48 +17,58 @@ inline void drop(Flags components, double* x) {
     if (components >> k & 1u) x[k] = 0;
 }
 
-/// global = Q D local, D dropping components
+/// local = D N' global: what an interpolated value does to the components that take part
 template <int B>
-inline void to_global(const Level<B>& level, Index p, Flags dropped, const double* local, double* global) {
+inline void value_to_local(const Level<B>& level, Index p, const double* global, double* local) {
+  if (const double* N = level.frames.dual_at(p))
+    block::transposed_product<B>(N, global, local);
+  else
+    for (int k = 0; k < B; ++k) local[k] = global[k];
+  drop<B>(level.removed[p], local);
+}
+
+/// global = N D local, the transposed of value_to_local
+template <int B>
+inline void force_to_global(const Level<B>& level, Index p, const double* local, double* global) {
   double kept[B];
   for (int k = 0; k < B; ++k) kept[k] = local[k];
-  drop<B>(dropped, kept);
-  if (const double* Q = level.frames.at(p))
-    block::product<B>(Q, kept, global);
+  drop<B>(level.removed[p], kept);
+  if (const double* N = level.frames.dual_at(p))
+    block::product<B>(N, kept, global);
   else
     for (int k = 0; k < B; ++k) global[k] = kept[k];
 }
 
-/// local = D Q' global
+/// local = D Q' global, D dropping the components that are off
 template <int B>
-inline void to_local(const Level<B>& level, Index p, Flags dropped, const double* global, double* local) {
-  if (const double* Q = level.frames.at(p))
+inline void force_to_local(const Level<B>& level, Index q, const double* global, double* local) {
+  if (const double* Q = level.frames.at(q))
     block::transposed_product<B>(Q, global, local);
   else
     for (int k = 0; k < B; ++k) local[k] = global[k];
-  drop<B>(dropped, local);
+  drop<B>(level.off[q], local);
 }
 
-/// M = Q_p D_p A D_r Q_r' for the matrix block A between p and r in local coordinates
+/// M = N_p D_p A D_r N_r' for the matrix block A between p and r in local coordinates
 template <int B>
 inline void block_to_global(const Level<B>& level, Index p, Index r, const double* A, double* M) {
   double T[B * B];
   for (int i = 0; i < B; ++i)
     for (int j = 0; j < B; ++j)
       T[i * B + j] = (level.removed[p] >> i & 1u) || (level.removed[r] >> j & 1u) ? 0 : A[i * B + j];
-  const double *Qp = level.frames.at(p), *Qr = level.frames.at(r);
+  const double *Np = level.frames.dual_at(p), *Nr = level.frames.dual_at(r);
   double S[B * B];
-  if (Qp)
-    block::multiply<B>(Qp, T, S);
+  if (Np)
+    block::multiply<B>(Np, T, S);
   else
     for (int i = 0; i < B * B; ++i) S[i] = T[i];
-  if (Qr)
-    block::multiply_transposed<B>(S, Qr, M);
+  if (Nr)
+    block::multiply_transposed<B>(S, Nr, M);
   else
     for (int i = 0; i < B * B; ++i) M[i] = S[i];
 }
 
-/// M = D_p Q_p' M Q_r D_r, the way back
+/// M = D_p Q_p' M Q_r D_r for a block M between p and r in global coordinates
 template <int B>
 inline void block_to_local(const Level<B>& level, Index p, Index r, Flags dropped_p, Flags dropped_r, double* M) {
   double S[B * B];

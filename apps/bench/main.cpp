@@ -7,6 +7,7 @@
 #include "apps/bench/linear.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/traffic.hpp"
+#include "core/base/heap.hpp"
 #include "core/fem/nested.hpp"
 
 namespace signorini::bench {
@@ -159,6 +160,7 @@ void run(bool quick) {
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
+  signorini::keep_freed_memory();
   try {
     signorini::bench::run(quick);
   } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/interrupt.hpp"
+#include "core/base/heap.hpp"
 #include "core/base/version.hpp"
 
 namespace signorini {
@@ -16,7 +17,8 @@ constexpr const char* footer = R"(Exit status:
   0    solved to the tolerance
   1    wrong usage
   2    bad input (file, scene, matrix); nothing is written but the message
-  3    the iteration limit was reached; results are written, marked "converged": false
+  3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
+       held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C); nothing is written)";
@@ -117,6 +119,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace signorini;
   catch_interrupts();
+  keep_freed_memory();
   try {
     return run(argc, argv);
   } catch (const Error& error) {

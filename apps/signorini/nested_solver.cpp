@@ -18,6 +18,15 @@ SolverOptions loose(SolverOptions options) {
   options.max_iterations = std::min(options.max_iterations, 5);
   return options;
 }
+
+/// Obstacles that could not be made part of the problem may be what holds the body.
+template <int B>
+[[noreturn]] void throw_unbounded(const Solution<B>& solution) {
+  if (solution.discretization.dropped.empty()) throw Error(Exit::no_solution, solution.summary.reason);
+  throw Error(Exit::input, solution.summary.reason +
+                               " but perhaps obstacles that meet others in dependent or nearly parallel directions at "
+                               "one vertex; such obstacles are not available in this version");
+}
 }  // namespace
 
 template <int D, int B>
@@ -55,7 +64,7 @@ void NestedSolver<D, B>::solve_level(std::size_t level, Solution<B>& solution) {
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
-  if (solution.summary.outcome == Outcome::unbounded) throw Error(Exit::no_solution, solution.summary.reason);
+  if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(solution);
 }
 
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the

@@ -50,28 +50,25 @@ StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Resul
 }
 
 template <int D, int B>
-std::vector<std::string> violated_contacts(const Mesh<D>& mesh, const Model<B>& model,
-                                           const Discretization<B>& discretization, const std::vector<double>& u) {
-  struct Worst {
-    double by = 0;
-    Index vertex = -1, count = 0;
-  };
-  std::vector<Worst> worst(model.obstacles.size());
-  double size = 0;
+Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution, const std::vector<double>& u,
+              double tolerance) {
+  Summary summary = solution.summary;
+  double size = 0, most = 0;
   for (const double value : u) size = std::max(size, std::abs(value));
-  for (const Bound<B>& bound : discretization.dropped) {
+  const Bound<B>* worst = nullptr;
+  Index count = 0;
+  for (const Bound<B>& bound : solution.discretization.dropped) {
     const double by = violation(bound, u);
-    Worst& entry = worst[bound.obstacle];
-    if (by > 1e-8 * size) ++entry.count;
-    if (by > std::max(entry.by, 1e-8 * size)) entry = {by, bound.vertex, entry.count};
+    count += by > tolerance * size;
+    if (by > std::max(most, tolerance * size)) most = by, worst = &bound;
   }
-  std::vector<std::string> warnings;
-  for (std::size_t k = 0; k < worst.size(); ++k)
-    if (worst[k].count > 0)
-      warnings.push_back(fmt::format(
-          "{}: this obstacle is violated at {} vertices where another one is nearer, most by {:.3g} at ({})",
-          model.obstacles[k].origin, worst[k].count, worst[k].by, fmt::join(mesh.points[worst[k].vertex], ", ")));
-  return warnings;
+  if (!worst || !summary.converged()) return summary;
+  summary.outcome = Outcome::violated;
+  summary.reason = fmt::format(
+      "{}: this obstacle is violated by {:.3g} at ({}), the worst of {} vertices where obstacles meet in dependent or "
+      "nearly parallel directions, so that only the nearest count; such obstacles are not available in this version",
+      model.obstacles[worst->obstacle].origin, most, fmt::join(mesh.points[worst->vertex], ", "), count);
+  return summary;
 }
 
 template <int D>
@@ -96,11 +93,10 @@ std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, c
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                        \
-  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                                 \
-  template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&);     \
-  template std::vector<std::string> violated_contacts<D, B>(const Mesh<D>&, const Model<B>&, const Discretization<B>&, \
-                                                            const std::vector<double>&);                               \
+#define SIGNORINI_RESULTS(D, B)                                                                                    \
+  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
+  template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&); \
+  template Summary judge(const Mesh<D>&, const Model<B>&, const Solution<B>&, const std::vector<double>&, double); \
   template std::vector<std::string> fix_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

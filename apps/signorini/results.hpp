@@ -36,10 +36,12 @@ template <int D, int B>
 StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
                        const Summary& summary);
 
-/// Contacts that were left out of the problem and do not hold in its solution, one sentence per obstacle.
+/// The summary of a solve. Where contacts that could not be made part of the problem are violated in its solution by
+/// more than `tolerance` times the largest displacement, it has not converged and says which.
+/// @param u the solution in global coordinates
 template <int D, int B>
-std::vector<std::string> violated_contacts(const Mesh<D>& mesh, const Model<B>& model,
-                                           const Discretization<B>& discretization, const std::vector<double>& u);
+Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution, const std::vector<double>& u,
+              double tolerance);
 
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
 template <int D>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/algebra/local_coordinates.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
 #include "core/fem/element.hpp"
@@ -13,6 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr double same_direction = 1e-6;  // sine of the angle below which two directions are one
+constexpr double independent = 0.02;     // separation() from which local coordinates are well conditioned
 constexpr Index batch = 4096;            // vertices per call of a plugin
 
 template <int D>
@@ -177,7 +179,6 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
 template <int D, int B>
 bool BoundCombiner<D, B>::merge(const Reduced& bound) {
   const Index obstacle = bound.from->obstacle;
-  CombinedBound<B> candidate{bound.direction, bound.lower, bound.upper, obstacle, obstacle};
   if (!combined_.empty()) {
     const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
     if (obstacle != combined_[0].lower_obstacle && !type(obstacle).same_type(type(combined_[0].lower_obstacle)))
@@ -191,12 +192,20 @@ bool BoundCombiner<D, B>::merge(const Reduced& bound) {
       if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle;
       return true;
     }
-    if (std::fabs(cosine) > same_direction) return false;
-    for (int i = 0; i < B; ++i) candidate.direction[i] -= cosine * other.direction[i];
   }
-  normalise(candidate.direction);
-  combined_.push_back(candidate);
+  if (!independent_of_combined(bound)) return false;
+  combined_.push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle});
   return true;
+}
+
+template <int D, int B>
+bool BoundCombiner<D, B>::independent_of_combined(const Reduced& bound) const {
+  const std::size_t count = combined_.size();
+  if (count == B) return false;
+  double directions[B * B];
+  for (std::size_t k = 0; k < count; ++k) std::copy_n(combined_[k].direction.begin(), B, directions + k * B);
+  std::copy_n(bound.direction.begin(), B, directions + count * B);
+  return separation<B>(directions, static_cast<int>(count) + 1) >= independent;
 }
 
 template <int D, int B>

@@ -34,9 +34,10 @@ class BoundCombiner {
 
   /// Combines the bounds first <= bound < last of one vertex; `fixed` may be null. Each bound is reduced to the part of
   /// its direction that is not prescribed. The reduced bound nearest to the vertex decides the type of obstacle. Bounds
-  /// of this type along one direction are intersected, orthogonal ones are kept beside each other; all others are
-  /// appended to `dropped`. Returns orthonormal directions, nearest first, in storage that the next call overwrites.
-  /// Error(Exit::no_solution): bounds that are violated whatever the free components are.
+  /// of this type along one direction are intersected, independent ones are kept beside each other, nearest first; all
+  /// others are appended to `dropped`: those of another type, and those whose direction depends on nearer ones, up to
+  /// 0.02 of its length: rounding grows by that number's inverse squared. Returns unit vectors in storage that the next
+  /// call overwrites. Error(Exit::no_solution): bounds that are violated whatever the free components are.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
                                                const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped);
 
@@ -50,6 +51,7 @@ class BoundCombiner {
 
   void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed);
   bool merge(const Reduced& bound);
+  bool independent_of_combined(const Reduced& bound) const;
   void check_order(CombinedBound<B>& bound, Index vertex);
   double rounding(Index obstacle);
   [[noreturn]] void no_solution(Index obstacle, Index vertex, const std::string& why) const;

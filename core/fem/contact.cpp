@@ -67,8 +67,8 @@ class NodeReader {
   }
 
   void add_force(Index p, int k, double r, std::array<double, B>& force) const {
-    const double* Q = problem_.frames.at(p);
-    for (int i = 0; i < B; ++i) force[i] += Q ? Q[i * B + k] * r : (i == k ? r : 0);
+    const double* N = problem_.frames.dual_at(p);
+    for (int i = 0; i < B; ++i) force[i] += N ? N[i * B + k] * r : (i == k ? r : 0);
   }
 
   const DiscreteProblem<B>& problem_;

@@ -82,17 +82,13 @@ class Discretizer {
   }
 
   void add_frame(Index p, const std::vector<CombinedBound<B>>& combined, const FixedDirections<B>* fixed) {
-    double leading[B * B], Q[B * B];
+    double leading[B * B], Q[B * B], N[B * B];
     for (std::size_t k = 0; k < combined.size(); ++k) std::copy_n(combined[k].direction.begin(), B, leading + k * B);
     local_basis<B>(leading, static_cast<int>(combined.size()), fixed ? fixed->direction[0] : nullptr,
-                   fixed ? fixed->count : 0, Q);
+                   fixed ? fixed->count : 0, Q, N);
     bool identity = true;
-    for (int i = 0; i < B * B; ++i) identity = identity && Q[i] == (i % (B + 1) == 0 ? 1 : 0);
-    if (identity) return;
-    Frames<B>& frames = problem().frames;
-    if (frames.slot.empty()) frames.slot.assign(problem().fixed.size(), -1);
-    frames.slot[p] = static_cast<Index>(frames.basis.size() / (B * B));
-    frames.basis.insert(frames.basis.end(), Q, Q + B * B);
+    for (int i = 0; i < B * B; ++i) identity = identity && N[i] == (i % (B + 1) == 0 ? 1 : 0);
+    if (!identity) problem().frames.add(problem().fixed.size(), p, Q, N);
   }
 
   void add_constraint(Index p, const std::vector<CombinedBound<B>>& combined) {
@@ -158,9 +154,9 @@ std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<dou
 template <int B>
 std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u) {
   for (Index p = 0; p < static_cast<Index>(problem.frames.slot.size()); ++p)
-    if (const double* Q = problem.frames.at(p)) {
+    if (const double* N = problem.frames.dual_at(p)) {
       double v[B];
-      block::transposed_product<B>(Q, u.data() + Offset{p} * B, v);
+      block::transposed_product<B>(N, u.data() + Offset{p} * B, v);
       std::copy_n(v, B, u.data() + Offset{p} * B);
     }
   return u;

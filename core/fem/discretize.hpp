@@ -11,8 +11,8 @@ struct Discretization {
   /// B per slot of problem.constraints: the number in Model::obstacles that the lower or upper bound comes from, -1
   /// where there is none.
   std::vector<Index> lower_obstacle, upper_obstacle;
-  /// Bounds that are not part of the problem because another obstacle is nearer to their vertex and their directions
-  /// are neither parallel nor orthogonal. The caller checks after the solve that they hold, see violation().
+  /// Bounds that are not part of the problem, see BoundCombiner. The caller checks after the solve that they hold, see
+  /// violation().
   std::vector<Bound<B>> dropped;
 };
 

@@ -33,7 +33,7 @@ struct SurfaceVertex {
 };
 
 /// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for
-/// k < directions. Directions are unit vectors, orthogonal to each other.
+/// k < directions. Directions are unit vectors, linearly independent of each other.
 template <int B>
 struct LocalConstraint {
   int directions = 0;

@@ -10,8 +10,8 @@ namespace signorini {
 void ErrorEstimate::add(double gain, double correction) {
   gain = std::max(gain, 0.0);
   constexpr double slowest = 0.999;
-  // Until there are two gains: as if every cycle halved the error.
-  double ratio = 0.25;
+  // Until there are two gains nothing is known of the rate: a middling one, 0.7.
+  double ratio = 0.5;
   const std::size_t n = gains_.size();
   if (n > 0 && gains_[n - 1] > 0) ratio = gain / gains_[n - 1];
   if (n > 1 && gains_[n - 2] > 0) ratio = std::sqrt(gain / gains_[n - 2]);  // acceleration makes single ones uneven

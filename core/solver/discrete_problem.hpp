@@ -9,15 +9,30 @@
 
 namespace signorini {
 
-/// Local changes of basis: a vector with slot[p] >= 0 is stored in coordinates of its own, v_global = Q v_local, with
-/// the orthogonal Q (row-major, its columns are the local directions) at basis[slot[p] * B * B].
+/// Local changes of basis: a vector with slot[p] >= 0 is stored in coordinates of its own. Q and its dual N = Q^-T are
+/// row-major. Values transform as v_global = Q v_local and v_local = N' v_global: the columns of N are the directions
+/// that the local components measure. Forces transform the other way round, f_local = Q' f_global. Q = N where these
+/// directions are orthonormal.
 template <int B>
 struct Frames {
-  std::vector<Index> slot;  ///< per vector, -1: global coordinates; empty: no frame at all
-  std::vector<double> basis;
+  std::vector<Index> slot;          ///< per vector, -1: global coordinates; empty: no frame at all
+  std::vector<double> basis, dual;  ///< B * B per slot
 
-  const double* at(Index p) const {
-    return slot.empty() || slot[p] < 0 ? nullptr : basis.data() + Offset{slot[p]} * B * B;
+  /// Q and N of a vector, null where it has no frame.
+  const double* at(Index p) const { return find(basis, p); }
+  const double* dual_at(Index p) const { return find(dual, p); }
+
+  /// Gives one of `vectors` vectors a frame.
+  void add(std::size_t vectors, Index p, const double* Q, const double* N) {
+    if (slot.empty()) slot.assign(vectors, -1);
+    slot[p] = static_cast<Index>(basis.size() / (B * B));
+    basis.insert(basis.end(), Q, Q + B * B);
+    dual.insert(dual.end(), N, N + B * B);
+  }
+
+ private:
+  const double* find(const std::vector<double>& blocks, Index p) const {
+    return slot.empty() || slot[p] < 0 ? nullptr : blocks.data() + Offset{slot[p]} * B * B;
   }
 };
 

@@ -22,6 +22,7 @@ struct Level {
   Frames<B> frames;
   Constraints<B> constraints;
   std::vector<Segment<B>> segments;
+  double inherited_rounding = 0;  ///< rounding_of_work() of the finer levels
 
   std::vector<Flags> off;            ///< per vector: components prescribed, or without any fine function left
   std::vector<Flags> removed;        ///< per vector: off or truncated; such components do not interpolate

@@ -2,6 +2,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/sdk/box_obstacle.hpp"
+#include "core/solver/rounding.hpp"
 
 namespace signorini {
 
@@ -84,12 +85,16 @@ void MonotoneMultigrid<B>::descend(std::size_t k, const Passes::Run& before, con
     level.renewed.clear();
   } else {
     components_.smoother->add_passes(level, settings_.pre, Side::descend, down);
-    transfers_[k - 1]->begin_restriction(levels_[k - 1]);
-    down.add([this, k](Index first, Index last) {
-      update_phases(levels_[k], first, last);
+    Level<B>& coarse = levels_[k - 1];
+    transfers_[k - 1]->begin_restriction(coarse);
+    coarse.inherited_rounding = level.inherited_rounding;
+    down.add([this, k, &level, &coarse](Index first, Index last) {
+      update_phases(level, first, last);
       restrict_residual(k, first, last);
+      coarse.inherited_rounding += rounding_of_work(level, first, last);
     });
     down.run(level.chunks);
+    if (k + 1 == levels_.size()) report_.rounding = coarse.inherited_rounding;
     correct(k);
     up.add(
         [this, k](Index first, Index last) { transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last); });

@@ -10,6 +10,7 @@ struct CycleReport {
   Index contact = 0;    ///< vectors with a direction in contact
   Index changed = 0;    ///< vectors whose phase changed since the last cycle
   Index renewed = 0;    ///< coarse matrix rows recomputed, on all levels
+  double rounding = 0;  ///< rounding_of_work() on the finest level
   bool bounded = true;  ///< false: the energy has no minimum
 };
 

@@ -17,6 +17,9 @@ namespace signorini {
 
 namespace {
 
+// Part of the bound of rounding errors above which a gain counts: most of them cancel.
+constexpr double noise = 0.1;
+
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 void require(bool holds, const char* key, const std::string& found, const char* expected) {
@@ -125,9 +128,10 @@ class Solve {
     return false;
   }
 
-  // Worth it once few phases change. Returns whether the iterate is no longer the cycle's own.
+  // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
+  // in. Returns whether the iterate is no longer the cycle's own.
   bool accelerate(const CycleReport& cycle) {
-    if (100 * cycle.changed > cycle.contact) {
+    if (100 * cycle.changed > cycle.contact || !(sums_.gain > noise * sums_.moved * cycle.rounding)) {
       recombination_.reset();
       return false;
     }
@@ -161,6 +165,7 @@ class Solve {
     double gain = 0, correction = 0, size = 0;  // J(before) - J, squared energy norm of the step, and their terms
     FreeProducts products;
     double largest = 0;  // |x|
+    double moved = 0;    // the largest |step|
   };
 
   Sums evaluate(std::vector<double>& x, std::vector<double>& r) const {
@@ -177,20 +182,22 @@ class Solve {
   void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) const {
     add_natural_residual(x, first, last, r, sums.natural_residual);
     // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
-    double gain = 0, correction = 0, size = 0, largest = sums.largest;
+    double gain = 0, correction = 0, size = 0, largest = sums.largest, moved = sums.moved;
     const double *before = x_before_.data(), *r_before = r_before_.data(), *now = x.data(), *r_now = r.data();
-#pragma omp simd reduction(+ : gain, correction, size) reduction(max : largest)
+#pragma omp simd reduction(+ : gain, correction, size) reduction(max : largest, moved)
     for (Offset i = Offset{first} * B; i < Offset{last} * B; ++i) {
       const double d = now[i] - before[i];
       gain += 0.5 * d * (r_before[i] + r_now[i]);
       correction += d * (r_before[i] - r_now[i]);
       size += std::abs(d * r_before[i]) + std::abs(d * r_now[i]);
       largest = std::max(largest, std::abs(now[i]));
+      moved = std::max(moved, std::abs(d));
     }
     sums.gain += gain;
     sums.correction += correction;
     sums.size += size;
     sums.largest = largest;
+    sums.moved = moved;
     sums.products += free_products(problem_, x, r, first, last);
   }
 

@@ -16,7 +16,14 @@ struct IterationRecord {
   Index changed;           ///< vectors whose phase changed since the last cycle, on the finest level
 };
 
-enum class Outcome { converged, rounding, iteration_limit, interrupted, unbounded };
+enum class Outcome {
+  converged,
+  rounding,
+  iteration_limit,
+  interrupted,
+  unbounded,
+  violated  ///< the problem is solved, but an obstacle that is not part of it does not hold
+};
 
 /// What a solve did, and in `reason` why it stopped: a sentence with the value and the threshold it met.
 struct Summary {

@@ -103,17 +103,20 @@ DiscreteProblem<B> random_problem(Random& random, Index n, double constrained = 
   return problem;
 }
 
-/// Random frames at about half of the vectors.
+/// Random frames at about half of the vectors, every other one oblique.
 template <int B>
 Frames<B> random_frames(Random& random, Index n) {
   Frames<B> frames;
   if (B == 1) return frames;
-  frames.slot.assign(static_cast<std::size_t>(n), -1);
+  using Block = Eigen::Matrix<double, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
   for (Index p = 0; p < n; ++p) {
     if (random.chance(0.5)) continue;
-    frames.slot[p] = static_cast<Index>(frames.basis.size()) / (B * B);
-    const auto Q = random_rotation<B>(random);
-    frames.basis.insert(frames.basis.end(), Q.begin(), Q.end());
+    const auto rotation = random_rotation<B>(random);
+    Block Q(rotation.data());
+    if (random.chance(0.5))
+      for (int i = 0; i < B; ++i) Q.col(i) *= random.between(0.5, 2), Q.col(0) += random.between(-1, 1) / B * Q.col(i);
+    const Block N = Q.inverse().transpose();
+    frames.add(static_cast<std::size_t>(n), p, Q.data(), N.data());
   }
   return frames;
 }

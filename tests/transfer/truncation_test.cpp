@@ -44,12 +44,8 @@ TEST(Truncation, LosesSingleDirectionsOfRotatedVectors) {
   Random random(32);
   TwoLevels<3> t(random, 45, true);
   const auto Q = random_rotation<3>(random);
-  t.problem.frames.slot.clear();
-  t.problem.frames.basis.clear();
-  for (Index p = 0; p < 45; ++p) {
-    t.problem.frames.slot.push_back(p);
-    t.problem.frames.basis.insert(t.problem.frames.basis.end(), Q.begin(), Q.end());
-  }
+  t.problem.frames = {};
+  for (Index p = 0; p < 45; ++p) t.problem.frames.add(45, p, Q.data(), Q.data());
   Level<3> fine = finest_level(t.problem), coarse;
   allocate(fine);
   MinMerge<3> transfer;

@@ -6,7 +6,7 @@
 namespace signorini::test {
 
 /// The interpolation from `coarse` to `fine` as one dense matrix, written down from its definition: block (p, q) is
-/// w_pq D_p R_p' C_q D_q with the frames R_p, C_q, and D dropping what does not interpolate.
+/// w_pq D_p R_p^-1 C_q D_q with the frames R_p, C_q, and D dropping what does not interpolate.
 template <int B>
 Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const Level<B>& coarse) {
   using Block = Eigen::Matrix<double, B, B>;
@@ -28,7 +28,7 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
       const Index q = P.column[k];
       T.block(p * B, q * B, B, B) =
-          P.weight[k] * kept(fine.removed[p]) * basis(fine, p).transpose() * basis(coarse, q) * kept(coarse.off[q]);
+          P.weight[k] * kept(fine.removed[p]) * basis(fine, p).inverse() * basis(coarse, q) * kept(coarse.off[q]);
     }
   return T;
 }

@@ -30,19 +30,42 @@ TEST(LocalBasis, CompletesGivenVectorsInTheirPlaces) {
                                        Eigen::Matrix3d(-Eigen::Matrix3d::Identity())})
     for (int leading = 0; leading <= 3; ++leading)
       for (int trailing = 0; leading + trailing <= 3; ++trailing) {
-        Eigen::Matrix<double, 3, 3, Eigen::RowMajor> Q;
-        local_basis<3>(given.data(), leading, given.data() + 3 * leading, trailing, Q.data());
+        Eigen::Matrix<double, 3, 3, Eigen::RowMajor> Q, N;
+        local_basis<3>(given.data(), leading, given.data() + 3 * leading, trailing, Q.data(), N.data());
         EXPECT_LT((Q.transpose() * Q - Eigen::Matrix3d::Identity()).norm(), 1e-14);
-        for (int k = 0; k < leading; ++k) EXPECT_EQ((Q.col(k) - given.col(k)).norm(), 0);
-        for (int k = 0; k < trailing; ++k) EXPECT_EQ((Q.col(3 - trailing + k) - given.col(leading + k)).norm(), 0);
+        EXPECT_LT((Q - N).norm(), 1e-14);
+        for (int k = 0; k < leading; ++k) EXPECT_EQ((N.col(k) - given.col(k)).norm(), 0);
+        for (int k = 0; k < trailing; ++k) EXPECT_EQ((N.col(3 - trailing + k) - given.col(leading + k)).norm(), 0);
       }
+}
+
+TEST(LocalBasis, IsDualToObliqueVectors) {
+  using Block = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Eigen::Matrix3d R = rotation<3>();
+  for (const double angle : {1.5, 0.5, 3.1, 1e-3}) {
+    Eigen::Matrix3d given = R;
+    given.col(1) = std::cos(angle) * R.col(0) + std::sin(angle) * R.col(1);
+    Block Q, N;
+    local_basis<3>(given.data(), 2, given.data() + 6, 1, Q.data(), N.data());
+    EXPECT_EQ((N - Block(given)).norm(), 0);
+    EXPECT_LT((N.transpose() * Q - Eigen::Matrix3d::Identity()).norm(), 1e-15 / std::sin(angle));
+    EXPECT_NEAR(separation<3>(given.data(), 2), std::sin(angle), 1e-15);
+    EXPECT_NEAR(1 / separation<3>(given.data(), 2), Q.col(0).norm(), 1e-9);
+
+    local_basis<3>(given.data(), 2, nullptr, 0, Q.data(), N.data());
+    EXPECT_LT((N.leftCols(2) - given.leftCols(2)).norm() + (N.transpose() * Q - Block::Identity()).norm(),
+              1e-15 / std::sin(angle));
+    EXPECT_LT((N.leftCols(2).transpose() * N.col(2)).norm(), 1e-12) << "tangents are orthogonal to all normals";
+    given.col(2) = (given.col(0) + given.col(1)).normalized();
+    EXPECT_LT(separation<3>(given.data(), 3), 1e-12);
+  }
 }
 
 TEST(LocalBasis, IsAccurateNextToACoordinateAxis) {
   for (const double angle : {1e-3, 1e-7, 1e-9, 1e-15}) {
     const double d[2] = {std::cos(angle), std::sin(angle)};
-    double Q[4];
-    local_basis<2>(d, 1, nullptr, 0, Q);
+    double Q[4], N[4];
+    local_basis<2>(d, 1, nullptr, 0, Q, N);
     EXPECT_NEAR(Q[0] * Q[1] + Q[2] * Q[3], 0, 1e-16 + 1e-16 * angle);
     EXPECT_NEAR(Q[1] * Q[1] + Q[3] * Q[3], 1, 1e-15);
   }
@@ -251,27 +274,49 @@ TEST(Discretize, OrthogonalBoundsOfOneTypeAreBothKept) {
   EXPECT_EQ(mixed.problem.constraints.lower[corner * 2 + 1], -infinity);
 }
 
-TEST(Discretize, ObliqueBoundsKeepTheNearestAndReturnTheOther) {
+ObstacleTerm<2> side(double angle, double distance) {
+  return term<2>(
+      [=](const SurfaceVertex&) {
+        return bound<2>({std::cos(angle), std::sin(angle)}, -distance, infinity);
+      },
+      "bottom");
+}
+
+TEST(Discretize, ObliqueBoundsAreKeptBesideEachOther) {
   Model<2> model;
-  model.obstacles = {term<2>(
-                         [](const SurfaceVertex&) {
-                           return bound<2>({0.6, 0.8}, -0.2, infinity);
-                         },
-                         "bottom"),
-                     term<2>(
-                         [](const SurfaceVertex&) {
-                           return bound<2>({0, 1}, -0.1, infinity);
-                         },
-                         "bottom")};
+  model.obstacles = {side(0.3, 0.2), side(2.3, 0.1)};
+  const auto discrete = discretize(unit_mesh<2>(2), model);
+  const DiscreteProblem<2>& problem = discrete.problem;
+  EXPECT_TRUE(discrete.dropped.empty());
+  const std::vector<double> u{0.1, -0.2, 0.3, 0.7, -0.4, 0.2};
+  std::vector<double> global(problem.b.size());
+  std::copy(u.begin(), u.end(), global.begin());
+  const auto x = to_local(problem, global), back = to_global(problem, x);
+  for (Index slot = 0; slot < problem.constraints.size(); ++slot) {
+    const Index p = problem.constraints.vector[slot];
+    for (int k = 0; k < 2; ++k) {
+      const double angle = k == 0 ? 2.3 : 0.3;  // the nearest first
+      EXPECT_EQ(discrete.lower_obstacle[slot * 2 + k], 1 - k);
+      EXPECT_EQ(problem.constraints.lower[slot * 2 + k], k == 0 ? -0.1 : -0.2);
+      EXPECT_NEAR(x[p * 2 + k], std::cos(angle) * global[p * 2] + std::sin(angle) * global[p * 2 + 1], 1e-15);
+      EXPECT_NEAR(back[p * 2 + k], global[p * 2 + k], 1e-15);
+    }
+  }
+}
+
+TEST(Discretize, DependentBoundsKeepTheNearestAndReturnTheOther) {
+  Model<2> model;
+  model.obstacles = {side(0.3, 0.2), side(2.3, 0.1), side(0.3 + 0.015, 0.05)};
   const Mesh<2> mesh = unit_mesh<2>(2);
   const auto discrete = discretize(mesh, model);
   ASSERT_EQ(discrete.dropped.size(), 3u);
   EXPECT_EQ(discrete.dropped[0].obstacle, 0);
-  EXPECT_EQ(discrete.lower_obstacle[0], 1);
+  EXPECT_EQ(discrete.lower_obstacle[0], 2);
+  EXPECT_EQ(discrete.lower_obstacle[1], 1);
   std::vector<double> u(mesh.points.size() * 2);
   EXPECT_NEAR(violation(discrete.dropped[0], u), -0.2, 1e-15);
   u[discrete.dropped[0].vertex * 2] = -0.5;
-  EXPECT_NEAR(violation(discrete.dropped[0], u), 0.1, 1e-15);
+  EXPECT_NEAR(violation(discrete.dropped[0], u), 0.5 * std::cos(0.3) - 0.2, 1e-15);
 }
 
 TEST(Discretize, ObstaclesSeeNormalsOfTheirOwnFaces) {

@@ -88,7 +88,6 @@ DiscreteProblem<B> renumbered(const DiscreteProblem<B>& p, const std::vector<Ind
   out.frames = {};
   out.constraints = {};
   out.constraints.slot.assign(n, -1);
-  if (!p.frames.slot.empty()) out.frames.slot.assign(n, -1);
   for (std::size_t row = 0; row < n; ++row) {
     const Index old = from[row];
     std::vector<std::pair<Index, Offset>> entries;
@@ -102,10 +101,7 @@ DiscreteProblem<B> renumbered(const DiscreteProblem<B>& p, const std::vector<Ind
     out.fixed[row] = p.fixed[old];
     std::copy_n(p.b.begin() + old * B, B, out.b.begin() + static_cast<std::ptrdiff_t>(row) * B);
     std::copy_n(p.start.begin() + old * B, B, out.start.begin() + static_cast<std::ptrdiff_t>(row) * B);
-    if (const double* Q = p.frames.at(old)) {
-      out.frames.slot[row] = static_cast<Index>(out.frames.basis.size()) / (B * B);
-      out.frames.basis.insert(out.frames.basis.end(), Q, Q + B * B);
-    }
+    if (const double* Q = p.frames.at(old)) out.frames.add(n, static_cast<Index>(row), Q, p.frames.dual_at(old));
     if (const Index slot = p.constraints.slot[old]; slot >= 0) {
       out.constraints.slot[row] = out.constraints.size();
       out.constraints.vector.push_back(static_cast<Index>(row));
