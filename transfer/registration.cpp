@@ -1,6 +1,7 @@
 #include "transfer/registration.hpp"
 
 #include "transfer/min_merge.hpp"
+#include "transfer/unbounded.hpp"
 
 namespace signorini {
 
@@ -15,6 +16,10 @@ void register_transfers(Registry& registry) {
        {}},
       [] { return std::make_unique<MinMerge<1>>(); }, [] { return std::make_unique<MinMerge<2>>(); },
       [] { return std::make_unique<MinMerge<3>>(); });
+  registry.add<Transfer<1>, Transfer<2>, Transfer<3>>(
+      {"transfer", "none", "no bounds on coarse corrections: what method \"tnnmg\" uses", {}, file, {}},
+      [] { return std::make_unique<Unbounded<1>>(); }, [] { return std::make_unique<Unbounded<2>>(); },
+      [] { return std::make_unique<Unbounded<3>>(); });
 }
 
 }  // namespace signorini

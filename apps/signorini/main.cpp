@@ -43,7 +43,7 @@ CLI::App* add_solve(CLI::App& app, Arguments& arguments) {
   add_scene(*command, arguments);
   command
       ->add_option("--out", arguments.solve.out,
-                   "folder for report.json, solution.vtu, convergence.csv and pictures, in place of an earlier run's; "
+                   "folder for report.json, solution.vtu, tables and pictures, in place of an earlier run's; "
                    "default: the scene's name in the current folder")
       ->type_name("DIR");
   command->add_flag("--quiet", arguments.solve.quiet, "print nothing but errors");

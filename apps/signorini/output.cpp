@@ -78,10 +78,11 @@ void finish(Gnuplot& gnuplot, const char* picture, std::vector<std::string>& war
   if (!problem.empty()) warnings.push_back(fmt::format("{} was not drawn: {}", picture, problem));
 }
 
-std::string csv(const Report& report) {
+void write_tables(AtomicFiles& files, const Report& report) {
   std::vector<const Summary*> summaries;
   for (const StepReport& step : report.steps) summaries.push_back(&step.summary);
-  return convergence_csv(summaries);
+  write_text(files.stage("convergence.csv"), convergence_csv(summaries));
+  write_text(files.stage("phases.csv"), phases_csv(summaries));
 }
 }  // namespace
 
@@ -115,14 +116,14 @@ void SolutionFiles::finish() const {
 
 bool is_result_file(const std::string& name) {
   static const std::regex names(
-      R"(report\.json|solution\.vtu|solution_\d{3,}\.vtu|solution\.pvd|convergence\.(csv|png)|result\.png)");
+      R"(report\.json|solution\.vtu|solution_\d{3,}\.vtu|solution\.pvd|convergence\.(csv|png)|phases\.csv|result\.png)");
   return std::regex_match(name, names);
 }
 
 template <int D, int B>
 void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
                   const Results<D, B>& results, Report& report) {
-  if (wanted.convergence) write_text(files.stage("convergence.csv"), csv(report));
+  if (wanted.convergence) write_tables(files, report);
   if (!wanted.pictures) return;
   Gnuplot convergence, result;  // both at once
   draw_convergence(convergence, files.stage("convergence.png"), report.last().summary.history);

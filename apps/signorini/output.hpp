@@ -28,7 +28,8 @@ class SolutionFiles {
 /// Whether a run may write a file of this name; one that another run left is out of date.
 bool is_result_file(const std::string& name);
 
-/// convergence.csv and the pictures, as far as they are wanted; what could not be drawn goes to `warnings`.
+/// The tables (convergence.csv, phases.csv) and the pictures, as far as they are wanted; what could not be drawn goes
+/// to `warnings`.
 template <int D, int B>
 void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
                   const Results<D, B>& results, Report& report);

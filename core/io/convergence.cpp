@@ -25,4 +25,16 @@ std::string convergence_csv(const std::vector<const Summary*>& steps) {
   return csv;
 }
 
+std::string phases_csv(const std::vector<const Summary*>& steps) {
+  std::string csv = "step,iteration,level,vectors,critical,contact_0,contact_1,contact_2,changed,renewed,seconds\n";
+  for (std::size_t step = 0; step < steps.size(); ++step)
+    for (const IterationRecord& record : steps[step]->history)
+      for (std::size_t k = 0; k < record.levels.size(); ++k) {
+        const LevelReport& level = record.levels[k];
+        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3e}\n", step + 1, record.iteration, k, level.vectors,
+                           level.critical, fmt::join(level.contact, ","), level.changed, level.renewed, level.seconds);
+      }
+  return csv;
+}
+
 }  // namespace signorini

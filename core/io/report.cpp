@@ -14,13 +14,19 @@ Json array(const std::vector<T>& list, Convert convert) {
   return result;
 }
 
+Json level(const LevelReport& level) {
+  return {{"vectors", level.vectors}, {"critical", level.critical}, {"contact", level.contact},
+          {"changed", level.changed}, {"renewed", level.renewed},   {"seconds", level.seconds}};
+}
+
 Json record(const IterationRecord& record) {
   return {{"iteration", record.iteration},
           {"residual", record.residual},
           {"algebraic_error", record.algebraic_error},
           {"energy", record.energy},
           {"contact_nodes", record.contact_nodes},
-          {"changed", record.changed}};
+          {"changed", record.changed},
+          {"levels", array(record.levels, level)}};
 }
 
 Json contact(const ContactReport& contact) {

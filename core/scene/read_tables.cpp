@@ -40,6 +40,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.transfer = reader.text("transfer");
   solver.coarse = reader.text("coarse");
   solver.truncate = reader.text("truncate");
+  solver.cut = reader.number("cut");
   solver.rotate = reader.text("rotate");
   solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");

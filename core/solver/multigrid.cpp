@@ -1,6 +1,9 @@
 #include "core/solver/multigrid.hpp"
 
+#include <algorithm>
+
 #include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "core/solver/rounding.hpp"
 
@@ -68,20 +71,28 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
 template <int B>
 CycleReport MonotoneMultigrid<B>::cycle(double* x, const Passes::Run& before, const Passes::Run& after) {
   report_ = {};
+  for (const Level<B>& level : levels_) report_.levels.push_back({.vectors = level.vectors});
   levels_.back().x = x;
-  descend(levels_.size() - 1, before, after);
+  if (settings_.cut > 0) {
+    largest_ = 0;
+    for (Offset i = 0; i < Offset{levels_.back().vectors} * B; ++i) largest_ = std::max(largest_, std::abs(x[i]));
+  }
+  descend(levels_.size() - 1, settings_.cycle, before, after);
   return report_;
 }
 
 template <int B>
-void MonotoneMultigrid<B>::descend(std::size_t k, const Passes::Run& before, const Passes::Run& after) {
+void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run& before, const Passes::Run& after) {
+  const double begin = seconds();
+  double elsewhere = 0;
   Level<B>& level = levels_[k];
+  const bool finest = k + 1 == levels_.size();
   Passes down, up;
   if (before) down.add(before);
   if (k == 0) {
     down.run(level.chunks);
-    if (levels_.size() == 1) update_phases(level, 0, level.vectors);
-    if (!components_.coarse->solve(level)) report_.bounded = false;
+    if (finest) update_phases(level, 0, level.vectors);
+    if (!components_.coarse->solve(level)) report_.bounded = settings_.line_search;
     level.renewed.clear();
   } else {
     components_.smoother->add_passes(level, settings_.pre, Side::descend, down);
@@ -94,28 +105,73 @@ void MonotoneMultigrid<B>::descend(std::size_t k, const Passes::Run& before, con
       coarse.inherited_rounding += rounding_of_work(level, first, last);
     });
     down.run(level.chunks);
-    if (k + 1 == levels_.size()) report_.rounding = coarse.inherited_rounding;
-    correct(k);
-    up.add(
-        [this, k](Index first, Index last) { transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last); });
+    if (finest) report_.rounding = coarse.inherited_rounding;
+    elsewhere = correct(k, cycle);
+    if (finest && settings_.line_search)
+      search(level);
+    else
+      up.add([this, k](Index first, Index last) {
+        transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last);
+      });
     components_.smoother->add_passes(level, settings_.post, Side::ascend, up);
   }
   if (after) up.add(after);
   up.run(level.chunks);
+  report_.levels[k].seconds += seconds() - begin - elsewhere;
 }
 
-// From the restricted residual to the correction that prolongate() adds.
+// From the restricted residual to the correction that prolongate() adds. Returns the time spent on coarser levels.
 template <int B>
-void MonotoneMultigrid<B>::correct(std::size_t k) {
+double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   Level<B>& fine = levels_[k];
   Level<B>& coarse = levels_[k - 1];
   Transfer<B>& transfer = *transfers_[k - 1];
-  report_.renewed += transfer.assemble(fine, coarse);
+  report_.levels[k - 1].renewed += transfer.assemble(fine, coarse);
   transfer.end_restriction(coarse);
   transfer.restrict_bounds(fine, coarse);
-  const int visits = k == 1 ? 1 : settings_.gamma;
-  for (int visit = 0; visit < visits; ++visit) descend(k - 1, {}, {});
+  const double begin = seconds();
+  descend(k - 1, cycle, {}, {});
+  if (k > 1 && cycle != Cycle::V) descend(k - 1, cycle == Cycle::F ? Cycle::V : cycle, {}, {});
+  const double elsewhere = seconds() - begin;
   transfer.begin_prolongation(coarse);
+  return elsewhere;
+}
+
+// prolongate() projects onto the bounds. The energy has its minimum along the step to there where r'd vanishes; beyond
+// the full step it may go on until it meets a bound.
+template <int B>
+void MonotoneMultigrid<B>::search(Level<B>& level) {
+  const auto n = static_cast<std::size_t>(level.vectors) * B;
+  start_.assign(level.x, level.x + n);
+  transfers_.back()->prolongate(levels_[levels_.size() - 2], level, 0, level.vectors);
+  step_.resize(n);
+  product_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];
+  product<B>(*level.A, step_.data(), product_.data());
+  r_.resize(n);
+  residual<B>(*level.A, level.x, level.b, 0, level.vectors, r_.data());
+  double energy = 0, work = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    energy += step_[i] * product_[i];
+    work += step_[i] * r_[i];
+  }
+  if (!(energy > 0)) return;
+  double length = std::max(0.0, 1 + work / energy);
+  const Constraints<B>& c = level.constraints;
+  const auto each_bound = [&](const auto& visit) {
+    for (Index slot = 0; slot < c.size(); ++slot)
+      for (int k = 0; k < B; ++k) {
+        const Offset at = Offset{slot} * B + k;
+        visit(Offset{c.vector[slot]} * B + k, c.lower[at], c.upper[at]);
+      }
+  };
+  each_bound([&](Offset i, double lower, double upper) {
+    const double room = step_[i] > 0 ? upper - start_[i] : start_[i] - lower;
+    const double needed = std::abs(step_[i]);
+    if (length * needed > room) length = std::max(1.0, room / needed);
+  });
+  for (std::size_t i = 0; i < n; ++i) level.x[i] = start_[i] + length * step_[i];
+  each_bound([&](Offset i, double lower, double upper) { level.x[i] = std::clamp(level.x[i], lower, upper); });
 }
 
 template <int B>
@@ -134,23 +190,33 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     s.obstacle->distance(view, begin, end, level.lower.data(), level.upper.data(), level.critical.data());
   });
-  Index contact = 0, changed = 0;
+  LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
+  if (first == 0) report.critical = 0, report.contact = {};
+  const double near = settings_.cut * largest_;
   const auto [from, to] = slots_between(level.constraints, first, last);
   for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];
     const Flags critical = level.critical[slot] & static_cast<Flags>(~level.off[p]);
-    contact += critical != 0;
-    changed += critical != level.phase[slot];
+    report.critical += critical != 0;
+    for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
+    report.changed += critical != level.phase[slot];
     level.phase[slot] = critical;
-    const Flags removed = level.off[p] | (settings_.truncate ? critical : Flags{0});
+    const Flags removed = level.off[p] | truncated(level, slot, critical, near);
     if (removed == level.removed[p]) continue;
     level.removed[p] = removed;
     level.changed.push_back(p);
   }
-  if (&level == &levels_.back()) {
-    report_.contact += contact;
-    report_.changed += changed;
-  }
+}
+
+template <int B>
+Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags critical, double near) const {
+  if (settings_.truncate == Truncation::none) return 0;
+  if (near > 0)
+    for (int k = 0; k < B; ++k)
+      if (std::min(-level.lower[Offset{slot} * B + k], level.upper[Offset{slot} * B + k]) <= near)
+        critical |= static_cast<Flags>(1u << k);
+  if (critical && settings_.truncate == Truncation::tangential) return (1u << B) - 1;
+  return critical;
 }
 
 template class MonotoneMultigrid<1>;

@@ -2,17 +2,30 @@
 #include <span>
 
 #include "core/solver/components.hpp"
+#include "core/solver/summary.hpp"
 
 namespace signorini {
 
-/// What one cycle did to the phases on the finest level.
+/// What one cycle did.
 struct CycleReport {
-  Index contact = 0;    ///< vectors with a direction in contact
-  Index changed = 0;    ///< vectors whose phase changed since the last cycle
-  Index renewed = 0;    ///< coarse matrix rows recomputed, on all levels
-  double rounding = 0;  ///< rounding_of_work() on the finest level
-  bool bounded = true;  ///< false: the energy has no minimum
+  std::vector<LevelReport> levels;  ///< coarsest first
+  double rounding = 0;              ///< rounding_of_work() on the finest level
+  bool bounded = true;              ///< false: the energy has no minimum
+
+  const LevelReport& finest() const { return levels.back(); }
+  /// Coarse matrix rows recomputed, on all levels.
+  Index renewed() const {
+    Index sum = 0;
+    for (const LevelReport& level : levels) sum += level.renewed;
+    return sum;
+  }
 };
+
+/// Visits of a coarser level: one, two, or one like that and then a V.
+enum class Cycle { V, W, F };
+
+/// What is taken out of the interpolation of a vector in contact.
+enum class Truncation { none, normal, tangential };
 
 /// Truncated monotone multigrid (Krause, Alg. 1): nonlinear smoothing on the true constraints, then corrections from
 /// coarser levels within monotonically restricted bounds. Knows no kind of obstacle, mesh or dimension.
@@ -21,9 +34,13 @@ class MonotoneMultigrid {
  public:
   struct Settings {
     int pre = 1, post = 1;
-    int gamma = 1;  ///< 1: V, 2: W
-    bool truncate = true;
+    Cycle cycle = Cycle::V;
+    Truncation truncate = Truncation::normal;
+    double cut = 0;  ///< also truncate directions with at most this part of the largest unknown left
     Rotate rotate = Rotate::all;
+    /// The correction from the coarser levels goes as far along the projected direction as lowers the energy most
+    /// (Graeser and Kornhuber 2009, section 5). Needs no monotone restriction of the bounds.
+    bool line_search = false;
   };
 
   /// Keeps references to the problem and the prolongations (coarsest first).
@@ -38,9 +55,11 @@ class MonotoneMultigrid {
   const std::vector<Level<B>>& levels() const { return levels_; }
 
  private:
-  void descend(std::size_t k, const Passes::Run& before, const Passes::Run& after);
-  void correct(std::size_t k);
+  void descend(std::size_t k, Cycle cycle, const Passes::Run& before, const Passes::Run& after);
+  double correct(std::size_t k, Cycle cycle);
+  void search(Level<B>& level);
   void update_phases(Level<B>& level, Index first, Index last);
+  Flags truncated(const Level<B>& level, Index slot, Flags critical, double near) const;
   void restrict_residual(std::size_t k, Index first, Index last);
 
   std::vector<Level<B>> levels_;  // coarsest first
@@ -48,7 +67,9 @@ class MonotoneMultigrid {
   Components<B> components_;
   Settings settings_;
   CycleReport report_;
-  std::vector<double> r_;  // residual of one chunk
+  double largest_ = 0;                          // unknown, where the cycle starts
+  std::vector<double> r_;                       // residual of one chunk
+  std::vector<double> start_, step_, product_;  // of a line search
 };
 
 /// Levels for block size B on the finest matrix alone.

@@ -7,13 +7,14 @@ namespace signorini {
 struct SolverOptions {
   double tolerance = 1e-8;  ///< for the relative algebraic error and for the natural residual
   int max_iterations = 200;
-  std::string method = "monotone";
-  std::string cycle = "V";             ///< V or W
+  std::string method = "monotone";     ///< monotone, tnnmg or pgs
+  std::string cycle = "V";             ///< V, W or F
   int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
   std::string smoother = "forward";    ///< a registered smoother
   std::string transfer = "min_merge";  ///< a registered monotone restriction
   std::string coarse = "newton";       ///< a registered coarse solver
-  std::string truncate = "normal";     ///< none or normal
+  std::string truncate = "normal";     ///< none, normal or tangential
+  double cut = 0;                      ///< truncate also at distances up to this part of the largest unknown
   std::string rotate = "all";          ///< all, not_coarsest or none
   bool krylov = true;                  ///< accelerate the cycles while the phases rest
 };

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 #include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/convergence.hpp"
 #include "core/solver/multigrid.hpp"
@@ -20,35 +20,59 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 void require(bool holds, const char* key, const std::string& found, const char* expected) {
   if (!holds) input_error(fmt::format("solver.{}", key), fmt::format("found '{}', expected {}", found, expected));
 }
 
+// The value that a name stands for.
+template <class T>
+T choice(const char* key, const std::string& found, std::initializer_list<std::pair<const char*, T>> known) {
+  std::string names;
+  for (const auto& [name, value] : known) {
+    if (found == name) return value;
+    names += fmt::format("{}'{}'", names.empty() ? "" : " or ", name);
+  }
+  require(false, key, found, names.c_str());
+  return {};
+}
+
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
-  require(o.method == "monotone", "method", o.method, "'monotone'");
-  require(o.cycle == "V" || o.cycle == "W", "cycle", o.cycle, "'V' or 'W'");
-  require(o.truncate == "normal" || o.truncate == "none", "truncate", o.truncate, "'normal' or 'none'");
-  require(o.rotate == "all" || o.rotate == "not_coarsest" || o.rotate == "none", "rotate", o.rotate,
-          "'all', 'not_coarsest' or 'none'");
   require(o.pre >= 0 && o.post >= 0 && o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post),
           "pre, post >= 0 and at least one smoothing step");
   require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
   require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
-  return {o.pre, o.post, o.cycle == "V" ? 1 : 2, o.truncate == "normal",
-          o.rotate == "all"    ? Rotate::all
-          : o.rotate == "none" ? Rotate::none
-                               : Rotate::not_coarsest};
+  require(o.cut >= 0 && o.cut < 1, "cut", fmt::format("{}", o.cut), "a number in [0, 1)");
+  const bool tnnmg = choice<bool>("method", o.method, {{"monotone", false}, {"tnnmg", true}, {"pgs", false}});
+  const auto truncate = choice<Truncation>(
+      "truncate", o.truncate,
+      {{"none", Truncation::none}, {"normal", Truncation::normal}, {"tangential", Truncation::tangential}});
+  require(!tnnmg || truncate != Truncation::none, "truncate", o.truncate,
+          "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
+  require(tnnmg || o.transfer != "none", "transfer", o.transfer,
+          "a monotone restriction, or method 'tnnmg', whose coarse corrections have no bounds");
+  return {o.pre,
+          o.post,
+          choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
+          truncate,
+          o.cut,
+          choice<Rotate>("rotate", o.rotate,
+                         {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
+          tnnmg};
 }
 
 template <int B>
 Components<B> components_of(const SolverOptions& o, const Registry& registry) {
-  registry.create<Transfer<B>>("transfer", o.transfer);  // an unknown name shows here
+  const std::string transfer = o.method == "tnnmg" ? "none" : o.transfer;
+  registry.create<Transfer<B>>("transfer", transfer);  // an unknown name shows here
   return {registry.create<Smoother<B>>("smoother", o.smoother),
-          [&registry, id = o.transfer] { return registry.create<Transfer<B>>("transfer", id); },
-          registry.create<CoarseSolver<B>>("coarse", o.coarse)};
+          [&registry, transfer] { return registry.create<Transfer<B>>("transfer", transfer); },
+          registry.create<CoarseSolver<B>>("coarse", o.method == "pgs" ? "pgs" : o.coarse)};
+}
+
+// Projected Gauss-Seidel alone is what is left without coarser levels.
+std::span<const Prolongation> hierarchy_of(const SolverOptions& o, std::span<const Prolongation> prolongations) {
+  return o.method == "pgs" ? std::span<const Prolongation>{} : prolongations;
 }
 
 // The admissible vector next to x: prescribed values and bounds.
@@ -75,7 +99,8 @@ class Solve {
       : problem_(problem),
         options_(options),
         x_(x),
-        multigrid_(problem, prolongations, components_of<B>(options, registry), settings_of<B>(options)),
+        multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
+                   settings_of<B>(options)),
         recombination_(problem.constraints),
         r_(x.size()),
         x_before_(x.size()),
@@ -107,7 +132,7 @@ class Solve {
                     x_before_.begin() + Offset{first} * B);
         },
         [this](Index first, Index last) { evaluate(x_, r_, first, last, sums_); });
-    const bool combined = options_.krylov && accelerate(cycle);
+    const bool combined = options_.krylov && options_.method != "pgs" && accelerate(cycle);
     refuse_nan(sums_.natural_residual);
     add_gain();
     measure();
@@ -131,7 +156,8 @@ class Solve {
   // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
   // in. Returns whether the iterate is no longer the cycle's own.
   bool accelerate(const CycleReport& cycle) {
-    if (100 * cycle.changed > cycle.contact || !(sums_.gain > noise * sums_.moved * cycle.rounding)) {
+    if (100 * cycle.finest().changed > cycle.finest().critical ||
+        !(sums_.gain > noise * sums_.moved * cycle.rounding)) {
       recombination_.reset();
       return false;
     }
@@ -233,7 +259,8 @@ class Solve {
   void record(const CycleReport& cycle) {
     Summary& s = summary_;
     ++s.iterations;
-    s.history.push_back({s.iterations, s.residual, s.algebraic_error, s.energy, cycle.contact, cycle.changed});
+    s.history.push_back({s.iterations, s.residual, s.algebraic_error, s.energy, cycle.finest().critical,
+                         cycle.finest().changed, cycle.levels});
   }
 
   // What rounding leaves of x'Ax for a rigid motion, which has no energy.

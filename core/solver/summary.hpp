@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -6,14 +7,25 @@
 
 namespace signorini {
 
+/// What one cycle did on a level.
+struct LevelReport {
+  Index vectors = 0;                  ///< of the level
+  Index critical = 0;                 ///< vectors with a direction in contact
+  std::array<Index, 3> contact = {};  ///< directions in contact, by their number in local coordinates
+  Index changed = 0;                  ///< vectors whose phase changed since the last visit
+  Index renewed = 0;                  ///< matrix rows recomputed
+  double seconds = 0;                 ///< without the coarser levels
+};
+
 /// One cycle. Everything is recomputed from the iterate, nothing is carried along.
 struct IterationRecord {
   int iteration;
-  double residual;         ///< natural residual over its value at the projected zero
-  double algebraic_error;  ///< estimate of ||x - x*||_A / ||x*||_A
-  double energy;           ///< 1/2 x'Ax - b'x
-  Index contact_nodes;     ///< vectors with a direction in contact
-  Index changed;           ///< vectors whose phase changed since the last cycle, on the finest level
+  double residual;                  ///< natural residual over its value at the projected zero
+  double algebraic_error;           ///< estimate of ||x - x*||_A / ||x*||_A
+  double energy;                    ///< 1/2 x'Ax - b'x
+  Index contact_nodes;              ///< vectors with a direction in contact
+  Index changed;                    ///< vectors whose phase changed since the last cycle, on the finest level
+  std::vector<LevelReport> levels;  ///< coarsest first; sums over the visits of the cycle, contact of the last one
 };
 
 enum class Outcome {

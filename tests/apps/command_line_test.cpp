@@ -146,7 +146,7 @@ TEST_F(CommandLine, ARunRemovesWhatAnEarlierOneWroteAndNothingElse) {
   write("o/notes", "");
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "output.pictures=false"}).status, 0);
   EXPECT_THAT(written("o"), testing::UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv",
-                                                          "solution_x.vtu", "notes"));
+                                                          "phases.csv", "solution_x.vtu", "notes"));
 }
 
 TEST_F(CommandLine, FixesThatContradictEachOtherAreAWarning) {

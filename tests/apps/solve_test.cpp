@@ -13,8 +13,8 @@ TEST_F(Solve, WritesAllFilesIntoAFolderNamedAfterTheScene) {
   const Ended ended = signorini({"solve", "membrane.toml"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(written(), UnorderedElementsAre("membrane"));
-  EXPECT_THAT(written("membrane"),
-              UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "convergence.png", "result.png"));
+  EXPECT_THAT(written("membrane"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "phases.csv",
+                                                        "convergence.png", "result.png"));
   EXPECT_EQ(read(folder_ / "membrane/result.png").substr(1, 3), "PNG");
   EXPECT_EQ(read(folder_ / "membrane/convergence.png").substr(1, 3), "PNG");
 }
@@ -150,7 +150,7 @@ TEST_F(Solve, WithoutGnuplotThereIsANoteInsteadOfPictures) {
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.err, HasSubstr("gnuplot is not installed"));
-  EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv"));
+  EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "phases.csv"));
 }
 
 TEST_F(Solve, ConvergenceCsvRepeatsTheHistoryInFullPrecision) {

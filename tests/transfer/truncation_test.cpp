@@ -83,8 +83,8 @@ TEST(Truncation, IsRecursiveAndEndsWithContact) {
     if (problem.fixed[p]) start[p] = 0;
   CycleReport report;
   for (int cycle = 0; cycle < 10; ++cycle) report = method.cycle(x.data());
-  EXPECT_EQ(report.contact, 0);
-  EXPECT_EQ(report.renewed, 0) << "nothing changes any more";
+  EXPECT_EQ(report.finest().critical, 0);
+  EXPECT_EQ(report.renewed(), 0) << "nothing changes any more";
   auto fresh = multigrid<1>(problem, pressed.prolongations);
   fresh.cycle(start.data());
   for (std::size_t k = 0; k + 1 < method.levels().size(); ++k)

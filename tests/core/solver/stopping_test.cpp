@@ -210,7 +210,7 @@ TEST(Options, OutOfRangeAreRefusedWithTheirNames) {
     }
   };
   using O = SolverOptions;
-  refused("cycle", [](O& o) { o.cycle = "F"; });
+  refused("cycle", [](O& o) { o.cycle = "X"; });
   refused("truncate", [](O& o) { o.truncate = "all"; });
   refused("rotate", [](O& o) { o.rotate = "some"; });
   refused("method", [](O& o) { o.method = "magic"; });
@@ -220,6 +220,9 @@ TEST(Options, OutOfRangeAreRefusedWithTheirNames) {
   refused("pre", [](O& o) { o.pre = o.post = 0; });
   refused("smother", [](O& o) { o.smoother = "smother"; });
   refused("mini_merge", [](O& o) { o.transfer = "mini_merge"; });
+  refused("transfer", [](O& o) { o.transfer = "none"; });
+  refused("truncate", [](O& o) { o.method = "tnnmg", o.truncate = "none"; });
+  refused("cut", [](O& o) { o.cut = -0.1; });
   refused("newtoon", [](O& o) { o.coarse = "newtoon"; });
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+#include <algorithm>
+
+#include "transfer/block_transfer.hpp"
+
+namespace signorini {
+
+/// No bounds on coarse corrections: for methods that project the correction and search along it (truncated nonsmooth
+/// Newton multigrid, Graeser and Kornhuber 2009).
+template <int B>
+class Unbounded final : public BlockTransfer<B> {
+ public:
+  void restrict_bounds(const Level<B>&, Level<B>& coarse) const override {
+    std::ranges::fill(coarse.constraints.lower, -infinity);
+    std::ranges::fill(coarse.constraints.upper, infinity);
+  }
+};
+
+}  // namespace signorini
