@@ -7,6 +7,7 @@
 #include "apps/bench/linear.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/traffic.hpp"
+#include "apps/bench/variants.hpp"
 #include "core/base/heap.hpp"
 #include "core/fem/nested.hpp"
 
@@ -118,6 +119,13 @@ void run(bool quick) {
   const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(1, 3), {}, {1.0}};
   const Case spiral{"spiral", "obstacle_spiral.toml", upto(5, 8), {}, {0.0}};
   const Case ball{"ball on plane", "ball_on_plane.toml", upto(1, 3), {}, {0, 0, -1}};
+  const Case cube{"cube 3D (S3)", "obstacle_cube_3d.toml", upto(3, 5), {}, {}};
+  const Case bump{"cube on bump (E3)", "cube_on_bump.toml", upto(2, 4), {}, {0, 0, -1}};
+  const Case flat{"cube on flat bump (E3w)",
+                  "cube_on_bump.toml",
+                  upto(2, 4),
+                  {"obstacle.0.distance=\"z + 0.005 + 0.1 * ((x - 0.5)^2 + (y - 0.5)^2)\""},
+                  {0, 0, -1}};
   const Case fine{"radial 2D, V(2,2) symmetric",
                   "obstacle_radial_2d.toml",
                   upto(4, 7),
@@ -135,7 +143,10 @@ void run(bool quick) {
       "assembly |\n| --- | --- | --- | --- | --- | --- | --- |\n");
   largest<2, 1>(radial2, bandwidth, false);
   largest<3, 1>(radial3, bandwidth, false);
+  largest<3, 1>(cube, bandwidth, false);
   largest<3, 3>(ball, bandwidth, false);
+  largest<3, 3>(bump, bandwidth, false);
+  largest<3, 3>(flat, bandwidth, false);
 
   fmt::print(
       "\n## V(1,1) cycle over its memory traffic\n\nTriad: {:.1f} GB/s.\n\n| problem | unknowns | MB | time over "
@@ -143,7 +154,9 @@ void run(bool quick) {
       bandwidth / 1e9);
   largest<2, 1>(radial2, bandwidth, true);
   largest<3, 1>(radial3, bandwidth, true);
+  largest<3, 1>(cube, bandwidth, true);
   largest<3, 3>(ball, bandwidth, true);
+  largest<3, 3>(bump, bandwidth, true);
 
   fmt::print(
       "\n## Iterations, rate and time per unknown as the mesh is refined\n\n| problem | unknowns | cycles | rate | "
@@ -153,6 +166,7 @@ void run(bool quick) {
   growth<3, 3>(ball);
   growth<2, 1>(fine);
   growth<3, 3>(ball_fine);
+  print_variants();
 }
 
 }  // namespace

@@ -73,10 +73,6 @@ CycleReport MonotoneMultigrid<B>::cycle(double* x, const Passes::Run& before, co
   report_ = {};
   for (const Level<B>& level : levels_) report_.levels.push_back({.vectors = level.vectors});
   levels_.back().x = x;
-  if (settings_.cut > 0) {
-    largest_ = 0;
-    for (Offset i = 0; i < Offset{levels_.back().vectors} * B; ++i) largest_ = std::max(largest_, std::abs(x[i]));
-  }
   descend(levels_.size() - 1, settings_.cycle, before, after);
   return report_;
 }
@@ -192,7 +188,6 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
   });
   LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
   if (first == 0) report.critical = 0, report.contact = {};
-  const double near = settings_.cut * largest_;
   const auto [from, to] = slots_between(level.constraints, first, last);
   for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];
@@ -201,7 +196,7 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
     report.changed += critical != level.phase[slot];
     level.phase[slot] = critical;
-    const Flags removed = level.off[p] | truncated(level, slot, critical, near);
+    const Flags removed = level.off[p] | truncated(level, slot, critical);
     if (removed == level.removed[p]) continue;
     level.removed[p] = removed;
     level.changed.push_back(p);
@@ -209,11 +204,11 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
 }
 
 template <int B>
-Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags critical, double near) const {
+Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags critical) const {
   if (settings_.truncate == Truncation::none) return 0;
-  if (near > 0)
+  if (near_ > 0)
     for (int k = 0; k < B; ++k)
-      if (std::min(-level.lower[Offset{slot} * B + k], level.upper[Offset{slot} * B + k]) <= near)
+      if (std::min(-level.lower[Offset{slot} * B + k], level.upper[Offset{slot} * B + k]) <= near_)
         critical |= static_cast<Flags>(1u << k);
   if (critical && settings_.truncate == Truncation::tangential) return (1u << B) - 1;
   return critical;

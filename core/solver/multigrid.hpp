@@ -36,7 +36,6 @@ class MonotoneMultigrid {
     int pre = 1, post = 1;
     Cycle cycle = Cycle::V;
     Truncation truncate = Truncation::normal;
-    double cut = 0;  ///< also truncate directions with at most this part of the largest unknown left
     Rotate rotate = Rotate::all;
     /// The correction from the coarser levels goes as far along the projected direction as lowers the energy most
     /// (Graeser and Kornhuber 2009, section 5). Needs no monotone restriction of the bounds.
@@ -51,6 +50,9 @@ class MonotoneMultigrid {
   /// vectors that cover all: before the cycle touches them, and when they and all that they are coupled to are final.
   CycleReport cycle(double* x, const Passes::Run& before = {}, const Passes::Run& after = {});
 
+  /// From now on directions with at most this distance left are truncated too.
+  void cut_below(double distance) { near_ = distance; }
+
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }
 
@@ -59,7 +61,7 @@ class MonotoneMultigrid {
   double correct(std::size_t k, Cycle cycle);
   void search(Level<B>& level);
   void update_phases(Level<B>& level, Index first, Index last);
-  Flags truncated(const Level<B>& level, Index slot, Flags critical, double near) const;
+  Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
   void restrict_residual(std::size_t k, Index first, Index last);
 
   std::vector<Level<B>> levels_;  // coarsest first
@@ -67,7 +69,7 @@ class MonotoneMultigrid {
   Components<B> components_;
   Settings settings_;
   CycleReport report_;
-  double largest_ = 0;                          // unknown, where the cycle starts
+  double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk
   std::vector<double> start_, step_, product_;  // of a line search
 };

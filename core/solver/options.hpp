@@ -14,9 +14,9 @@ struct SolverOptions {
   std::string transfer = "min_merge";  ///< a registered monotone restriction
   std::string coarse = "newton";       ///< a registered coarse solver
   std::string truncate = "normal";     ///< none, normal or tangential
-  double cut = 0;                      ///< truncate also at distances up to this part of the largest unknown
-  std::string rotate = "all";          ///< all, not_coarsest or none
-  bool krylov = true;                  ///< accelerate the cycles while the phases rest
+  double cut = 0;              ///< truncate also at distances up to this part of the last cycle's largest change
+  std::string rotate = "all";  ///< all, not_coarsest or none
+  bool krylov = true;          ///< accelerate the cycles while the phases rest
 };
 
 }  // namespace signorini

@@ -42,7 +42,7 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
           "pre, post >= 0 and at least one smoothing step");
   require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
   require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
-  require(o.cut >= 0 && o.cut < 1, "cut", fmt::format("{}", o.cut), "a number in [0, 1)");
+  require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
   const bool tnnmg = choice<bool>("method", o.method, {{"monotone", false}, {"tnnmg", true}, {"pgs", false}});
   const auto truncate = choice<Truncation>(
       "truncate", o.truncate,
@@ -55,7 +55,6 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
           o.post,
           choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
           truncate,
-          o.cut,
           choice<Rotate>("rotate", o.rotate,
                          {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
           tnnmg};
@@ -124,6 +123,7 @@ class Solve {
  private:
   bool step(const Monitor& monitor) {
     r_before_.swap(r_);
+    multigrid_.cut_below(options_.cut * sums_.moved);
     sums_ = {};
     const CycleReport cycle = multigrid_.cycle(
         x_.data(),

@@ -44,6 +44,18 @@ TEST_F(Scenes, RadialObstacle3D) {
   EXPECT_NEAR(r.at("probes")[0].at("value"), 0.400294310624527, 4e-3);
 }
 
+TEST_F(Scenes, HemisphereInACube) {
+  const auto r = solve("obstacle_cube_3d.toml", {});
+  EXPECT_NEAR(r.at("probes")[0].at("value"), 0.5, 5e-3);
+}
+
+TEST_F(Scenes, CubeOnABump) {
+  const auto r = solve("cube_on_bump.toml", {"refine.uniform=2"});
+  EXPECT_GT(r.at("contact")[0].at("force")[2], 0) << "the bump carries";
+  // u >= -gap touches at most where the gap is below what the top is pushed down by.
+  EXPECT_LT(r.at("contact")[0].at("area").get<double>(), pi * 0.03 / 0.5);
+}
+
 TEST_F(Scenes, TorsionOfARoundBar) {
   const auto r = solve("obstacle_torsion_disk.toml", {});
   EXPECT_NEAR(r.at("probes")[0].at("value"), 0.75, 1e-3);

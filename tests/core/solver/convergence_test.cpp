@@ -31,7 +31,7 @@ std::vector<Setting> settings() {
   add("tnnmg, tangential", [](O& o) { o.method = "tnnmg", o.truncate = "tangential"; });
   add("pgs", [](O& o) { o.method = "pgs"; });
   add("tangential", [](O& o) { o.truncate = "tangential"; });
-  for (const double cut : {1e-3, 0.1}) add(fmt::format("cut {}", cut), [=](O& o) { o.cut = cut; });
+  for (const double cut : {0.1, 1.0}) add(fmt::format("cut {}", cut), [=](O& o) { o.cut = cut; });
   for (const char* smoother : {"forward", "backward", "symmetric"}) add(smoother, [=](O& o) { o.smoother = smoother; });
   add("V22 symmetric", [](O& o) { o.smoother = "symmetric", o.pre = o.post = 2; });
   add("no pre", [](O& o) { o.pre = 0; });
