@@ -94,6 +94,8 @@ constexpr Operator operators[] = {{"||", [](double a, double b) -> double { retu
                                   {"-", [](double a, double b) { return a - b; }, 5},
                                   {"*", [](double a, double b) { return a * b; }, 6},
                                   {"/", [](double a, double b) { return a / b; }, 6}};
+double power(double x, double y) { return y == 2 ? x * x : std::pow(x, y); }  // squares are what scenes are full of
+
 constexpr int unary_precedence = 7, power_precedence = 8;
 
 int read_number(const char* text, int* position, double* value) {
@@ -128,7 +130,7 @@ class Parser : public mu::ParserBase {
   void InitConst() override { DefineConst("pi", std::numbers::pi); }
   void InitOprt() override {
     for (const Operator& o : operators) DefineOprt(o.name, o.function, o.precedence, mu::oaLEFT, true);
-    DefineOprt("^", static_cast<double (*)(double, double)>(std::pow), power_precedence, mu::oaRIGHT, true);
+    DefineOprt("^", power, power_precedence, mu::oaRIGHT, true);
     // The scan has reduced chains of prefix operators to these.
     DefineInfixOprt(
         "-", [](double v) { return -v; }, unary_precedence);

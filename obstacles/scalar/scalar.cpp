@@ -10,9 +10,9 @@ namespace {
 
 class Scalar final : public BoxObstacle<1> {
  public:
-  explicit Scalar(const Settings& settings) : settings_(settings) {
-    if (!settings.has("lower") && !settings.has("upper"))
-      throw Error(Exit::input, "a scalar obstacle needs 'lower' or 'upper'");
+  explicit Scalar(const Settings& settings)
+      : settings_(settings), has_lower_(settings.has("lower")), has_upper_(settings.has("upper")) {
+    if (!has_lower_ && !has_upper_) throw Error(Exit::input, "a scalar obstacle needs 'lower' or 'upper'");
   }
 
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 2}}}; }
@@ -23,15 +23,15 @@ class Scalar final : public BoxObstacle<1> {
       LocalConstraint<1>& c = constraints[k];
       c.directions = 1;
       c.direction[0][0] = 1;
-      c.lower[0] = bound("lower", -infinity, vertices[k], status);
-      c.upper[0] = bound("upper", infinity, vertices[k], status);
+      c.lower[0] = has_lower_ ? value("lower", vertices[k], status) : -infinity;
+      c.upper[0] = has_upper_ ? value("upper", vertices[k], status) : infinity;
       if (status.ok() && c.lower[0] > c.upper[0]) infeasible(vertices[k], c, status);
     }
   }
 
  private:
-  double bound(const char* name, double none, const SurfaceVertex& vertex, Status& status) const noexcept {
-    return settings_.has(name) ? settings_.value(name, 0, vertex.position, vertex.normal, status) : none;
+  double value(const char* name, const SurfaceVertex& vertex, Status& status) const noexcept {
+    return settings_.value(name, 0, vertex.position, vertex.normal, status);
   }
 
   static void infeasible(const SurfaceVertex& vertex, const LocalConstraint<1>& c, Status& status) noexcept {
@@ -42,6 +42,7 @@ class Scalar final : public BoxObstacle<1> {
   }
 
   const Settings& settings_;
+  const bool has_lower_, has_upper_;
 };
 
 constexpr OptionSpec options[] = {
