@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "amg/hierarchy.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
@@ -18,6 +19,9 @@ SolverOptions loose(SolverOptions options) {
   options.max_iterations = std::min(options.max_iterations, 5);
   return options;
 }
+
+/// Vectors on the coarsest mesh above which the hierarchy goes on below it.
+constexpr Index large_coarsest_mesh = 1000;
 
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
@@ -52,15 +56,31 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
 }
 
 template <int D, int B>
+void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarsest) {
+  if (continued_) return;
+  continued_ = true;
+  if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
+  Stopwatch watch;
+  auto below =
+      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  algebraic_ = below.size();
+  prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.begin()),
+                        std::make_move_iterator(below.end()));
+  times_.setup += watch.elapsed();
+}
+
+template <int D, int B>
 void NestedSolver<D, B>::solve_level(std::size_t level, Solution<B>& solution) {
   stop_if_interrupted();
+  if (level == 0) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
   const auto monitor = [this](const IterationRecord& record) {
     progress_.cycle(record);
     return !interrupted();
   };
-  solution.summary = signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(level),
-                                         solution.x, finest ? options_ : loose(options_), registry_, monitor);
+  solution.summary =
+      signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
+                          solution.x, finest ? options_ : loose(options_), registry_, monitor);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
@@ -74,7 +94,7 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
   try {
     Solution<B> solution = discretize_level(model, level);
     if (!coarse.x.empty())
-      solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[level - 1],
+      solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1],
                                solution.discretization.problem);
     solve_level(level, solution);
     coarse = std::move(solution);

@@ -37,6 +37,7 @@ class NestedSolver {
 
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
+  void continue_algebraically(const DiscreteProblem<B>& coarsest);
   void solve_level(std::size_t level, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
@@ -45,7 +46,9 @@ class NestedSolver {
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;
-  std::vector<Prolongation> prolongations_;
+  std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
+  std::size_t algebraic_ = 0;                // number of the latter
+  bool continued_ = false;
 };
 
 }  // namespace signorini

@@ -130,6 +130,8 @@ constexpr KeySpec solver[] = {
     {"cut", number, "0", "[0, 100]", "",
      "also truncate where less is left than this part of the last cycle's largest change"},
     {"rotate", text, "all", "all | not_coarsest | none", "", "levels on which contact vectors use their local basis"},
+    {"algebraic", boolean, "true", "", "",
+     "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "1", "[2, 4096]", "number of threads"},

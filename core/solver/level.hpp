@@ -32,6 +32,16 @@ struct Level {
   std::vector<Index> changed;        ///< vectors whose `removed` changed and is not yet in the coarser matrices
   std::vector<Index> renewed;        ///< rows of A recomputed and not yet in the coarser matrices
 
+  /// No direction in contact, no distances; once slots and prescribed components are known.
+  void clear_phases() {
+    const auto slots = static_cast<std::size_t>(constraints.size());
+    removed = off;
+    critical.assign(slots, 0);
+    phase.assign(slots, 0);
+    lower.assign(slots * B, -infinity);
+    upper.assign(slots * B, infinity);
+  }
+
   LevelView<B> view() const {
     return {vectors,
             A->row.data(),

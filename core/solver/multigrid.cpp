@@ -58,14 +58,7 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
     transfers_[k]->prepare(levels_[k + 1], prolongations[k], rotate, levels_[k]);
     levels_[k].segments = one_box_segment<B>(levels_[k].vectors);
   }
-  for (Level<B>& level : levels_) {
-    const auto slots = static_cast<std::size_t>(level.constraints.size());
-    level.removed = level.off;
-    level.critical.assign(slots, 0);
-    level.phase.assign(slots, 0);
-    level.lower.resize(slots * B);
-    level.upper.resize(slots * B);
-  }
+  for (Level<B>& level : levels_) level.clear_phases();
 }
 
 template <int B>

@@ -130,10 +130,10 @@ void expect_coarse_stiffness(const Mesh<D>& coarsest) {
     fine_problem.fixed.assign(static_cast<std::size_t>(fine_problem.A.size()), 0);
     const Prolongation P = prolongation(meshes.refinements[k], meshes.levels[k].vertices());
     Level<B> fine = finest_level(fine_problem), coarse;
-    allocate(fine);
+    fine.clear_phases();
     MinMerge<B> transfer;
     transfer.prepare(fine, P, true, coarse);
-    allocate(coarse);
+    coarse.clear_phases();
     transfer.assemble(fine, coarse);
     const Eigen::MatrixXd expected = dense(stiffness<D, B>(meshes.levels[k], model));
     EXPECT_LE((dense(coarse.own_matrix) - expected).norm(), 1e-13 * expected.norm());

@@ -119,12 +119,12 @@ TEST(MonotoneRestrictionOnALine, SharesTheDistanceAmongTheWeights) {
   P.column = {0, 1, 0, 1};
   P.weight = {1, 1, 0.5, -0.25};
   Level<1> fine = finest_level(problem), coarse;
-  allocate(fine);
+  fine.clear_phases();
   fine.lower = problem.constraints.lower;
   fine.upper = problem.constraints.upper;
   MinMerge<1> transfer;
   transfer.prepare(fine, P, true, coarse);
-  allocate(coarse);
+  coarse.clear_phases();
   transfer.assemble(fine, coarse);
   transfer.restrict_bounds(fine, coarse);
   EXPECT_EQ(coarse.constraints.lower, (std::vector<double>{-1, -5}));  // -1 / (2 * 0.5) meets -1; 10 / -0.5 < -5

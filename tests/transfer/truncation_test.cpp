@@ -47,10 +47,10 @@ TEST(Truncation, LosesSingleDirectionsOfRotatedVectors) {
   t.problem.frames = {};
   for (Index p = 0; p < 45; ++p) t.problem.frames.add(45, p, Q.data(), Q.data());
   Level<3> fine = finest_level(t.problem), coarse;
-  allocate(fine);
+  fine.clear_phases();
   MinMerge<3> transfer;
   transfer.prepare(fine, t.P, true, coarse);
-  allocate(coarse);
+  coarse.clear_phases();
   truncate(fine, std::vector<Flags>(45, 1));
   transfer.assemble(fine, coarse);
   for (Index q = 0; q < coarse.vectors; ++q) EXPECT_EQ(coarse.off[q], 1) << q;

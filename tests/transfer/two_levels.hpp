@@ -33,17 +33,6 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
   return T;
 }
 
-/// What MonotoneMultigrid does with a level besides the transfer.
-template <int B>
-void allocate(Level<B>& level) {
-  const auto slots = static_cast<std::size_t>(level.constraints.size());
-  level.removed = level.off;
-  level.critical.assign(slots, 0);
-  level.phase.assign(slots, 0);
-  level.lower.assign(slots * B, -infinity);
-  level.upper.assign(slots * B, infinity);
-}
-
 /// New truncation flags of a level, listed as changed where they differ.
 template <int B>
 void truncate(Level<B>& level, const std::vector<Flags>& critical) {
@@ -80,9 +69,9 @@ struct TwoLevels {
     fine = finest_level(problem);
     x.assign(problem.b.size(), 0.0);
     fine.x = x.data();
-    allocate(fine);
+    fine.clear_phases();
     transfer.prepare(fine, P, rotate, coarse);
-    allocate(coarse);
+    coarse.clear_phases();
     for (std::size_t i = 0; i < fine.lower.size(); ++i) {
       const auto [lower, upper] = random_interval(random, 0, 1);
       fine.lower[i] = std::min(lower, 0.0);

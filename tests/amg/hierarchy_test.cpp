@@ -1,0 +1,85 @@
+// Levels chosen by the matrix alone: interpolation keeps constants, coarsening is quick, and the solver converges on
+// them as on geometric ones.
+#include "amg/hierarchy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "amg/classical.hpp"
+#include "core/solver/solve.hpp"
+#include "tests/core/solver/cases.hpp"
+#include "tests/support/pdas.hpp"
+#include "tests/support/problems.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <int B>
+std::unique_ptr<Transfer<B>> min_merge() {
+  return registry().create<Transfer<B>>("transfer", "min_merge");
+}
+
+TEST(ClassicalInterpolation, ReproducesConstantsAndKeepsTwins) {
+  const auto problem = discretize<3, 1>(cube<3>(0, 1, 8), Model<1>{}).problem;
+  const Prolongation P = classical_interpolation(problem.A, problem.fixed);
+  ASSERT_EQ(P.fine(), problem.A.size());
+  EXPECT_LE(P.coarse, P.fine() / 2);
+  Index twins = 0;
+  for (Index p = 0; p < P.fine(); ++p) {
+    twins += P.twin(p);
+    EXPECT_NEAR(std::accumulate(P.weight.begin() + P.row[p], P.weight.begin() + P.row[p + 1], 0.0), 1, 1e-14);
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) EXPECT_GT(P.weight[k], 0);
+  }
+  EXPECT_GE(twins, P.coarse);
+}
+
+TEST(ClassicalInterpolation, LeavesOutWhatIsPrescribedOrCoupledToNothing) {
+  BlockMatrix<1> A;
+  const std::vector<std::vector<double>> rows{{2, -1, 0, 0}, {-1, 2, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  for (Index p = 0; p < 4; ++p) {
+    A.column.push_back(p);
+    A.value.push_back(rows[p][p]);
+    for (Index q = 0; q < 4; ++q)
+      if (q != p && rows[p][q] != 0) {
+        A.column.push_back(q);
+        A.value.push_back(rows[p][q]);
+      }
+    A.row.push_back(static_cast<Offset>(A.column.size()));
+  }
+  const Prolongation P = classical_interpolation(A, {0, 0, 1, 0});
+  EXPECT_EQ(P.coarse, 1);
+  EXPECT_EQ(P.row, (std::vector<Offset>{0, 1, 2, 2, 2}));
+}
+
+/// Cycles to the default tolerance on algebraic levels alone; the solution is that of the reference solver.
+template <int B>
+int cycles(const DiscreteProblem<B>& problem) {
+  const auto prolongations = algebraic_hierarchy<B>(problem, min_merge<B>, 50);
+  EXPECT_GE(prolongations.size(), 2u);
+  std::vector<double> x = problem.start;
+  const Summary s = solve<B>(problem, prolongations, x, {}, registry());
+  EXPECT_TRUE(s.converged()) << s.reason;
+  EXPECT_LE(s.rate, 0.4);
+  const Reference exact = reference(problem);
+  EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
+  return s.iterations;
+}
+
+TEST(AlgebraicHierarchy, SolvesObstacleProblemsWithoutAnyMesh) {
+  const auto lower = [](const double* x) { return -0.02 - 0.1 * (x[0] - 0.3) * (x[0] - 0.3); };
+  for (const int cells : {16, 32, 64})
+    EXPECT_LE(cycles<1>(discretize<2, 1>(cube<2>(0, 1, cells), membrane(-1, lower, {})).problem), 20) << cells;
+  for (const int cells : {8, 16})
+    EXPECT_LE(cycles<1>(discretize<3, 1>(cube<3>(0, 1, cells), membrane(-1, lower, {})).problem), 20) << cells;
+}
+
+TEST(AlgebraicHierarchy, SolvesContactProblemsWithoutAnyMesh) {
+  for (const auto& c : plane_cases()) {
+    if (c.nested.finest().A.size() < 200) continue;
+    EXPECT_LE(cycles<2>(c.nested.finest()), 25) << c.name;
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test
