@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/QR>
+
+#include "amg/cone.hpp"
 #include "amg/masked_cg.hpp"
 #include "core/algebra/products.hpp"
 #include "core/solver/rounding.hpp"
@@ -18,7 +21,9 @@ constexpr double no_pivot = 1e-11;  // where the diagonal is 1
 constexpr int worn_out = 6;         // iterations above which a new factorisation pays
 constexpr double enough = 1e-3;     // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double rounding = 1e-6;   // components of a direction without energy that are zero but for rounding
-constexpr int max_sweeps = 60;      // of Gauss-Seidel alone
+constexpr double suspicious =
+    1e-5;                       // part of p'Dp below which a direction's energy may come from a stale factorisation
+constexpr int max_sweeps = 60;  // of Gauss-Seidel alone
 template <int B>
 constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
 
@@ -108,16 +113,63 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
   r_.resize(static_cast<std::size_t>(level.vectors) * B);
   residual<B>(*level.A, level.x, level.b, r_.data());
   apply_mask<B>(mask_, r_);
-  const bool direct = level.vectors <= max_direct<B>;
-  if (direct && worn_) factorise(level, mask_);
+  const CgResult cg = level.vectors <= max_direct<B> ? solve_directly(level) : solve_iteratively(level);
+  return !(cg.singular && falls_forever(level)) && move(level, cg.singular);
+}
+
+// With a factorisation from other phases directions of little energy are hardly told from such without any: there and
+// where it is worn out it is made anew.
+template <int B>
+CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
   const Precondition precondition_masked = [&](const std::vector<double>& r, std::vector<double>& z) {
     precondition(level, r, z);
     apply_mask<B>(mask_, z);
   };
-  const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, direct ? 1e-8 : 1e-3, max_cg_iterations,
-                                   rounding_of_work(level), r_, d_);
+  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)};
+  if (!worn_) {
+    limits.without_energy = suspicious;
+    const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
+    worn_ = cg.iterations > worn_out;
+    if (!cg.singular) return cg;
+    limits.without_energy = CgLimits().without_energy;
+  }
+  factorise(level, mask_);
+  const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
   worn_ = cg.iterations > worn_out;
-  return move(level, cg.singular);
+  return cg;
+}
+
+template <int B>
+CgResult CoarseNewton<B>::solve_iteratively(const Level<B>& level) {
+  const Precondition precondition_masked = [&](const std::vector<double>& r, std::vector<double>& z) {
+    symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
+    apply_mask<B>(mask_, z);
+  };
+  return masked_cg<B>(*level.A, mask_, precondition_masked,
+                      {.reduction = 1e-3, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)}, r_,
+                      d_);
+}
+
+// Whether the residual does work along a motion without energy that no bound ends: along the motion next to it among
+// those that every bound allows.
+template <int B>
+bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
+  if (motions_.cols() == 0) return false;
+  const Eigen::VectorXd g = motions_.transpose() * Eigen::Map<const Eigen::VectorXd>(r_.data(), motions_.rows());
+  std::vector<Eigen::VectorXd> conditions;
+  const auto require = [&](const Eigen::VectorXd& row) {
+    if (row.norm() > rounding / std::sqrt(static_cast<double>(motions_.rows()))) conditions.push_back(row.normalized());
+  };
+  for (Index slot = 0; slot < level.constraints.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Bound<B> bound(level, slot, k);
+      const Eigen::VectorXd row = motions_.row(Offset{level.constraints.vector[slot]} * B + k);
+      if (bound.lower > -infinity) require(row);
+      if (bound.upper < infinity) require(-row);
+    }
+  Eigen::MatrixXd G(static_cast<Eigen::Index>(conditions.size()), g.size());
+  for (std::size_t k = 0; k < conditions.size(); ++k) G.row(static_cast<Eigen::Index>(k)) = conditions[k];
+  return (conditions.empty() ? g : project_onto_cone(G, g)).norm() > rounding * g.norm();
 }
 
 // The full step cut off component by component where that lowers the energy, else as far as the bounds allow. Along a
@@ -167,41 +219,51 @@ void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>&
   Eigen::SparseMatrix<double> S(n, n);
   S.setFromTriplets(entries.begin(), entries.end());
   factorise(S);
-  factorised_ = true;
 }
 
 // Where a pivot vanishes there is a motion without energy, and a spring holds its component. That leaves the solutions
 // of consistent systems as they are, and does not magnify what rounding does along the motion.
 template <int B>
 void CoarseNewton<B>::factorise(Eigen::SparseMatrix<double>& S) {
+  std::vector<Eigen::Index> held;
   factor_.setShift(0);
   factor_.analyzePattern(S);
   for (int motions = 0; motions < max_motions; ++motions) {
     factor_.factorize(S);
     const auto& pivots = factor_.vectorD();
     const auto vanishing = std::find_if(pivots.begin(), pivots.end(), [](double d) { return !(d > no_pivot); });
-    if (vanishing == pivots.end()) return;
+    if (vanishing == pivots.end()) return find_motions(held);
     const auto component = factor_.permutationPinv().indices()[vanishing - pivots.begin()];
     S.coeffRef(component, component) += 1;
+    held.push_back(component);
   }
+  motions_.resize(S.rows(), 0);
   factor_.setShift(1e-9);
   factor_.factorize(S);
 }
 
+// Each spring stands for one motion without energy: that which it alone resists.
+template <int B>
+void CoarseNewton<B>::find_motions(const std::vector<Eigen::Index>& held) {
+  motions_ = Eigen::MatrixXd::Zero(factor_.rows(), static_cast<Eigen::Index>(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k) motions_(held[k], static_cast<Eigen::Index>(k)) = 1;
+  if (held.empty()) return;
+  motions_ = Eigen::Map<const Eigen::VectorXd>(scale_.data(), factor_.rows()).asDiagonal() *
+             Eigen::MatrixXd(factor_.solve(motions_));
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions_);
+  motions_ = qr.householderQ() * Eigen::MatrixXd::Identity(motions_.rows(), motions_.cols());
+}
+
 template <int B>
 void CoarseNewton<B>::precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const {
-  if (factorised_) {
-    Eigen::VectorXd s(static_cast<Eigen::Index>(r.size()));
-    for (std::size_t i = 0; i < r.size(); ++i) s[static_cast<Eigen::Index>(i)] = scale_[i] * r[i];
-    s = factor_.solve(s);
-    for (std::size_t i = 0; i < r.size(); ++i) z[i] = scale_[i] * s[static_cast<Eigen::Index>(i)];
-    // Components that were masked when it was made are unknown to the factorisation.
-    for (Index p = 0; p < level.vectors; ++p)
-      for (int k = 0; k < B; ++k)
-        if (const Offset i = Offset{p} * B + k; scale_[i] == 0) z[i] = r[i] / level.A->diagonal(p)[k * B + k];
-    return;
-  }
-  symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
+  Eigen::VectorXd s(static_cast<Eigen::Index>(r.size()));
+  for (std::size_t i = 0; i < r.size(); ++i) s[static_cast<Eigen::Index>(i)] = scale_[i] * r[i];
+  s = factor_.solve(s);
+  for (std::size_t i = 0; i < r.size(); ++i) z[i] = scale_[i] * s[static_cast<Eigen::Index>(i)];
+  // Components that were masked when it was made are unknown to the factorisation.
+  for (Index p = 0; p < level.vectors; ++p)
+    for (int k = 0; k < B; ++k)
+      if (const Offset i = Offset{p} * B + k; scale_[i] == 0) z[i] = r[i] / level.A->diagonal(p)[k * B + k];
 }
 
 template <int B>

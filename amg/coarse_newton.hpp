@@ -2,6 +2,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
+#include "amg/masked_cg.hpp"
 #include "core/solver/components.hpp"
 
 namespace signorini {
@@ -17,15 +18,19 @@ class CoarseNewton final : public CoarseSolver<B> {
 
  private:
   bool newton_step(const Level<B>& level);
+  CgResult solve_directly(const Level<B>& level);
+  CgResult solve_iteratively(const Level<B>& level);
   void factorise(const Level<B>& level, const std::vector<Flags>& mask);
   void factorise(Eigen::SparseMatrix<double>& S);
+  void find_motions(const std::vector<Eigen::Index>& held);
+  bool falls_forever(const Level<B>& level) const;
   void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
   bool move(const Level<B>& level, bool singular);
 
   std::vector<Flags> mask_;
-  std::vector<double> r_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
+  std::vector<double> r_, rest_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  bool factorised_ = false;
+  Eigen::MatrixXd motions_;  // orthonormal, without energy, as far as the factorised components allow; its columns
   bool worn_ = true;
 };
 

@@ -27,9 +27,7 @@ double diagonal_energy(const BlockMatrix<B>& A, const std::vector<double>& p) {
   return sum;
 }
 
-// Parts of p'Dp. p'Ap below the first is rounding. Below the second p is smooth: rounding adds up along all of it, and
-// would be answered by large steps.
-constexpr double without_energy = 1e-13;
+// Part of p'Dp below which p is smooth: rounding adds up along all of it, and would be answered by large steps.
 constexpr double little_energy = 1e-5;
 
 double largest(const std::vector<double>& v) {
@@ -65,7 +63,7 @@ void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& m
 
 template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
-                   double reduction, int limit, double rounding, std::vector<double>& r, std::vector<double>& d) {
+                   const CgLimits& limits, std::vector<double>& r, std::vector<double>& d) {
   CgResult result;
   d.assign(r.size(), 0.0);
   std::vector<double> z(r.size()), p(r.size()), Ap(r.size());
@@ -73,14 +71,14 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
   double rz = dot(r, z);
   const double start = rz;
   p = z;
-  while (rz > reduction * reduction * start && rz > 0 && result.iterations < limit) {
+  while (rz > limits.reduction * limits.reduction * start && rz > 0 && result.iterations < limits.iterations) {
     ++result.iterations;
     product<B>(A, p.data(), Ap.data());
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
     const double pDp = diagonal_energy<B>(A, p);
-    if (!(pAp > little_energy * pDp) && !(rz > rounding * largest(p))) return result;
-    if (!(pAp > without_energy * pDp)) {
+    if (!(pAp > little_energy * pDp) && !(rz > limits.rounding * largest(p))) return result;
+    if (!(pAp > limits.without_energy * pDp)) {
       result.singular = true;
       d = p;
       return result;
@@ -107,11 +105,11 @@ template void symmetric_gauss_seidel(const BlockMatrix<2>&, const std::vector<Fl
                                      std::vector<double>&);
 template void symmetric_gauss_seidel(const BlockMatrix<3>&, const std::vector<Flags>&, const std::vector<double>&,
                                      std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<1>&, const std::vector<Flags>&, const Precondition&, double, int, double,
+template CgResult masked_cg(const BlockMatrix<1>&, const std::vector<Flags>&, const Precondition&, const CgLimits&,
                             std::vector<double>&, std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<2>&, const std::vector<Flags>&, const Precondition&, double, int, double,
+template CgResult masked_cg(const BlockMatrix<2>&, const std::vector<Flags>&, const Precondition&, const CgLimits&,
                             std::vector<double>&, std::vector<double>&);
-template CgResult masked_cg(const BlockMatrix<3>&, const std::vector<Flags>&, const Precondition&, double, int, double,
+template CgResult masked_cg(const BlockMatrix<3>&, const std::vector<Flags>&, const Precondition&, const CgLimits&,
                             std::vector<double>&, std::vector<double>&);
 
 }  // namespace signorini

@@ -12,17 +12,24 @@ struct CgResult {
   bool singular = false;  ///< d ends in a direction without energy along which the functional falls: no minimum
 };
 
+struct CgLimits {
+  double reduction = 1e-8;  ///< of the preconditioned residual, at which to stop
+  int iterations = 1000;
+  /// Work along a direction with entries up to one that may be rounding, and does not make a direction without energy
+  /// one without minimum.
+  double rounding = 0;
+  double without_energy = 1e-13;  ///< part of p'Dp, D the diagonal of A, up to which p'Ap counts as nothing
+};
+
 /// Preconditioner: z from r, both zero on masked components.
 using Precondition = std::function<void(const std::vector<double>& r, std::vector<double>& z)>;
 
-/// Conjugate gradients for A d = r on the components whose bit is not set in `mask` (per vector), from d = 0. Stops at
-/// `reduction` of the preconditioned residual. A may be semidefinite.
+/// Conjugate gradients for A d = r on the components whose bit is not set in `mask` (per vector), from d = 0. A may be
+/// semidefinite.
 /// @param r on entry the right-hand side, zero on masked components; overwritten
-/// @param rounding work along a direction with entries up to one that may be rounding, and does not make a direction
-///   without energy one without minimum
 template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
-                   double reduction, int limit, double rounding, std::vector<double>& r, std::vector<double>& d);
+                   const CgLimits& limits, std::vector<double>& r, std::vector<double>& d);
 
 /// z = M^-1 r with M symmetric Gauss-Seidel on the unmasked components.
 template <int B>

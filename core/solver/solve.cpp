@@ -143,7 +143,7 @@ class Solve {
     record(cycle);
     const bool go_on = !monitor || monitor(summary_.history.back());
     if (finished()) return true;
-    if (!cycle.bounded && sums_.natural_residual > rounding_level())
+    if (!cycle.bounded && !rests_at_rounding())
       return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
     if (!go_on) return end(Outcome::interrupted, "interrupted");
     if (summary_.iterations >= options_.max_iterations)
@@ -239,10 +239,10 @@ class Solve {
   }
 
   void add_gain() {
+    refuse_nan(sums_.size);
 #ifdef SIGNORINI_CHECKS
     assert(sums_.gain >= -1e-8 * sums_.size - rounding_of_gain() && "the energy must never grow");
 #endif
-    refuse_nan(sums_.size);
     estimate_.add(sums_.gain, std::sqrt(std::max(sums_.correction, 0.0)));
   }
 
@@ -299,13 +299,17 @@ class Solve {
                                                  s.residual, s.algebraic_error, options_.tolerance));
     stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
     least_ = std::min(least_, absolute);
-    if (stalled_ >= 3 && absolute <= rounding_level() && s.algebraic_error <= 1e-4)
+    if (stalled_ >= 3 && rests_at_rounding() && s.algebraic_error <= 1e-4)
       return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
     return false;
   }
 
-  // Natural residuals below a small multiple of machine precision times the largest unknown say nothing.
-  double rounding_level() const { return 1000 * std::numeric_limits<double>::epsilon() * sums_.largest; }
+  // Natural residuals below a small multiple of machine precision times the largest unknown say nothing, unless it is
+  // the iteration that carried the unknowns away.
+  bool rests_at_rounding() const {
+    return sums_.natural_residual <= 1000 * std::numeric_limits<double>::epsilon() * sums_.largest &&
+           summary_.residual <= 1e-3;
+  }
 
   bool end(Outcome outcome, std::string reason) {
     summary_.outcome = outcome;

@@ -151,7 +151,7 @@ TEST(MaskedConjugateGradients, SolveOnTheUnmaskedComponentsOnly) {
   const CgResult result = masked_cg<3>(
       A, mask,
       [&](const std::vector<double>& from, std::vector<double>& z) { symmetric_gauss_seidel<3>(A, mask, from, z); },
-      1e-12, 1000, 1e-14, r, d);
+      {.reduction = 1e-12, .iterations = 1000, .rounding = 1e-14}, r, d);
   EXPECT_FALSE(result.singular);
   Eigen::MatrixXd M = dense(A);
   for (int i = 0; i < 150; ++i)

@@ -234,6 +234,61 @@ TEST(LooseBody, RestsToATightTolerance) {
   EXPECT_LE(r.summary().iterations, 25);
 }
 
+/// Lifted off the plane, from contact or from above it.
+template <int D>
+std::string lifted(double load, double gap) {
+  Point<D> up{}, origin{}, normal{}, far;
+  up[D - 1] = load;
+  origin[D - 1] = -gap;
+  normal[D - 1] = 1;
+  far.fill(1);
+  return fmt::format(R"(
+title = "lifted"
+[[body]]
+name = "b"
+shape = "{}"
+from = {}
+to = {}
+cells = {}
+young = 1
+poisson = 0.3
+[[load]]
+body = "b"
+on = "top"
+value = {}
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "plane"
+point = {}
+normal = {}
+)",
+                     D == 2 ? "rectangle" : "box", text(Point<D>{}), text(far), D == 2 ? "[4, 4]" : "[2, 2, 2]",
+                     text(up), text(origin), text(normal));
+}
+
+template <int D>
+void expect_lifts_off(const std::vector<int>& refinements) {
+  for (const int refinement : refinements)
+    for (const char* coarse : {"newton"})
+      for (const double load : {1e-6, 0.1, 100.0})
+        for (const double gap : {0.0, 0.1}) {
+          SCOPED_TRACE(fmt::format("{} refinements, {}, load {}, gap {}", refinement, coarse, load, gap));
+          try {
+            run<D, D>(lifted<D>(load, gap), {uniform(refinement), fmt::format("solver.coarse={}", coarse)});
+            ADD_FAILURE() << "held";
+          } catch (const Error& error) {
+            EXPECT_EQ(error.status(), Exit::no_solution) << error.what();
+          }
+        }
+}
+
+TEST(LooseBody, LiftsOff) {
+  expect_lifts_off<2>({0, 1, 3});
+  expect_lifts_off<3>({0, 1, 2});
+}
+
 template <int D>
 void expect_slips(const Motion<D>& motion, int refinements) {
   const Resting<D> block(motion, 2);
