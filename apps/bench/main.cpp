@@ -116,9 +116,9 @@ void run(bool quick) {
     return sizes;
   };
   const Case radial2{"radial 2D", "obstacle_radial_2d.toml", upto(4, 8), {}, {}};
-  const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(1, 3), {}, {1.0}};
+  const Case radial3{"radial 3D", "obstacle_radial_3d.toml", upto(2, 5), {}, {1.0}};
   const Case spiral{"spiral", "obstacle_spiral.toml", upto(5, 8), {}, {0.0}};
-  const Case ball{"ball on plane", "ball_on_plane.toml", upto(1, 3), {}, {0, 0, -1}};
+  const Case ball{"ball on plane", "ball_on_plane.toml", upto(1, 4), {}, {0, 0, -1}};
   const Case cube{"cube 3D (S3)", "obstacle_cube_3d.toml", upto(3, 5), {}, {}};
   const Case bump{"cube on bump (E3)", "cube_on_bump.toml", upto(2, 4), {}, {0, 0, -1}};
   const Case flat{"cube on flat bump (E3w)",
@@ -163,6 +163,7 @@ void run(bool quick) {
       "time per unknown over the first row's |\n| --- | --- | --- | --- | --- |\n");
   growth<2, 1>(radial2);
   growth<2, 1>(spiral);
+  growth<3, 1>(radial3);
   growth<3, 3>(ball);
   growth<2, 1>(fine);
   growth<3, 3>(ball_fine);
