@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "program.hpp"
 
 namespace signorini::test {
@@ -53,6 +55,47 @@ TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {
   EXPECT_EQ(r.at("plugins")[0].at("id"), "contact");
   EXPECT_TRUE(fs::exists(r.at("plugins")[0].at("file").get<std::string>()));
   EXPECT_TRUE(r.at("estimate").is_null());
+}
+
+TEST_F(Solve, PhasesOfEveryLevelAreReported) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  const auto r = report("o");
+  std::istringstream csv(read(folder_ / "o/phases.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "step,iteration,level,vectors,critical,contact_0,contact_1,contact_2,changed,renewed,seconds");
+  for (const auto& record : r.at("history")) {
+    const auto& levels = record.at("levels");
+    ASSERT_EQ(levels.size(), r.at("levels").size());
+    EXPECT_EQ(levels.back().at("critical"), record.at("contact_nodes"));
+    EXPECT_EQ(levels.back().at("contact")[0], record.at("contact_nodes")) << "one direction";
+    EXPECT_EQ(levels.back().at("changed"), record.at("changed"));
+    for (const auto& level : levels) {
+      ASSERT_TRUE(std::getline(csv, line));
+      EXPECT_THAT(line,
+                  HasSubstr(fmt::format(",{},{},", level.at("vectors").get<int>(), level.at("critical").get<int>())));
+    }
+  }
+  EXPECT_FALSE(std::getline(csv, line));
+}
+
+TEST_F(Solve, LargeUnrefinedMeshesGetAlgebraicLevels) {
+  write("membrane.toml", membrane);
+  const std::vector<std::string> fine{"--set", "body.0.cells=[40, 40]", "--set", "refine.uniform=0"};
+  const auto solved = [&](const std::string& algebraic) {
+    std::vector<std::string> arguments{"solve", "membrane.toml", "--out",
+                                       "o",     "--set",         "solver.algebraic=" + algebraic};
+    arguments.insert(arguments.end(), fine.begin(), fine.end());
+    const Ended ended = signorini(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return report("o");
+  };
+  const auto with = solved("true"), without = solved("false");
+  EXPECT_GE(with.at("levels").size(), 2u);
+  EXPECT_EQ(without.at("levels").size(), 1u);
+  EXPECT_NEAR(with.at("energy").get<double>() / without.at("energy").get<double>(), 1, 1e-12);
+  EXPECT_LE(with.at("iterations"), 25);
 }
 
 TEST_F(Solve, PunchGivesUniformPressureAndItsForce) {
