@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
 #include "core/component/settings.hpp"
 #include "core/scene/rigid_shape.hpp"
+#include "core/scene/specs.hpp"
 
 namespace signorini {
 namespace {
@@ -34,6 +36,17 @@ template <int B>
   input_error(place, fmt::format("the obstacle type '{}' knows no problem with {} unknowns per vertex", scene.type, B));
 }
 
+/// The keys of a shape that was forgotten are no unknown options.
+void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
+  const std::span options(type.options, type.option_count);
+  for (const auto& [key, raw] : scene.options.entries) {
+    if (std::ranges::any_of(options, [&](const OptionSpec& option) { return key == option.name; })) continue;
+    for (const ShapeSpec& shape : obstacle_shapes())
+      if (find_key(shape.keys, key))
+        input_error(raw.origin, fmt::format("missing key 'shape': '{}' is a key of shape '{}'", key, shape.name));
+  }
+}
+
 /// The obstacle with the settings it holds on to.
 template <int B>
 std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene, int dimension,
@@ -44,6 +57,7 @@ std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene,
   if (!create) wrong_equation<B>(scene, type);
   if (scene.shape && !type.takes_shape)
     input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
+  if (!scene.shape && type.takes_shape) expect_shape(scene, type);
   std::shared_ptr<const DistanceFunction> shape;
   if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
   auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},
@@ -73,7 +87,7 @@ Load<B> load(const Scene::Load& scene) {
 template <int B>
 Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t) {
   const Scene::Body& body = scene.bodies.front();
-  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t};
+  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t, body.source.table};
   for (const auto& entry : scene.fixes) model.fixes.push_back(fix<B>(entry));
   for (const auto& entry : scene.loads) model.loads.push_back(load<B>(entry));
   for (const auto& entry : scene.obstacles)

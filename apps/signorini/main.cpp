@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-constexpr const char* footer = R"(Exit status:
+constexpr const char* exit_status = R"(Exit status:
   0    solved to the tolerance
   1    wrong usage
   2    bad input (file, scene, matrix); nothing is written but the message
@@ -22,6 +22,22 @@ constexpr const char* footer = R"(Exit status:
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C); nothing is written)";
+
+constexpr const char* solve_notes =
+    "Progress is shown when standard error is a terminal; the convergence table goes to standard output.\n\n";
+
+constexpr const char* check_exit_status = R"(Exit status:
+  0    nothing wrong was found
+  1    wrong usage
+  2    bad input (file, scene)
+  4    no solution exists (infeasible bounds)
+  5    a plugin could not be loaded
+  130  interrupted (Ctrl-C))";
+
+constexpr const char* list_exit_status = R"(Exit status:
+  0    listed, with the plugins that were rejected
+  1    wrong usage
+  2    standard output cannot be written)";
 
 struct Arguments {
   SolveArguments solve;
@@ -45,10 +61,10 @@ CLI::App* add_solve(CLI::App& app, Arguments& arguments) {
       ->add_option("--out", arguments.solve.out,
                    "folder for report.json, solution.vtu, tables and pictures, in place of an earlier run's; "
                    "default: the scene's name in the current folder")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check([](const std::string& folder) { return folder.empty() ? "expected the name of a folder" : ""; });
   command->add_flag("--quiet", arguments.solve.quiet, "print nothing but errors");
-  command->footer(
-      "Progress is shown when standard error is a terminal; the convergence table goes to standard output.");
+  command->footer(std::string(solve_notes) + exit_status);
   return command;
 }
 
@@ -56,6 +72,7 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
   auto* command = app.add_subcommand(
       "check", "validate a scene and say what would be solved, with which plugins and how many unknowns");
   add_scene(*command, arguments);
+  command->footer(check_exit_status);
   return command;
 }
 
@@ -63,6 +80,7 @@ CLI::App* add_list(CLI::App& app, Arguments& arguments) {
   auto* command = app.add_subcommand("list", "show registered components, their options and the files they come from");
   command->add_option("KIND", arguments.list_kinds, "one kind of component only; default: all")
       ->check(CLI::IsMember(listable_kinds()));
+  command->footer(list_exit_status);
   return command;
 }
 
@@ -79,6 +97,12 @@ int report_error(const std::string& message, Exit status) {
   return static_cast<int>(status);
 }
 
+/// The status of a run that came to its end, unless what it printed did not reach its reader.
+int flushed(int status) {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  return report_error("standard output: cannot be written: is the disk full?", Exit::input);
+}
+
 /// What is wrong with the first argument, if it is no option and no command.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return {};
@@ -93,7 +117,7 @@ int run(int argc, char** argv) {
   Arguments arguments;
   app.set_version_flag("--version", std::string("signorini ") + version);
   app.require_subcommand(1);
-  app.footer(footer);
+  app.footer(exit_status);
   auto* solve = add_solve(app, arguments);
   auto* check = add_check(app, arguments);
   auto* list = add_list(app, arguments);
@@ -121,12 +145,13 @@ int main(int argc, char** argv) {
   catch_interrupts();
   keep_freed_memory();
   try {
-    return run(argc, argv);
+    return flushed(run(argc, argv));
   } catch (const Error& error) {
     return report_error(error.what(), error.status());
   } catch (const std::bad_alloc&) {
     return report_error("there is not enough memory", Exit::input);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return flushed(static_cast<int>(Exit::input));
     return report_error(std::string("internal: ") + error.what(), Exit::input);
   }
 }

@@ -25,11 +25,12 @@ constexpr Index large_coarsest_mesh = 1000;
 
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
-[[noreturn]] void throw_unbounded(const Solution<B>& solution) {
-  if (solution.discretization.dropped.empty()) throw Error(Exit::no_solution, solution.summary.reason);
-  throw Error(Exit::input, solution.summary.reason +
-                               " but perhaps obstacles that meet others in dependent or nearly parallel directions at "
-                               "one vertex; such obstacles are not available in this version");
+[[noreturn]] void throw_unbounded(const std::string& origin, const Solution<B>& solution) {
+  if (solution.discretization.dropped.empty())
+    throw Error(Exit::no_solution, fmt::format("{}: {}", origin, solution.summary.reason));
+  input_error(origin, solution.summary.reason +
+                          " but perhaps obstacles that meet others in dependent or nearly parallel directions at one "
+                          "vertex; such obstacles are not available in this version");
 }
 }  // namespace
 
@@ -70,7 +71,7 @@ void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarse
 }
 
 template <int D, int B>
-void NestedSolver<D, B>::solve_level(std::size_t level, Solution<B>& solution) {
+void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution) {
   stop_if_interrupted();
   if (level == 0) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
@@ -84,7 +85,7 @@ void NestedSolver<D, B>::solve_level(std::size_t level, Solution<B>& solution) {
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
-  if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(solution);
+  if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(model.origin, solution);
 }
 
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
@@ -96,7 +97,7 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
     if (!coarse.x.empty())
       solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1],
                                solution.discretization.problem);
-    solve_level(level, solution);
+    solve_level(model, level, solution);
     coarse = std::move(solution);
     return true;
   } catch (const Error& error) {
@@ -118,7 +119,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
     solution.x =
         interpolate(coarse.discretization.problem, coarse.x, prolongations_.back(), solution.discretization.problem);
   coarse = {};
-  solve_level(finest, solution);
+  solve_level(model, finest, solution);
   return solution;
 }
 
@@ -127,7 +128,7 @@ Solution<B> NestedSolver<D, B>::solve_from(const Model<B>& model, const std::vec
   const std::size_t finest = hierarchy_.levels.size() - 1;
   Solution<B> solution = discretize_level(model, finest);
   solution.x = to_local(solution.discretization.problem, start);
-  solve_level(finest, solution);
+  solve_level(model, finest, solution);
   return solution;
 }
 

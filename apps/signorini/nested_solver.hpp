@@ -38,7 +38,7 @@ class NestedSolver {
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   void continue_algebraically(const DiscreteProblem<B>& coarsest);
-  void solve_level(std::size_t level, Solution<B>& solution);
+  void solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
   const MeshHierarchy<D>& hierarchy_;

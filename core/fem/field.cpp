@@ -15,11 +15,13 @@ double Field::operator()(const Site& site) const {
   const double value = function_ ? function_(site) : constant_;
   if (!std::isfinite(value))
     input_error(origin_.empty() ? "value" : origin_,
-                fmt::format("found {} for '{}' at x = [{:g}, {:g}, {:g}], expected a finite number", value,
-                            function_ ? text_ : fmt::format("{}", constant_), site.x[0], site.x[1], site.x[2]));
+                fmt::format("found {} for '{}' at x = [{:g}, {:g}, {:g}], expected a finite number", value, text(),
+                            site.x[0], site.x[1], site.x[2]));
   return value;
 }
 
 std::optional<double> Field::constant() const { return function_ ? std::nullopt : std::optional<double>(constant_); }
+
+std::string Field::text() const { return function_ ? text_ : fmt::format("{}", constant_); }
 
 }  // namespace signorini

@@ -26,7 +26,8 @@ class Field {
   double operator()(const Site& site) const;
   /// The number, if this is no expression.
   std::optional<double> constant() const;
-  const std::string& text() const { return text_; }
+  /// As the user wrote it; a constant as a number.
+  std::string text() const;
   const std::string& origin() const { return origin_; }
 
  private:

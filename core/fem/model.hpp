@@ -52,7 +52,8 @@ struct Model {
   std::vector<Fix<B>> fixes;
   std::vector<Load<B>> loads;
   std::vector<ObstacleTerm<B>> obstacles;
-  double t = 1;  ///< step parameter
+  double t = 1;                 ///< step parameter
+  std::string origin = "body";  ///< of the body, for messages: "scene.toml:3: body.0"
 };
 
 }  // namespace signorini

@@ -92,11 +92,11 @@ inline void add_block(const Material<D>& material, double measure, const Point<D
 }
 
 template <int D>
-LinearElement<D> checked_element(const Mesh<D>& mesh, const Simplex<D>& vertices) {
+LinearElement<D> checked_element(const Mesh<D>& mesh, const Simplex<D>& vertices, const std::string& origin) {
   const LinearElement<D> out = linear_element(mesh, vertices);
   if (out.measure > 0) return out;
   const Site where = site<D>(centroid<D>(mesh, vertices), 0);
-  input_error("mesh", fmt::format("element with {} {} around ({}, {}, {}), expected a positive one",
+  input_error(origin, fmt::format("element with {} {} around ({}, {}, {}), expected a positive one",
                                   D == 2 ? "area" : "volume", out.measure, where.x[0], where.x[1], where.x[2]));
 }
 
@@ -106,7 +106,7 @@ void add_upper_half(const Mesh<D>& mesh, const Model<B>& model, Assembly<B>& out
   const MaterialLaw<B> law(model);
   Material<B> material = law.constant() ? law.at({}) : Material<B>{};
   for (const auto& vertices : mesh.elements) {
-    const LinearElement<D> s = checked_element(mesh, vertices);
+    const LinearElement<D> s = checked_element(mesh, vertices, model.origin);
     if (!law.constant()) material = law.at(site<D>(centroid<D>(mesh, vertices), model.t));
     for (int a = 0; a <= D; ++a) {
       const Index p = vertices[a];

@@ -1,9 +1,12 @@
 #include "core/io/atomic_files.hpp"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
 #include <fstream>
 #include <utility>
 
@@ -12,10 +15,26 @@
 namespace signorini {
 namespace fs = std::filesystem;
 
+namespace {
+
+const std::string staging_prefix = ".signorini-";
+
+/// Whether a folder of this name is left from a process that has ended, or from one that had this one's number.
+bool is_left_over(const std::string& name) {
+  if (!name.starts_with(staging_prefix)) return false;
+  pid_t process = 0;
+  const auto [end, error] = std::from_chars(name.data() + staging_prefix.size(), name.data() + name.size(), process);
+  if (error != std::errc() || end != name.data() + name.size() || process <= 0) return false;
+  return process == getpid() || (kill(process, 0) != 0 && errno == ESRCH);
+}
+
+}  // namespace
+
 AtomicFiles::AtomicFiles(fs::path folder)
-    : folder_(std::move(folder)), staging_(folder_ / fmt::format(".signorini-{}", getpid())) {
+    : folder_(std::move(folder)), staging_(folder_ / fmt::format("{}{}", staging_prefix, getpid())) {
   try {
     create_folder();
+    remove_left_overs();
     fs::create_directory(staging_);
   } catch (const fs::filesystem_error& error) {
     remove_traces();
@@ -31,6 +50,15 @@ void AtomicFiles::create_folder() {
   for (auto path = missing.rbegin(); path != missing.rend(); ++path)
     if (fs::create_directory(*path)) created_.push_back(*path);
   if (!fs::is_directory(folder_)) throw fs::filesystem_error("", std::make_error_code(std::errc::not_a_directory));
+}
+
+void AtomicFiles::remove_left_overs() const {
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (entry.is_directory() && !entry.is_symlink() && is_left_over(entry.path().filename().string()))
+      old.push_back(entry.path());
+  std::error_code ignored;  // another user's
+  for (const fs::path& folder : old) fs::remove_all(folder, ignored);
 }
 
 void AtomicFiles::remove_traces() noexcept {

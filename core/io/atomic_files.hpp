@@ -8,6 +8,7 @@ namespace signorini {
 
 /// Result files of one run that appear together or not at all. They are written into a hidden folder beside their final
 /// place and renamed by commit(). Without commit() nothing stays behind, nor do folders that were made for it.
+/// What a process that was killed left in the folder is removed.
 class AtomicFiles {
  public:
   /// Creates `folder`; Error(Exit::input) if that is impossible or nothing can be written there.
@@ -25,6 +26,7 @@ class AtomicFiles {
 
  private:
   void create_folder();
+  void remove_left_overs() const;
   void remove_traces() noexcept;
   void remove_outdated(const std::vector<std::filesystem::path>& written,
                        const std::function<bool(const std::string&)>& outdated) const;

@@ -1,12 +1,26 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/io/picture.hpp"
 
 namespace signorini {
 namespace {
 
-/// Zero and infinity cannot be drawn on a logarithmic axis: gnuplot leaves out what is no number.
-std::string logarithmic(double value) { return value > 0 && value < infinity ? fmt::format("{}", value) : "nan"; }
+/// Zero and infinity cannot be drawn on a logarithmic axis.
+bool is_drawn(double value) { return value > 0 && value < infinity; }
+
+/// gnuplot leaves out what is no number.
+std::string logarithmic(double value) { return is_drawn(value) ? fmt::format("{}", value) : "nan"; }
+
+/// gnuplot finds no ranges by itself where there is nothing to draw.
+std::string ranges(const std::vector<IterationRecord>& history) {
+  const bool drawn = std::ranges::any_of(history, [](const IterationRecord& record) {
+    return is_drawn(record.residual) || is_drawn(record.algebraic_error);
+  });
+  return fmt::format("set xrange [0.5:{}]\nset yrange [{}]\nset y2range [0:{}]\n", history.empty() ? "1.5" : "*",
+                     drawn ? "*:*" : "1e-16:1", history.empty() ? "1" : "*");
+}
 
 constexpr const char* script = R"(
 set xlabel 'iteration'
@@ -16,8 +30,6 @@ set logscale y
 set format y '10^{%T}'
 set ytics nomirror
 set y2tics
-set y2range [0:*]
-set xrange [0.5:*]
 set grid xtics ytics lc '#dddddd'
 set key below
 set style data linespoints
@@ -33,8 +45,8 @@ void draw_convergence(Gnuplot& gnuplot, const std::filesystem::path& picture,
   for (const IterationRecord& record : history)
     data += fmt::format("{} {} {} {}\n", record.iteration, logarithmic(record.residual),
                         logarithmic(record.algebraic_error), record.contact_nodes);
-  gnuplot.add_data("data", data.empty() ? "0 nan nan nan\n" : data);
-  gnuplot.start(script, picture, 900, 600);
+  gnuplot.add_data("data", data.empty() ? "1 nan nan nan\n" : data);
+  gnuplot.start(ranges(history) + script, picture, 900, 600);
 }
 
 }  // namespace signorini

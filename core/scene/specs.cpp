@@ -87,7 +87,9 @@ constexpr KeySpec obstacle[] = {
 
 constexpr KeySpec plane_obstacle[] = {
     {"point", fields, nullptr, "", "", "a point of the plane"},
-    {"normal", fields, nullptr, "", "", "points from the obstacle towards the body; of any length"},
+    {"normal", fields, nullptr, "", "",
+     "points from the obstacle towards the body; of any length. A plugin's own option `normal` cannot be given beside "
+     "it"},
 };
 constexpr KeySpec sphere_obstacle[] = {
     {"center", fields, nullptr, "", "", "centre"},

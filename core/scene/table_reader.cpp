@@ -38,7 +38,9 @@ void check_file(const std::filesystem::path& file, const std::string& place) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     input_error(place, fmt::format("{} is a folder", in_quotes(file.string())));
-  if (std::filesystem::exists(file, error)) return;
+  if (std::filesystem::is_regular_file(file, error)) return;
+  if (std::filesystem::exists(file, error))
+    input_error(place, fmt::format("{} is a pipe or a device, expected a regular file", in_quotes(file.string())));
   std::vector<std::string> neighbours;
   const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))

@@ -95,6 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"ShapeKeyBesideMesh", membrane, "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]",
                "mesh = \"scene.toml\"\nradius = 1", 2,
                "body.0.radius: 'radius' is a key of shape 'disk' and has no meaning without 'shape'"},
+        Broken{"NoFaceWhereAConstantHolds", membrane, "on = \"boundary\"", "where = \"1 - 1\"", 2,
+               "fix.0.where: no boundary face has all its vertices where '0'"},
+        Broken{"MissingObstacleShape", punch, "shape = \"plane\"\n", "", 2,
+               "scene.toml:33: obstacle.0.point: missing key 'shape': 'point' is a key of shape 'plane'"},
+        Broken{"BodyWithoutArea", membrane, "from = [-1, -1]\nto = [1, 1]", "from = [0, 0]\nto = [1e-300, 1e-300]", 2,
+               "scene.toml:2: body.0: element with area 0"},
         Broken{"UnknownOption", membrane, "lower =", "lowr =", 2, "lower"},
         Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2,
                "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
@@ -110,6 +116,7 @@ TEST_F(Program, ABodyThatNothingHoldsHasNoSolution) {
   write("scene.toml", loose);
   const Ended ended = signorini({"solve", "scene.toml"});
   EXPECT_EQ(ended.status, 4) << ended.err;
+  EXPECT_THAT(ended.err, testing::HasSubstr("scene.toml:2: body.0: "));
   EXPECT_THAT(written(), testing::IsEmpty());
 }
 

@@ -1,6 +1,7 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <thread>
@@ -20,7 +21,10 @@ TEST_F(CommandLine, HelpNamesAllCommandsAndEndsWell) {
     EXPECT_THAT(ended.out, HasSubstr(command));
   const Ended solve = signorini({"solve", "--help"});
   EXPECT_EQ(solve.status, 0);
-  for (const char* option : {"--out", "--set", "--quiet", "SCENE"}) EXPECT_THAT(solve.out, HasSubstr(option));
+  for (const char* option : {"--out", "--set", "--quiet", "SCENE", "Exit status", "iteration limit"})
+    EXPECT_THAT(solve.out, HasSubstr(option));
+  EXPECT_THAT(signorini({"check", "--help"}).out,
+              testing::AllOf(HasSubstr("Exit status"), testing::Not(HasSubstr("iteration limit"))));
 }
 
 TEST_F(CommandLine, VersionIsPrinted) {
@@ -36,7 +40,8 @@ TEST_F(CommandLine, WrongUsageIsStatusOneWithAMessage) {
                                                        {"solve", "a.toml", "b.toml"},
                                                        {"solve", "a.toml", "--nonsense"},
                                                        {"list", "nothing"},
-                                                       {"solve", "a.toml", "--out"}};
+                                                       {"solve", "a.toml", "--out"},
+                                                       {"solve", "a.toml", "--out", ""}};
   for (const auto& arguments : wrong) {
     const Ended ended = signorini(arguments);
     EXPECT_EQ(ended.status, 1) << testing::PrintToString(arguments);
@@ -102,6 +107,23 @@ TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
   EXPECT_THAT(written(), testing::ElementsAre("file"));
 }
 
+TEST_F(CommandLine, OutputThatCannotBePrintedIsAnError) {
+  write("membrane.toml", membrane);
+  const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
+  for (const char* arguments : {"solve membrane.toml", "check membrane.toml", "list", "--help"}) {
+    const int status = std::system((program + arguments + " > /dev/full 2> .err").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
+    EXPECT_THAT(read(folder_ / ".err"), HasSubstr("standard output: cannot be written")) << arguments;
+  }
+}
+
+TEST_F(CommandLine, APipeIsNoScene) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  const Ended ended = signorini({"check", "pipe"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("'pipe' is a pipe or a device, expected a regular file"));
+}
+
 TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
   write("membrane.toml", membrane);
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -144,6 +166,9 @@ TEST_F(CommandLine, ARunRemovesWhatAnEarlierOneWroteAndNothingElse) {
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "steps.count=2"}).status, 0);
   write("o/solution_x.vtu", "");
   write("o/notes", "");
+  const pid_t ended = start("signorini", {"--version"});
+  wait_for(ended);
+  fs::create_directory(folder_ / "o" / fmt::format(".signorini-{}", ended));  // as a killed run leaves it
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "output.pictures=false"}).status, 0);
   EXPECT_THAT(written("o"), testing::UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv",
                                                           "phases.csv", "solution_x.vtu", "notes"));

@@ -196,6 +196,14 @@ TEST_F(Solve, WithoutGnuplotThereIsANoteInsteadOfPictures) {
   EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "phases.csv"));
 }
 
+TEST_F(Solve, DrawsAResidualThatIsZero) {
+  write("membrane.toml", membrane);
+  const Ended ended = signorini({"solve", "membrane.toml", "--out", "o", "--set", "obstacle.0.lower=-1"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_EQ(ended.err, "");
+  EXPECT_TRUE(fs::exists(folder_ / "o/convergence.png"));
+}
+
 TEST_F(Solve, ConvergenceCsvRepeatsTheHistoryInFullPrecision) {
   write("membrane.toml", membrane);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);

@@ -13,6 +13,7 @@ TEST(Field, ANumberIsConstant) {
   const Field field = 2.5;
   EXPECT_EQ(field(Site{}), 2.5);
   EXPECT_EQ(field.constant(), 2.5);
+  EXPECT_EQ(field.text(), "2.5");
 }
 
 TEST(Field, AnExpressionSeesPositionNormalAndStep) {
