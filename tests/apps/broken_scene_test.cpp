@@ -98,9 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"NoFaceWhereAConstantHolds", membrane, "on = \"boundary\"", "where = \"1 - 1\"", 2,
                "fix.0.where: no boundary face has all its vertices where '0'"},
         Broken{"MissingObstacleShape", punch, "shape = \"plane\"\n", "", 2,
-               "scene.toml:33: obstacle.0.point: missing key 'shape': 'point' is a key of shape 'plane'"},
-        Broken{"BodyWithoutArea", membrane, "from = [-1, -1]\nto = [1, 1]", "from = [0, 0]\nto = [1e-300, 1e-300]", 2,
-               "scene.toml:2: body.0: element with area 0"},
+               "scene.toml:35: obstacle.0.point: missing key 'shape': 'point' is a key of shape 'plane'"},
         Broken{"UnknownOption", membrane, "lower =", "lowr =", 2, "lower"},
         Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2,
                "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
@@ -118,6 +116,14 @@ TEST_F(Program, ABodyThatNothingHoldsHasNoSolution) {
   EXPECT_EQ(ended.status, 4) << ended.err;
   EXPECT_THAT(ended.err, testing::HasSubstr("scene.toml:2: body.0: "));
   EXPECT_THAT(written(), testing::IsEmpty());
+}
+
+TEST_F(Program, AnElementWithoutAreaNamesItsBody) {
+  write("scene.toml", membrane.substr(0, membrane.find("[[probe]]")));
+  const Ended ended = signorini({"check", "scene.toml", "--set", "body.0.from=[0, 0]", "--set",
+                                 "body.0.to=[1e-300, 1e-300]", "--set", "obstacle.0.lower=-1"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, testing::HasSubstr("scene.toml:2: body.0: element with area 0"));
 }
 
 TEST_F(Program, MissingSceneIsBadInput) {

@@ -158,7 +158,7 @@ TEST_F(CommandLine, SecondRunReplacesTheFirstResults) {
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=1"}).status, 0);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=2"}).status, 0);
   EXPECT_EQ(report("o").at("unknowns"), 225);
-  EXPECT_EQ(written("o").size(), 5u);
+  EXPECT_EQ(written("o").size(), 6u);
 }
 
 TEST_F(CommandLine, ARunRemovesWhatAnEarlierOneWroteAndNothingElse) {

@@ -19,6 +19,9 @@ constexpr double most_elements = 2e8;
 template <int D>
 constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 
+// Sizes of fewer spacings of floating point numbers leave no room for vertices between vertices.
+constexpr double least_spacings = 8;
+
 // A shape thinner than any size asked for may take so many elements by itself; some ten seconds.
 constexpr double most_unasked = 2e5, most_stretch = 2;
 
@@ -51,6 +54,11 @@ double Sizing<D>::operator()(Point<D> p) const {
   if (h < floor_)
     fail(fmt::format("found {:g} at [{:g}], too small for this shape (the least is {:g})", h * unit_,
                      fmt::join(p, ", "), floor_ * unit_));
+  double farthest = 0;
+  for (const double x : p) farthest = std::max(farthest, std::abs(x));
+  if (const double spacing = std::numeric_limits<double>::epsilon() * farthest; h * unit_ < least_spacings * spacing)
+    fail(fmt::format("found {:g} at [{:g}], where numbers are {:.2g} apart; expected a shape nearer to the origin",
+                     h * unit_, fmt::join(p, ", "), spacing));
   if (++evaluations_ > limit_) no_end();
   smallest_ = std::min(smallest_, h);
   return std::min(h, ceiling_);

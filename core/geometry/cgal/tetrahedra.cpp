@@ -206,6 +206,7 @@ std::vector<double> sampled_sizes(const Domain& domain, const Sizing<3>& sizing)
     if (domain.inside(p)) sizes.push_back(sizing(p));
   }
   for (const Point<3>& p : domain.surface_points()) sizes.push_back(sizing(p));
+  if (sizes.empty()) sizes.push_back(sizing(low));
   return sizes;
 }
 

@@ -34,10 +34,31 @@ using Polygons = std::vector<std::vector<std::size_t>>;
 Kernel::Point_3 cgal(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 Point<3> plain(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
+/// CGAL takes memory for what the header of an OFF file promises before it reads on.
+void check_counts(const std::string& file) {
+  if (CGAL::IO::internal::get_file_extension(file) != "off") return;
+  std::ifstream stream(file, std::ios::binary);
+  const CGAL::File_scanner_OFF header(stream, false);
+  const auto bytes = std::filesystem::file_size(file);
+  if (header.size_of_vertices() > bytes || header.size_of_facets() > bytes)
+    input_error(file, fmt::format("the header promises {} vertices and {} faces, more than the {} bytes of the file "
+                                  "can hold",
+                                  header.size_of_vertices(), header.size_of_facets(), bytes));
+}
+
+bool read_polygons(const std::string& file, std::vector<Kernel::Point_3>& points, Polygons& polygons) {
+  try {
+    return CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false));
+  } catch (const std::bad_alloc&) {
+    input_error(file, "there is not enough memory for the vertices and faces that the file promises");
+  }
+}
+
 void read_soup(const std::string& file, std::vector<Kernel::Point_3>& points, Polygons& polygons) {
   if (!std::filesystem::is_regular_file(file) || !std::ifstream(file))
     input_error(file, "the file cannot be read; expected a triangle surface");
-  if (!CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false)))
+  check_counts(file);
+  if (!read_polygons(file, points, polygons))
     input_error(file, "no surface in the format that the name tells; expected OFF, OBJ, STL or PLY");
   if (polygons.empty()) input_error(file, "no faces; expected a triangle surface");
   for (std::size_t i = 0; i < points.size(); ++i) require_finite(file, fmt::format("vertex {}", i), plain(points[i]));

@@ -134,6 +134,14 @@ TEST(RoundErrors, NameWhatIsWrongWithTheSize) {
   EXPECT_THAT(complaint(Ball{{0, 0, 0}, 1}, 1e-7), HasSubstr("too small for this shape"));
 }
 
+TEST(RoundErrors, TellOfASizeBelowTheSpacingOfNumbers) {
+  for (const double far : {3e15, 1e20, 1e300})
+    for (const geometry::Shape3& shape :
+         {geometry::Shape3(Ball{{far, 0, 0}, 1}), geometry::Shape3(Ball{{0, 0, -far}, 1, true}),
+          geometry::Shape3(Cylinder{{0, far, far}, 1, 2})})
+      EXPECT_THAT(complaint(shape, 0.25), AllOf(HasSubstr("size: found 0.25 at"), HasSubstr("apart")));
+}
+
 TEST(RoundErrors, TellOfAShapeTooThinForItsSize) {
   EXPECT_THAT(complaint(Cylinder{{0, 0, 0}, 100, 0.1}, 50),
               AllOf(HasSubstr("cylinder: size: "), HasSubstr("only 0.1 thick"), HasSubstr("3e+07 elements"),

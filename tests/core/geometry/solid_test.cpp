@@ -100,6 +100,12 @@ TEST(SolidErrors, NameWhatIsWrongWithTheFile) {
   EXPECT_THAT(complaint(TemporaryFile("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), HasSubstr("expected"));
 }
 
+TEST(SolidErrors, NameCountsThatTheFileCannotHold) {
+  for (const char* header : {"OFF\n2000000000 1", "COFF\n# a\n\n1 2000000000"})
+    EXPECT_THAT(complaint(TemporaryFile("counts.off", header + std::string(" 0\n0 0 0\n"))),
+                HasSubstr("bytes of the file can hold"));
+}
+
 TEST(SolidErrors, NameWhatIsWrongWithTheSurface) {
   Surface open = cube(0, 1);
   open.triangles.pop_back();
