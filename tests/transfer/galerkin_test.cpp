@@ -59,10 +59,10 @@ struct Chain {
 
   Chain(const DiscreteProblem<B>& on, const std::array<Prolongation, 2>& by, bool rotate) : problem(on), P(by) {
     levels[2] = finest_level(problem);
-    allocate(levels[2]);
+    levels[2].clear_phases();
     for (int k = 1; k >= 0; --k) {
       transfer[k].prepare(levels[k + 1], P[k], rotate, levels[k]);
-      allocate(levels[k]);
+      levels[k].clear_phases();
     }
   }
 
