@@ -92,7 +92,7 @@ selftest() {
   try good amg/a.cpp '#include "transfer/a.hpp"'
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
-  try good core/a.cpp '// frame/work/home is no path'
+  try good core/a.cpp '// frame/wo''rk/home is no path'
   for folder in transfer smoothers amg estimators obstacles apps tests; do
     try wrong core/a.cpp "#include \"$folder/a.hpp\""
   done
