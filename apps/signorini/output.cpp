@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <optional>
-#include <regex>
 
 #include "apps/signorini/show.hpp"
 #include "core/io/convergence.hpp"
@@ -115,9 +116,13 @@ void SolutionFiles::finish() const {
 }
 
 bool is_result_file(const std::string& name) {
-  static const std::regex names(
-      R"(report\.json|solution\.vtu|solution_\d{3,}\.vtu|solution\.pvd|convergence\.(csv|png)|phases\.csv|result\.png)");
-  return std::regex_match(name, names);
+  constexpr std::array<std::string_view, 7> fixed = {
+      "report.json", "solution.vtu", "solution.pvd", "convergence.csv", "phases.csv", "convergence.png", "result.png"};
+  if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
+  constexpr std::string_view start = "solution_", end = ".vtu";
+  if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + 3 + end.size()) return false;
+  return std::all_of(name.begin() + start.size(), name.end() - end.size(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 template <int D, int B>

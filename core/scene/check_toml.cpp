@@ -68,7 +68,15 @@ class Walk {
       fail("expected the name of a table after '['");
   }
 
+  // The TOML library reads on through a quote inside of a value, and does not survive every character there.
+  void expect_token_start(char quote) const {
+    constexpr std::string_view before = " \t\r\n=,[{.";
+    if (at_ > 0 && before.find(text_[at_ - 1]) == std::string_view::npos && !(at_ == 3 && text_[0] == '\xef'))
+      fail(fmt::format("a {} in the middle of a value", quote));
+  }
+
   void string(char quote) {
+    expect_token_start(quote);
     const std::string triple(3, quote);
     const bool multiline = text_.substr(at_, 3) == triple;
     const std::string_view close = multiline ? std::string_view(triple) : text_.substr(at_, 1);

@@ -30,6 +30,7 @@ const std::vector<Broken> broken = {
     {ball, "= 2\n", "= \xd1\xa2\n", {"scene.toml:35:", "ASCII"}},
     {ball, "= [0, 0, 0]\nradius", "= [0, }\nradius", {"scene.toml:6:", "expected ']', found '}'"}},
     {ball, "= 2\n", "= 2]\n", {"scene.toml:35:", "closes nothing"}},
+    {ball, "= 2\n", "= 2'\xd2\x96'\n", {"scene.toml:35:", "in the middle of a value"}},
     {ball, "[solver]", "[>solver\"]", {"scene.toml:31:", "the name of a table"}},
     {ball, "[[fix]]", "  [[ ?]]", {"scene.toml:14:", "the name of a table"}},
     {ball, "1.0\nsize", "inf\nsize", {"scene.toml:7: body.0.radius", "finite"}},
