@@ -37,6 +37,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.pre = reader.integer("pre");
   solver.post = reader.integer("post");
   solver.smoother = reader.text("smoother");
+  solver.relaxation = reader.number("relaxation");
   solver.transfer = reader.text("transfer");
   solver.coarse = reader.text("coarse");
   solver.truncate = reader.text("truncate");

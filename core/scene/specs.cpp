@@ -125,6 +125,8 @@ constexpr KeySpec solver[] = {
     {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
     {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},
     {"smoother", text, "forward", "", "", "a smoother of `signorini list smoothers`"},
+    {"relaxation", number, "1.2", "(0, 2)", "",
+     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel"},
     {"transfer", text, "min_merge", "", "", "a monotone restriction of `signorini list transfers`"},
     {"coarse", text, "newton", "", "", "a coarse solver of `signorini list coarse`"},
     {"truncate", text, "normal", "none | normal | tangential", "",

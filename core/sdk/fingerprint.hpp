@@ -79,7 +79,7 @@ static constexpr const char* sanitizer = "none";
 #define SIGNORINI_OFFSET(type, member) SIGNORINI_NUMBER("offset of " #type "::" #member, offsetof(type, member))
 #define SIGNORINI_LAYOUT_OF_BLOCKS(B)                                                                    \
   SIGNORINI_SIZE(LevelView<B>), SIGNORINI_OFFSET(LevelView<B>, x), SIGNORINI_OFFSET(LevelView<B>, slot), \
-      SIGNORINI_OFFSET(LevelView<B>, upper), SIGNORINI_SIZE(LocalConstraint<B>),                         \
+      SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_SIZE(LocalConstraint<B>),                    \
       SIGNORINI_OFFSET(LocalConstraint<B>, direction), SIGNORINI_OFFSET(LocalConstraint<B>, upper)
 
 /// The build of this translation unit.

@@ -21,6 +21,7 @@ struct LevelView {
   Index slots;
   const double* lower;  ///< B per slot: bounds on x
   const double* upper;
+  double relaxation;  ///< in (0, 2): how far sweeps go towards the local minimiser where no bound is met; 1 is there
 };
 
 }  // namespace signorini

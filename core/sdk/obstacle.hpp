@@ -56,7 +56,8 @@ class Obstacle {
                         Status& status) const noexcept = 0;
 
   /// One projected block Gauss-Seidel sweep over the vectors first <= p < last in the given order: at each vector the
-  /// exact minimiser of the local problem (Krause, 4.3). The energy never grows.
+  /// minimiser of the local problem (Krause, 4.3), over-relaxed by level.relaxation where that meets no bound. The
+  /// energy never grows.
   virtual void sweep(const LevelView<B>& level, Index first, Index last, Order order) const noexcept = 0;
 
   /// LocObsUpdate: for the slots of the vectors first <= p < last the bounds of an admissible correction of the iterate

@@ -15,16 +15,18 @@ inline void row_residual(const LevelView<B>& level, Index p, double* r) {
   for (int i = 0; i < B; ++i) r[i] = level.b[Offset{p} * B + i] - Ax[i];
 }
 
-/// Gauss-Seidel at a vector without obstacle.
+/// Over-relaxed Gauss-Seidel at a vector without obstacle.
 template <int B>
 inline void relax(const LevelView<B>& level, Index p) {
   double r[B];
   row_residual<B>(level, p, r);
+  for (int i = 0; i < B; ++i) r[i] *= level.relaxation;
   block::add_product<B>(level.inverse + Offset{p} * B * B, r, level.x + Offset{p} * B);
 }
 
-/// Projected Gauss-Seidel at the vector of a slot. The distance to the bounds is taken from the iterate every time:
-/// updating it along the sweep is unstable (Krause, remark 4.3).
+/// Projected Gauss-Seidel at the vector of a slot, over-relaxed up to the bounds for scalars, exact for blocks. The
+/// distance to the bounds is taken from the iterate every time: updating it along the sweep is unstable (Krause,
+/// remark 4.3).
 template <int B, class Local>
 inline void relax_projected(const LevelView<B>& level, Index slot) {
   const Index p = level.constrained[slot];
@@ -32,7 +34,7 @@ inline void relax_projected(const LevelView<B>& level, Index slot) {
   if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
     double r;
     row_residual<1>(level, p, &r);
-    *x = Local::clamp(*x + level.inverse[p] * r, level.lower[slot], level.upper[slot]);
+    *x = Local::clamp(*x + level.relaxation * level.inverse[p] * r, level.lower[slot], level.upper[slot]);
     return;
   }
   const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};

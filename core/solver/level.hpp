@@ -22,6 +22,7 @@ struct Level {
   Frames<B> frames;
   Constraints<B> constraints;
   std::vector<Segment<B>> segments;
+  double relaxation = 1;          ///< of sweeps: LevelView::relaxation
   double inherited_rounding = 0;  ///< rounding_of_work() of the finer levels
 
   std::vector<Flags> off;            ///< per vector: components prescribed, or without any fine function left
@@ -54,7 +55,8 @@ struct Level {
             constraints.vector.data(),
             constraints.size(),
             constraints.lower.data(),
-            constraints.upper.data()};
+            constraints.upper.data(),
+            relaxation};
   }
 
   /// One projected Gauss-Seidel sweep over the vectors first <= p < last: one virtual call per segment.

@@ -58,7 +58,10 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
     transfers_[k]->prepare(levels_[k + 1], prolongations[k], rotate, levels_[k]);
     levels_[k].segments = one_box_segment<B>(levels_[k].vectors);
   }
-  for (Level<B>& level : levels_) level.clear_phases();
+  for (Level<B>& level : levels_) {
+    level.relaxation = settings.relaxation;
+    level.clear_phases();
+  }
 }
 
 template <int B>

@@ -40,6 +40,7 @@ class MonotoneMultigrid {
     /// The correction from the coarser levels goes as far along the projected direction as lowers the energy most
     /// (Graeser and Kornhuber 2009, section 5). Needs no monotone restriction of the bounds.
     bool line_search = false;
+    double relaxation = 1.2;  ///< of the sweeps on all levels
   };
 
   /// Keeps references to the problem and the prolongations (coarsest first).

@@ -11,6 +11,7 @@ struct SolverOptions {
   std::string cycle = "V";             ///< V, W or F
   int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
   std::string smoother = "forward";    ///< a registered smoother
+  double relaxation = 1.2;             ///< of the smoother's sweeps, in (0, 2); 1 is plain Gauss-Seidel
   std::string transfer = "min_merge";  ///< a registered monotone restriction
   std::string coarse = "newton";       ///< a registered coarse solver
   std::string truncate = "normal";     ///< none, normal or tangential

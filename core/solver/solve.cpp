@@ -43,6 +43,7 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
   require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
   require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
   require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
+  require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
   const bool tnnmg = choice<bool>("method", o.method, {{"monotone", false}, {"tnnmg", true}, {"pgs", false}});
   const auto truncate = choice<Truncation>(
       "truncate", o.truncate,
@@ -57,7 +58,8 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
           truncate,
           choice<Rotate>("rotate", o.rotate,
                          {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
-          tnnmg};
+          tnnmg,
+          o.relaxation};
 }
 
 template <int B>

@@ -65,6 +65,7 @@ TYPED_TEST(ProjectedSweep, LowersTheEnergyAndStaysWithinBounds) {
     std::vector<double> x = admissible_start(random, problem, 10);
     Level<B> level = finest_level(problem);
     level.x = x.data();
+    level.relaxation = random.between(0.1, 1.9);
     auto [before, size] = energy(problem, x);
     for (int sweep = 0; sweep < 200; ++sweep) {
       level.sweep(random.chance(0.5) ? Order::forward : Order::backward);

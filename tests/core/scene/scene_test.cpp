@@ -84,6 +84,7 @@ TEST(Scene, DefaultsOfTheSolverAreThoseOfItsOptions) {
   EXPECT_EQ(scene.solver.pre, options.pre);
   EXPECT_EQ(scene.solver.post, options.post);
   EXPECT_EQ(scene.solver.smoother, options.smoother);
+  EXPECT_EQ(scene.solver.relaxation, options.relaxation);
   EXPECT_EQ(scene.solver.transfer, options.transfer);
   EXPECT_EQ(scene.solver.coarse, options.coarse);
   EXPECT_EQ(scene.solver.truncate, options.truncate);
@@ -100,6 +101,7 @@ cycle = "W"
 pre = 2
 post = 3
 smoother = "forward"
+relaxation = 1.5
 transfer = "other"
 coarse = "direct"
 truncate = "none"
@@ -120,6 +122,7 @@ convergence = false
   EXPECT_EQ(scene.solver.pre, 2);
   EXPECT_EQ(scene.solver.post, 3);
   EXPECT_EQ(scene.solver.smoother, "forward");
+  EXPECT_EQ(scene.solver.relaxation, 1.5);
   EXPECT_EQ(scene.solver.transfer, "other");
   EXPECT_EQ(scene.solver.coarse, "direct");
   EXPECT_EQ(scene.solver.truncate, "none");

@@ -34,6 +34,8 @@ std::vector<Setting> settings() {
   for (const double cut : {0.1, 1.0}) add(fmt::format("cut {}", cut), [=](O& o) { o.cut = cut; });
   for (const char* smoother : {"forward", "backward", "symmetric"}) add(smoother, [=](O& o) { o.smoother = smoother; });
   add("V22 symmetric", [](O& o) { o.smoother = "symmetric", o.pre = o.post = 2; });
+  for (const double factor : {0.7, 1.0, 1.8})
+    add(fmt::format("relaxation {}", factor), [=](O& o) { o.relaxation = factor; });
   add("no pre", [](O& o) { o.pre = 0; });
   add("no post", [](O& o) { o.post = 0; });
   add("not truncated", [](O& o) { o.truncate = "none"; });
