@@ -24,8 +24,8 @@ inline void relax(const LevelView<B>& level, Index p) {
   block::add_product<B>(level.inverse + Offset{p} * B * B, r, level.x + Offset{p} * B);
 }
 
-/// Projected Gauss-Seidel at the vector of a slot, over-relaxed up to the bounds for scalars, exact for blocks. The
-/// distance to the bounds is taken from the iterate every time: updating it along the sweep is unstable (Krause,
+/// Projected Gauss-Seidel at the vector of a slot, over-relaxed where that meets no bound, and up to it for scalars.
+/// The distance to the bounds is taken from the iterate every time: updating it along the sweep is unstable (Krause,
 /// remark 4.3).
 template <int B, class Local>
 inline void relax_projected(const LevelView<B>& level, Index slot) {
@@ -34,17 +34,22 @@ inline void relax_projected(const LevelView<B>& level, Index slot) {
   if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
     double r;
     row_residual<1>(level, p, &r);
-    *x = Local::clamp(*x + level.relaxation * level.inverse[p] * r, level.lower[slot], level.upper[slot]);
+    *x = Local::clamp(*x + level.inverse[p] * (level.relaxation * r), level.lower[slot], level.upper[slot]);
     return;
   }
   const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};
-  double r[B], lower[B], upper[B], d[B];
+  double r[B], relaxed[B], lower[B], upper[B], d[B];
   row_residual<B>(level, p, r);
   for (int k = 0; k < B; ++k) {
+    relaxed[k] = level.relaxation * r[k];
     lower[k] = bound[0][k] - x[k];
     upper[k] = bound[1][k] - x[k];
   }
-  Local::correct(level.value + level.row[p] * B * B, level.inverse + Offset{p} * B * B, r, lower, upper, d);
+  const double* inverse = level.inverse + Offset{p} * B * B;
+  block::product<B>(inverse, relaxed, d);
+  bool inside = true;
+  for (int k = 0; k < B; ++k) inside = inside && d[k] >= lower[k] && d[k] <= upper[k];
+  if (!inside) Local::correct(level.value + level.row[p] * B * B, inverse, r, lower, upper, d);
   // Set, not added, where a bound is met: contact then is an exact comparison.
   for (int k = 0; k < B; ++k) x[k] = d[k] <= lower[k] ? bound[0][k] : d[k] >= upper[k] ? bound[1][k] : x[k] + d[k];
 }

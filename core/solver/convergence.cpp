@@ -10,13 +10,14 @@ namespace signorini {
 void ErrorEstimate::add(double gain, double correction) {
   gain = std::max(gain, 0.0);
   constexpr double slowest = 0.999;
+  constexpr double caution = 1.1;  // the last gains are the fast components', what is left the slow ones
   // Until there are two gains nothing is known of the rate: a middling one, 0.7.
   double ratio = 0.5;
   const std::size_t n = gains_.size();
   if (n > 0 && gains_[n - 1] > 0) ratio = gain / gains_[n - 1];
-  if (n > 1 && gains_[n - 2] > 0) ratio = std::sqrt(gain / gains_[n - 2]);  // acceleration makes single ones uneven
+  if (n > 1 && gains_[n - 2] > 0) ratio = std::max(ratio, std::sqrt(gain / gains_[n - 2]));  // acceleration makes single ones uneven
   ratio = std::min(ratio, slowest);
-  error_ = std::sqrt(2 * gain * ratio / (1 - ratio));
+  error_ = caution * std::sqrt(2 * gain * ratio / (1 - ratio));
   gains_.push_back(gain);
   corrections_.push_back(correction);
 }

@@ -66,11 +66,10 @@ TEST(Iterations, AsymptoticRate) {
     expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(symmetric, uniform(k))));
 }
 
-// After two refinements of the ball the cycle alone is at 0.32.
 TEST(Iterations, AsymptoticRateWithoutAcceleration) {
   const auto alone = with(symmetric, "solver.krylov=false");
   expect_fast<2, 1>(read_scene(shipped_scenes / "obstacle_radial_2d.toml", alone));
-  expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(alone, uniform(1))));
+  for (int k = 1; k <= 2; ++k) expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(alone, uniform(k))));
 }
 
 }  // namespace

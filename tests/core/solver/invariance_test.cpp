@@ -159,7 +159,21 @@ Renumbered solve_renumbered(const Nested<B>& nested, const SolverOptions& option
   return out;
 }
 
-// A random order smooths a little worse than the order of the refinement, which runs along the elements.
+// The mean number of iterations over some random orders, whose solutions all are x.
+template <int B>
+double mean_iterations(const Case<B>& c, const SolverOptions& options, const std::vector<double>& x, Random& random) {
+  constexpr int orders = 6;
+  int sum = 0;
+  for (int k = 0; k < orders; ++k) {
+    const Renumbered other = solve_renumbered(c.nested, options, random);
+    EXPECT_LE((other.x - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
+    sum += other.iterations;
+  }
+  return double(sum) / orders;
+}
+
+// A random order smooths a little worse than the order of the refinement, which runs along the elements. Means, since
+// it is up to rounding when biactive vectors are truncated.
 template <int B>
 void expect_independent_of_numbering(const Case<B>& c, Random& random) {
   SolverOptions options;
@@ -167,12 +181,9 @@ void expect_independent_of_numbering(const Case<B>& c, Random& random) {
   options.tolerance = 1e-9;
   std::vector<double> x;
   const Summary original = solve_from_zero(c.nested, x, options);
-  const Renumbered first = solve_renumbered(c.nested, options, random);
-  const Renumbered second = solve_renumbered(c.nested, options, random);
-  EXPECT_LE((first.x - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
-  EXPECT_LE((second.x - vector(x)).norm(), 1e-8 * vector(x).norm()) << c.name;
-  EXPECT_NEAR(first.iterations, second.iterations, 1) << c.name;
-  EXPECT_LE(original.iterations, first.iterations + 1) << c.name;
+  const double first = mean_iterations(c, options, x, random), second = mean_iterations(c, options, x, random);
+  EXPECT_NEAR(first, second, 1) << c.name;
+  EXPECT_LE(original.iterations, first + 1) << c.name;
 }
 
 TEST(Invariance, NumberingOfTheVectors) {
