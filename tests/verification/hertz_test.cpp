@@ -84,8 +84,11 @@ void expect_hertz(double delta, const std::string& size, int refinements) {
   EXPECT_LE(std::abs(last.pressure), 0.03);
   EXPECT_LE(std::abs(last.approach), 0.03);
   EXPECT_LE(std::abs(last.radius), std::abs(first.radius) / 2);
+  EXPECT_LE(std::abs(last.pressure), std::abs(first.pressure) / 4);
   for (int k = 1; k <= refinements; ++k) {
-    EXPECT_LE(std::abs(found[k].pressure), std::max(std::abs(found[k - 1].pressure), 0.001));
+    if (k > 1)  // the error of the largest pressure may change its sign
+      EXPECT_LE(std::abs(found[k].pressure),
+                std::max(std::abs(found[k - 1].pressure), std::abs(found[k - 2].pressure)));
     EXPECT_LE(std::abs(found[k].approach), std::abs(found[k - 1].approach));
   }
 }
