@@ -164,7 +164,10 @@ Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<
   std::vector<Index> number(part.size(), -1);
   Prolongation out;
   for (std::size_t p = 0; p < part.size(); ++p)
-    if (part[p] == Part::coarse) number[p] = out.coarse++;
+    if (part[p] == Part::coarse) {
+      number[p] = out.coarse++;
+      out.twin.push_back(static_cast<Index>(p));
+    }
   Row row(graph, part);
   for (Index p = 0; p < graph.size(); ++p) {
     if (part[p] == Part::coarse) {

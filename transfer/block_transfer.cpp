@@ -40,9 +40,10 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
 template <int B>
 void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const {
   coarse.off.assign(static_cast<std::size_t>(coarse.vectors), 0);
-  for (Index p = 0; p < fine.vectors; ++p) {
-    if (!P_->twin(p)) continue;
-    const Index q = P_->column[P_->row[p]];
+  const std::vector<Index> twins = P_->twins();
+  for (Index q = 0; q < coarse.vectors; ++q) {
+    const Index p = twins[q];
+    if (p < 0) continue;
     const double* Q = fine.frames.at(p);
     if (!Q) {
       coarse.off[q] = fine.off[p];

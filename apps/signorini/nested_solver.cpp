@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "amg/hierarchy.hpp"
+#include "amg/nested_start.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
@@ -12,13 +13,6 @@
 
 namespace signorini {
 namespace {
-
-/// A start for the next finer level need not be better than the discretisation error.
-SolverOptions loose(SolverOptions options) {
-  options.tolerance = std::max(options.tolerance, 1e-3);
-  options.max_iterations = std::min(options.max_iterations, 5);
-  return options;
-}
 
 /// Vectors on the coarsest mesh above which the hierarchy goes on below it.
 constexpr Index large_coarsest_mesh = 1000;
@@ -37,7 +31,15 @@ template <int B>
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
                                  const Registry& registry, const Progress& progress, Times& times)
-    : hierarchy_(hierarchy), options_(options), registry_(registry), progress_(progress), times_(times) {
+    : hierarchy_(hierarchy),
+      options_(options),
+      registry_(registry),
+      progress_(progress),
+      times_(times),
+      monitor_([this](const IterationRecord& record) {
+        progress_.cycle(record);
+        return !interrupted();
+      }) {
   Stopwatch watch;
   for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
     prolongations_.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
@@ -70,18 +72,31 @@ void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarse
   times_.setup += watch.elapsed();
 }
 
+/// The start comes from the next coarser mesh, below all meshes from algebraic levels.
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
+  Solution<B> solution = discretize_level(model, level);
+  const DiscreteProblem<B>& problem = solution.discretization.problem;
+  if (!coarse.x.empty()) {
+    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
+  } else if (level == 0 && options_.start == "nested") {
+    continue_algebraically(problem);
+    Stopwatch watch;
+    solution.x =
+        nested_start(problem, std::span(prolongations_).first(algebraic_), loose(options_), registry_, monitor_);
+    times_.solve += watch.elapsed();
+  }
+  return solution;
+}
+
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution) {
   stop_if_interrupted();
   if (level == 0) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
-  const auto monitor = [this](const IterationRecord& record) {
-    progress_.cycle(record);
-    return !interrupted();
-  };
   solution.summary =
       signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
-                          solution.x, finest ? options_ : loose(options_), registry_, monitor);
+                          solution.x, finest ? options_ : loose(options_), registry_, monitor_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
@@ -93,10 +108,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
 template <int D, int B>
 bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   try {
-    Solution<B> solution = discretize_level(model, level);
-    if (!coarse.x.empty())
-      solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1],
-                               solution.discretization.problem);
+    Solution<B> solution = begin_level(model, level, coarse);
     solve_level(model, level, solution);
     coarse = std::move(solution);
     return true;
@@ -114,10 +126,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   if (options_.start == "nested")
     for (std::size_t level = 0; level < finest; ++level)
       if (!try_level(model, level, coarse)) coarse = {};
-  Solution<B> solution = discretize_level(model, finest);
-  if (!coarse.x.empty())
-    solution.x =
-        interpolate(coarse.discretization.problem, coarse.x, prolongations_.back(), solution.discretization.problem);
+  Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
   solve_level(model, finest, solution);
   return solution;

@@ -8,6 +8,7 @@
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
 #include "core/solver/prolongation.hpp"
+#include "core/solver/solve.hpp"
 #include "core/solver/summary.hpp"
 
 namespace signorini {
@@ -37,6 +38,7 @@ class NestedSolver {
 
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
+  Solution<B> begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
   void continue_algebraically(const DiscreteProblem<B>& coarsest);
   void solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
@@ -46,6 +48,7 @@ class NestedSolver {
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;
+  const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
   bool continued_ = false;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 
 namespace signorini {
@@ -19,5 +20,12 @@ struct SolverOptions {
   std::string rotate = "all";  ///< all, not_coarsest or none
   bool krylov = true;          ///< accelerate the cycles while the phases rest
 };
+
+/// For a start on a finer level, which need not be better than the discretisation error.
+inline SolverOptions loose(SolverOptions options) {
+  options.tolerance = std::max(options.tolerance, 1e-3);
+  options.max_iterations = std::min(options.max_iterations, 5);
+  return options;
+}
 
 }  // namespace signorini

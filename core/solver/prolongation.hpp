@@ -6,8 +6,8 @@
 namespace signorini {
 
 /// Interpolation from a coarse to a fine level: scalar weights in compressed rows, one row per fine vector, the same
-/// for all components. A coarse vector whose row holds the single weight one at some fine vector is that vector's twin
-/// and shares its frame and its prescribed components. Geometric and algebraic levels use the same form.
+/// for all components. A coarse vector may be one of the fine vectors, its twin, whose row then holds the single weight
+/// one; it shares the twin's frame and prescribed components. Geometric and algebraic levels use the same form.
 struct Prolongation {
   Index coarse = 0;            ///< number of coarse vectors
   std::vector<Offset> row{0};  ///< fine + 1
@@ -15,9 +15,18 @@ struct Prolongation {
   std::vector<double> weight;
   bool midpoints = false;  ///< coarse vectors are coupled only where a fine one lies between them (uniform refinement)
 
+  std::vector<Index> twin;  ///< per coarse vector, -1: none; empty where rows with the single weight one tell
+
   Index fine() const { return static_cast<Index>(row.size()) - 1; }
-  /// Whether the fine vector p is the twin of a coarse one.
-  bool twin(Index p) const { return row[p + 1] == row[p] + 1 && weight[row[p]] == 1; }
+
+  /// Per coarse vector its twin, -1: none.
+  std::vector<Index> twins() const {
+    if (!twin.empty() || coarse == 0) return twin;
+    std::vector<Index> out(static_cast<std::size_t>(coarse), -1);
+    for (Index p = 0; p < fine(); ++p)
+      if (row[p + 1] == row[p] + 1 && weight[row[p]] == 1) out[column[row[p]]] = p;
+    return out;
+  }
 };
 
 }  // namespace signorini

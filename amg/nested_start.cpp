@@ -1,0 +1,100 @@
+#include "amg/nested_start.hpp"
+
+#include "core/algebra/products.hpp"
+#include "core/fem/nested.hpp"
+#include "core/solver/multigrid.hpp"
+
+namespace signorini {
+
+namespace {
+
+template <int B>
+void inherit_bounds(const DiscreteProblem<B>& fine, const std::vector<Index>& twin, Constraints<B>& coarse) {
+  const Constraints<B>& c = fine.constraints;
+  coarse.slot.assign(twin.size(), -1);
+  for (std::size_t q = 0; q < twin.size(); ++q) {
+    const Index slot = twin[q] < 0 || c.slot.empty() ? -1 : c.slot[twin[q]];
+    if (slot < 0) continue;
+    coarse.slot[q] = coarse.size();
+    coarse.vector.push_back(static_cast<Index>(q));
+    const auto from = Offset{slot} * B;
+    coarse.lower.insert(coarse.lower.end(), c.lower.begin() + from, c.lower.begin() + from + B);
+    coarse.upper.insert(coarse.upper.end(), c.upper.begin() + from, c.upper.begin() + from + B);
+  }
+}
+
+/// Coarse vectors are in the order of their twins: runs of one obstacle stay runs.
+template <int B>
+std::vector<Segment<B>> inherit_obstacles(const DiscreteProblem<B>& fine, const std::vector<Index>& twin) {
+  std::vector<Segment<B>> out;
+  Index first = 0;
+  const auto end = static_cast<Index>(twin.size());
+  for (const Segment<B>& s : fine.segments) {
+    Index last = first;
+    while (last < end && twin[last] < s.last) ++last;
+    if (last > first) out.push_back({first, last, s.obstacle});
+    first = last;
+  }
+  if (!out.empty()) out.back().last = end;
+  return out;
+}
+
+/// Forces on the free components, those of prescribed values included.
+template <int B>
+std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
+  std::vector<double> r = problem.b;
+  for (std::size_t k = 0; k < r.size(); ++k)
+    if (problem.fixed[k / B] >> (k % B) & 1u) r[k] = 0;
+  return r;
+}
+
+template <int B>
+DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P, Transfer<B>& transfer) {
+  Level<B> fine = finest_level(problem), coarse;
+  transfer.prepare(fine, P, true, coarse);
+  fine.clear_phases();
+  coarse.clear_phases();
+  transfer.assemble(fine, coarse);
+  transfer.begin_restriction(coarse);
+  transfer.restrict_residual(fine, 0, fine.vectors, free_forces(problem).data(), coarse);
+  transfer.end_restriction(coarse);
+
+  DiscreteProblem<B> out;
+  const std::vector<Index> twin = P.twins();
+  out.A = std::move(coarse.own_matrix);
+  out.b = std::move(coarse.own_b);
+  out.fixed = std::move(coarse.off);
+  out.start.assign(out.b.size(), 0.0);
+  for (std::size_t k = 0; k < out.b.size(); ++k)
+    if (const Index p = twin[k / B]; out.fixed[k / B] >> (k % B) & 1u)
+      out.b[k] = out.start[k] = p < 0 ? 0 : problem.start[Offset{p} * B + k % B];
+  out.frames = std::move(coarse.frames);
+  inherit_bounds(problem, twin, out.constraints);
+  out.segments = inherit_obstacles(problem, twin);
+  return out;
+}
+
+}  // namespace
+
+template <int B>
+std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+  if (prolongations.empty()) return problem.start;
+  const std::size_t below = prolongations.size() - 1;
+  const Prolongation& P = prolongations[below];
+  const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
+  const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
+  auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
+  const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
+  if (summary.outcome == Outcome::unbounded) return problem.start;
+  return interpolate(coarse, x, P, problem);
+}
+
+template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&);
+template std::vector<double> nested_start(const DiscreteProblem<2>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&);
+template std::vector<double> nested_start(const DiscreteProblem<3>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&);
+
+}  // namespace signorini

@@ -1,0 +1,19 @@
+#pragma once
+#include <span>
+
+#include "core/component/registry.hpp"
+#include "core/solver/discrete_problem.hpp"
+#include "core/solver/solve.hpp"
+
+namespace signorini {
+
+/// A start by nested iteration on the levels that prolongations make of a problem, when no mesh gives any: each coarser
+/// level has the Galerkin matrix and right-hand side, and the bounds of the fine twins of its vectors, as if the
+/// obstacle were assembled on it.
+/// @param prolongations coarsest first; the last one leads to the level of `problem`
+/// @return B per vector, not yet admissible between the twins; prescribed values are in place
+template <int B>
+std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor = {});
+
+}  // namespace signorini

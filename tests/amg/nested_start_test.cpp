@@ -1,0 +1,54 @@
+// Nested iteration on algebraic levels: the contact set need not grow by a layer of vectors per cycle.
+#include "amg/nested_start.hpp"
+
+#include <gtest/gtest.h>
+
+#include "amg/hierarchy.hpp"
+#include "tests/core/solver/cases.hpp"
+#include "tests/support/pdas.hpp"
+#include "tests/support/problems.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <int B>
+std::vector<Prolongation> hierarchy(const DiscreteProblem<B>& problem) {
+  return algebraic_hierarchy<B>(
+      problem, [] { return registry().create<Transfer<B>>("transfer", "min_merge"); }, 50);
+}
+
+DiscreteProblem<1> pressed_membrane(int cells) {
+  const auto lower = [](const double* x) { return -0.02 - 0.1 * (x[0] - 0.3) * (x[0] - 0.3); };
+  return discretize<2, 1>(cube<2>(0, 1, cells), membrane(-1, lower, {})).problem;
+}
+
+TEST(NestedStart, HalvesTheCyclesOfALargeContactSet) {
+  const auto problem = pressed_membrane(256);
+  const auto P = hierarchy(problem);
+  const auto cycles = [&](std::vector<double> x) { return solve<1>(problem, P, x, {}, registry()).iterations; };
+  const int from_start = cycles(nested_start<1>(problem, P, loose({}), registry())), from_zero = cycles(problem.start);
+  EXPECT_LE(2 * from_start, from_zero);
+}
+
+/// Relative error in the energy norm of the start that nested iteration gives.
+template <int B>
+double start_error(const DiscreteProblem<B>& problem) {
+  const auto x = nested_start<B>(problem, hierarchy(problem), loose({}), registry());
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (problem.fixed[k / B] >> (k % B) & 1u) EXPECT_EQ(x[k], problem.start[k]) << k;
+  const Eigen::VectorXd exact = reference(problem).x;
+  return energy_norm<B>(problem.A, vector(x) - exact) / energy_norm<B>(problem.A, exact);
+}
+
+TEST(NestedStart, IsNearTheSolution) {
+  EXPECT_LE(start_error(pressed_membrane(64)), 0.3);
+  for (const auto& c : plane_cases()) EXPECT_LE(start_error(c.nested.finest()), 0.7) << c.name;
+}
+
+TEST(NestedStart, WithoutLevelsIsTheProblemsOwn) {
+  const auto problem = pressed_membrane(8);
+  EXPECT_EQ(nested_start<1>(problem, {}, {}, registry()), problem.start);
+}
+
+}  // namespace
+}  // namespace signorini::test
