@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
@@ -114,7 +115,7 @@ Exit solve_command(const SolveArguments& arguments) {
   Report report;
   report.scene = arguments.scene.string();
   report.title = scene.title;
-  Registry registry = own_components();
+  Registry registry = solver_components();
   check_components(scene, registry);
   report.plugins = load_plugins(scene, registry);
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out);
