@@ -40,7 +40,7 @@ MatrixMarketInput::MatrixMarketInput(std::string_view text, std::string_view pla
 }
 
 void MatrixMarketInput::fail(std::string_view message) const {
-  input_error(fmt::format("{}:{}", place_, line_number_), message);
+  input_error(fmt::format("{}:{}", place_, std::max<Offset>(line_number_, 1)), message);
 }
 
 // The next line that is not blank.
