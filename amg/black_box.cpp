@@ -53,7 +53,7 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
     levels_ = given ? given_levels(*given, problem_.A.size()) : algebraic_hierarchy<B>(problem_, transfer);
-    refuse_indefinite<B>(problem_, levels_, transfer);
+    refuse_indefinite<B>(problem_.A, levels_);
   }
 
   Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,

@@ -5,112 +5,141 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "amg/masked_cg.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
-#include "core/solver/multigrid.hpp"
 
 namespace signorini {
 namespace {
 
-using Direction = std::vector<double>;  // empty: none
+using Vector = std::vector<double>;  // B per vector of a level
 
 constexpr double rounding = 1e-12;  // of d'Ad, relative to d'Dd with the diagonal D of A
-constexpr int steps = 10;           // as costly as a few cycles
-constexpr int coarsest_steps = 200;
+constexpr int steps = 40;
 
 template <int B>
-bool falls_along(const BlockMatrix<B>& A, const Direction& d) {
-  Direction Ad(d.size());
-  product<B>(A, d.data(), Ad.data());
-  double energy = 0, size = 0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    energy += d[i] * Ad[i];
-    size += std::abs(A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)]) * d[i] * d[i];
-  }
-  return energy < -rounding * size;
-}
-
-template <int B>
-Direction falling_unit_vector(const Level<B>& level) {
-  for (Index p = 0; p < level.vectors; ++p)
-    for (int k = 0; k < B; ++k)
-      if (level.A->diagonal(p)[k * B + k] < 0) {
-        Direction d(static_cast<std::size_t>(level.vectors) * B, 0.0);
-        d[Offset{p} * B + k] = 1;
-        return d;
-      }
-  return {};
-}
-
-template <int B>
-Direction falling_direction(const Level<B>& level, int iterations) {
-  if (Direction d = falling_unit_vector(level); !d.empty()) return d;
-  std::mt19937_64 random;
-  Direction r(static_cast<std::size_t>(level.vectors) * B), d;
-  for (double& value : r) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
-  apply_mask<B>(level.off, r);
-  const auto precondition = [&](const Direction& from, Direction& to) {
-    symmetric_gauss_seidel<B>(*level.A, level.off, from, to);
-  };
-  const CgResult cg = masked_cg<B>(*level.A, level.off, precondition, {.iterations = iterations}, r, d);
-  return cg.singular && falls_along(*level.A, d) ? d : Direction{};
-}
-
-template <int B>
-Direction interpolated(const Prolongation& P, const Direction& coarse) {
-  Direction fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
+Vector interpolated(const Prolongation& P, const Vector& coarse) {
+  Vector fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
   for (Index p = 0; p < P.fine(); ++p)
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
       for (int i = 0; i < B; ++i) fine[Offset{p} * B + i] += P.weight[k] * coarse[Offset{P.column[k]} * B + i];
   return fine;
 }
 
+/// By the transposed weights, to the power given.
 template <int B>
-[[noreturn]] void refuse(const BlockMatrix<B>& A, const Direction& d) {
-  Direction Ad(d.size());
-  product<B>(A, d.data(), Ad.data());
-  double energy = 0, squared = 0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    energy += d[i] * Ad[i];
-    squared += d[i] * d[i];
-  }
-  const auto largest =
-      std::max_element(d.begin(), d.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  input_error("matrix", fmt::format("indefinite: d'Ad = {:.3g} d'd for a direction d with its largest entry in row {}; "
-                                    "expected a positive semidefinite matrix",
-                                    energy / squared, largest - d.begin() + 1));
+Vector restricted(const Prolongation& P, const Vector& fine, int power = 1) {
+  Vector coarse(static_cast<std::size_t>(P.coarse) * B, 0.0);
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
+      const double weight = power == 1 ? P.weight[k] : P.weight[k] * P.weight[k];
+      for (int i = 0; i < B; ++i) coarse[Offset{P.column[k]} * B + i] += weight * fine[Offset{p} * B + i];
+    }
+  return coarse;
 }
+
+Vector random_vector(std::size_t size) {
+  std::mt19937_64 random;
+  Vector out(size);
+  for (double& value : out) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+  return out;
+}
+
+struct Energy {
+  double of_matrix = 0, of_diagonal = 0;  // d'Ad and d'Dd
+
+  bool negative() const { return of_matrix < -rounding * of_diagonal; }
+};
+
+template <int B>
+Energy energy(const BlockMatrix<B>& A, const Vector& d) {
+  Vector Ad(d.size());
+  product<B>(A, d.data(), Ad.data());
+  Energy out;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    out.of_matrix += d[i] * Ad[i];
+    out.of_diagonal += A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)] * d[i] * d[i];
+  }
+  return out;
+}
+
+template <int B>
+void refuse_if_negative(const BlockMatrix<B>& A, const Vector& d) {
+  const Energy found = energy(A, d);
+  if (!found.negative()) return;
+  const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto largest = std::max_element(d.begin(), d.end(), larger);
+  input_error("matrix",
+              fmt::format("indefinite: d'Ad is {:.3g} times d'Dd, D its diagonal, for a direction d with the largest "
+                          "entry in row {}; expected a positive semidefinite matrix",
+                          found.of_matrix / found.of_diagonal, largest - d.begin() + 1));
+}
+
+/// Bramble, Pasciak and Xu's preconditioner (Math. Comp. 55, 1990): a diagonal correction on every level at once. It
+/// needs no coarse matrix.
+template <int B>
+class Bpx {
+ public:
+  Bpx(const BlockMatrix<B>& A, std::span<const Prolongation> prolongations)
+      : prolongations_(prolongations), inverse_(prolongations.size() + 1) {
+    Vector diagonal;
+    for (Index p = 0; p < A.size(); ++p)
+      for (int k = 0; k < B; ++k) diagonal.push_back(A.diagonal(p)[k * B + k]);
+    inverse_.back() = inverted(diagonal, 1);
+    for (std::size_t k = prolongations.size(); k-- > 0;) {
+      diagonal = restricted<B>(prolongations[k], diagonal, 2);
+      inverse_[k] = inverted(diagonal, part_of_diagonal(A, k, diagonal));
+    }
+  }
+
+  void operator()(const Vector& r, Vector& z) const {
+    std::vector<Vector> residual(inverse_.size());
+    residual.back() = r;
+    for (std::size_t k = prolongations_.size(); k-- > 0;)
+      residual[k] = restricted<B>(prolongations_[k], residual[k + 1]);
+    z.clear();
+    for (std::size_t k = 0; k < inverse_.size(); ++k) {
+      z = k == 0 ? Vector(residual[0].size(), 0.0) : interpolated<B>(prolongations_[k - 1], z);
+      for (std::size_t i = 0; i < z.size(); ++i) z[i] += inverse_[k][i] * residual[k][i];
+    }
+  }
+
+ private:
+  // The diagonal of P'DP says how the energies of the coarse functions compare with each other; how much smaller all of
+  // them are, one rough function says.
+  double part_of_diagonal(const BlockMatrix<B>& A, std::size_t level, const Vector& diagonal) const {
+    Vector d = random_vector(diagonal.size());
+    double size = 0;
+    for (std::size_t i = 0; i < d.size(); ++i) size += diagonal[i] * d[i] * d[i];
+    for (std::size_t k = level; k < prolongations_.size(); ++k) d = interpolated<B>(prolongations_[k], d);
+    refuse_if_negative(A, d);
+    return size > 0 ? std::max(energy(A, d).of_matrix / size, rounding) : 1;
+  }
+
+  static Vector inverted(const Vector& diagonal, double part) {
+    Vector out(diagonal.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = diagonal[i] > 0 ? 1 / (part * diagonal[i]) : 0;
+    return out;
+  }
+
+  std::span<const Prolongation> prolongations_;
+  std::vector<Vector> inverse_;  // per level, coarsest first
+};
 
 }  // namespace
 
 template <int B>
-void refuse_indefinite(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
-                       const std::function<std::unique_ptr<Transfer<B>>()>& transfer) {
-  Level<B> fine = finest_level(problem);
-  fine.clear_phases();
-  for (std::size_t k = prolongations.size();; --k) {
-    if (Direction d = falling_direction(fine, k > 0 ? steps : coarsest_steps); !d.empty()) {
-      for (; k < prolongations.size(); ++k) d = interpolated<B>(prolongations[k], d);
-      refuse(problem.A, d);
-    }
-    if (k == 0) return;
-    Level<B> coarse;
-    const auto step = transfer();
-    step->prepare(fine, prolongations[k - 1], true, coarse);
-    coarse.clear_phases();
-    step->assemble(fine, coarse);
-    fine = std::move(coarse);
-    fine.A = &fine.own_matrix;
-  }
+void refuse_indefinite(const BlockMatrix<B>& A, std::span<const Prolongation> prolongations) {
+  const Bpx<B> precondition(A, prolongations);
+  const std::vector<Flags> mask(static_cast<std::size_t>(A.size()), 0);
+  Vector r = random_vector(mask.size() * B), d;
+  if (masked_cg<B>(A, mask, precondition, {.iterations = steps}, r, d).singular) refuse_if_negative(A, d);
 }
 
-template void refuse_indefinite(const DiscreteProblem<1>&, std::span<const Prolongation>,
-                                const std::function<std::unique_ptr<Transfer<1>>()>&);
-template void refuse_indefinite(const DiscreteProblem<2>&, std::span<const Prolongation>,
-                                const std::function<std::unique_ptr<Transfer<2>>()>&);
-template void refuse_indefinite(const DiscreteProblem<3>&, std::span<const Prolongation>,
-                                const std::function<std::unique_ptr<Transfer<3>>()>&);
+template void refuse_indefinite(const BlockMatrix<1>&, std::span<const Prolongation>);
+template void refuse_indefinite(const BlockMatrix<2>&, std::span<const Prolongation>);
+template void refuse_indefinite(const BlockMatrix<3>&, std::span<const Prolongation>);
 
 }  // namespace signorini
