@@ -10,6 +10,7 @@
 #include "amg/definite.hpp"
 #include "amg/given_levels.hpp"
 #include "amg/hierarchy.hpp"
+#include "amg/recession.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
@@ -71,6 +72,7 @@ class BlackBox::BlockSolver final : public Solver {
       result.x.assign(start.begin(), start.end());
     }
     result.summary = signorini::solve<B>(problem_, levels_, result.x, options_, registry_, monitor);
+    if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
     result.multiplier.resize(n);
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
     for (double& force : result.multiplier) force = -force;
@@ -78,6 +80,12 @@ class BlackBox::BlockSolver final : public Solver {
   }
 
  private:
+  void recognise_unbounded(Result& result) const {
+    if (!falls_forever(problem_, result.x)) return;
+    result.summary.outcome = Outcome::unbounded;
+    result.summary.reason = "the energy is unbounded below: the iterates run away along a direction without energy";
+  }
+
   SolverOptions options_;
   Registry registry_;
   DiscreteProblem<B> problem_;

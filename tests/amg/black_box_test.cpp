@@ -161,6 +161,28 @@ TEST(BlackBox, SeesThatTheEnergyFallsForever) {
   }
 }
 
+// The coarse levels do not hold the direction without energy exactly: a scaled constant, a rotation.
+TEST(BlackBox, SeesThatTheEnergyFallsForeverAlongAnyDirection) {
+  for (const int cells : {10, 60}) {
+    const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>((cells + 1) * (cells + 1)))).array() + 2;
+    const Matrix A = s.asDiagonal() * neumann_laplacian(cells) * s.asDiagonal();
+    const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1.0);
+    BlackBox solver(A);
+    EXPECT_EQ(solver.solve(b).summary.outcome, Outcome::unbounded) << cells;
+    EXPECT_EQ(solver.solve(b, waves(b.size())).summary.outcome, Outcome::unbounded) << cells;
+    EXPECT_TRUE(solver.solve(b, {}, waves(b.size())).summary.converged()) << cells;
+  }
+  const Mesh<2> mesh = cube<2>(0, 1, 40);
+  std::vector<double> torque, pull;
+  for (const Point<2>& x : mesh.points) {
+    torque.insert(torque.end(), {0.5 - x[1], x[0] - 0.5});
+    pull.insert(pull.end(), {1, 0});
+  }
+  BlackBox solver(sparse(stiffness<2, 2>(mesh, Model<2>{})), 2);
+  EXPECT_EQ(solver.solve(torque).summary.outcome, Outcome::unbounded);
+  EXPECT_EQ(solver.solve(pull).summary.outcome, Outcome::unbounded);
+}
+
 TEST(BlackBox, StopsWhenTheMonitorSaysSo) {
   const Matrix A = laplacian(30);
   const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1.0);
