@@ -91,16 +91,15 @@ class QpRun {
   BlackBox set_up() {
     progress_.phase(fmt::format("setting up {} unknowns", matrix_.rows));
     try {
-      BlackBox solver(std::exchange(matrix_, {}), arguments_.block, arguments_.options);
-      time_.setup = lap_.lap();
-      stop_if_interrupted();
-      return solver;
+      return BlackBox(std::exchange(matrix_, {}), arguments_.block, arguments_.options);
     } catch (const Error& error) {
       throw Error(error.status(), fmt::format("{}: {}", arguments_.matrix.string(), error.what()));
     }
   }
 
   void solve(BlackBox& solver) {
+    time_.setup = lap_.lap();
+    stop_if_interrupted();
     const auto monitor = [this](const IterationRecord& record) {
       progress_.cycle(record);
       return !interrupted();
@@ -109,7 +108,8 @@ class QpRun {
     stop_if_interrupted();
     if (result_.summary.outcome == Outcome::unbounded)
       throw Error(Exit::no_solution,
-                  fmt::format("{}: the energy is unbounded below within the bounds", arguments_.matrix.string()));
+                  fmt::format("{}: the energy is unbounded below within the bounds, as far as rounding lets one tell",
+                              arguments_.matrix.string()));
     time_.solve = lap_.lap();
     active_ = active(result_.x, vectors_);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/base/error.hpp"
 
@@ -22,6 +23,12 @@ void check_rows(const SparseRows& matrix, std::string_view place) {
 }
 
 }  // namespace
+
+Index SparseRows::checked_size(Eigen::Index size) {
+  constexpr Eigen::Index most = std::numeric_limits<Index>::max();
+  if (size > most) input_error("matrix", fmt::format("found {} rows or columns, expected at most {}", size, most));
+  return static_cast<Index>(size);
+}
 
 void check_entries(const SparseRows& matrix, std::string_view place) {
   check_rows(matrix, place);

@@ -19,8 +19,7 @@ struct SparseRows {
 
   SparseRows() = default;
 
-  /// Copies compressed rows, columns counted from 0. What they hold is read as far as `row` makes sense; check_sizes()
-  /// sees the rest.
+  /// Copies compressed rows. What is wrong with them check_entries() finds.
   template <std::integral Position>
   SparseRows(Index row_count, Index column_count, const Position* rows_begin, const Index* column_of,
              const double* value_of)
@@ -33,13 +32,17 @@ struct SparseRows {
 
   template <int Order, class Integer>
   SparseRows(const Eigen::SparseMatrix<double, Order, Integer>& matrix)  // NOLINT: a conversion is what it is for
-      : rows(static_cast<Index>(matrix.rows())), columns(static_cast<Index>(matrix.cols())) {
+      : rows(checked_size(matrix.rows())), columns(checked_size(matrix.cols())) {
     Eigen::SparseMatrix<double, Eigen::RowMajor, Integer> ordered = matrix;
     ordered.makeCompressed();
     row.assign(ordered.outerIndexPtr(), ordered.outerIndexPtr() + rows + 1);
     column.assign(ordered.innerIndexPtr(), ordered.innerIndexPtr() + ordered.nonZeros());
     value.assign(ordered.valuePtr(), ordered.valuePtr() + ordered.nonZeros());
   }
+
+ private:
+  /// Error(Exit::input) where an Index does not hold it.
+  static Index checked_size(Eigen::Index size);
 };
 
 /// Error(Exit::input) naming `place` where rows do not follow each other, a column does not exist or a value is not

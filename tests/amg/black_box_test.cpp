@@ -52,6 +52,17 @@ TEST(BlackBox, SolvesObstacleProblemsLikeTheReferenceSolver) {
   }
 }
 
+TEST(BlackBox, SolvesContactProblemsLikeTheReferenceSolver) {
+  for (const auto& c : plane_cases()) {
+    SCOPED_TRACE(c.name);
+    expect_solution(c.nested.finest());
+  }
+  for (const auto& c : space_cases()) {
+    SCOPED_TRACE(c.name);
+    expect_solution(c.nested.finest());
+  }
+}
+
 TEST(BlackBox, LevelsOfTheMatrixMakeTheNumberOfCyclesIndependentOfItsSize) {
   for (const int cells : {32, 64, 128}) {
     const Matrix A = laplacian(cells);

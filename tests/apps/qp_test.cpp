@@ -162,7 +162,7 @@ TEST_F(Qp, BadInputIsNamedAndNothingIsWritten) {
          "not symmetric: the entry in row 1, column 2 is -2, the one in row 2, column 1 is -1");
   matrix("2\n0\n0\n0\n-1\n0\n0\n0\n1\n", "the diagonal entry of row 2 is -1, expected a positive one");
   matrix("1\n3\n0\n3\n2\n0\n0\n0\n1\n", "not positive semidefinite: the entry 3 in row 1, column 2");
-  matrix("1\n-0.9\n-0.9\n-0.9\n1\n-0.9\n-0.9\n-0.9\n1\n", "indefinite: d'Ad = -");
+  matrix("1\n-0.9\n-0.9\n-0.9\n1\n-0.9\n-0.9\n-0.9\n1\n", "indefinite: d'Ad is -");
 }
 
 TEST_F(Qp, WrongUsageIsStatusOne) {
