@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "amg/direction.hpp"
 #include "amg/masked_cg.hpp"
-#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 
 namespace signorini {
@@ -47,28 +47,10 @@ Vector random_vector(std::size_t size) {
   return out;
 }
 
-struct Energy {
-  double of_matrix = 0, of_diagonal = 0;  // d'Ad and d'Dd
-
-  bool negative() const { return of_matrix < -rounding * of_diagonal; }
-};
-
-template <int B>
-Energy energy(const BlockMatrix<B>& A, const Vector& d) {
-  Vector Ad(d.size());
-  product<B>(A, d.data(), Ad.data());
-  Energy out;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    out.of_matrix += d[i] * Ad[i];
-    out.of_diagonal += A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)] * d[i] * d[i];
-  }
-  return out;
-}
-
 template <int B>
 void refuse_if_negative(const BlockMatrix<B>& A, const Vector& d) {
-  const Energy found = energy(A, d);
-  if (!found.negative()) return;
+  const DirectionEnergy found = energy_along(A, d);
+  if (!(found.of_matrix < -rounding * found.of_diagonal)) return;
   const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto largest = std::max_element(d.begin(), d.end(), larger);
   input_error("matrix",
@@ -115,7 +97,7 @@ class Bpx {
     for (std::size_t i = 0; i < d.size(); ++i) size += diagonal[i] * d[i] * d[i];
     for (std::size_t k = level; k < prolongations_.size(); ++k) d = interpolated<B>(prolongations_[k], d);
     refuse_if_negative(A, d);
-    return size > 0 ? std::max(energy(A, d).of_matrix / size, rounding) : 1;
+    return size > 0 ? std::max(energy_along(A, d).of_matrix / size, rounding) : 1;
   }
 
   static Vector inverted(const Vector& diagonal, double part) {

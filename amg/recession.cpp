@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/algebra/products.hpp"
+#include "amg/direction.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr double rounding = 1e-14;   // of d'Ad, relative to d'Dd with the diagonal D of A
-constexpr double negligible = 1e-8;  // components of d, relative to the largest, that a bound may end
+constexpr double negligible = 1e-8;  // components of d and work along it, relative to the largest possible
 
 template <int B>
 bool meets_a_bound(const Constraints<B>& c, const std::vector<double>& d, double small) {
@@ -26,17 +26,14 @@ bool meets_a_bound(const Constraints<B>& c, const std::vector<double>& d, double
 
 template <int B>
 bool falls_forever(const DiscreteProblem<B>& problem, const std::vector<double>& d) {
-  std::vector<double> Ad(d.size());
-  product<B>(problem.A, d.data(), Ad.data());
-  double energy = 0, diagonal_energy = 0, work = 0, terms = 0, largest = 0;
+  const DirectionEnergy energy = energy_along(problem.A, d);
+  double work = 0, terms = 0, largest = 0;
   for (std::size_t i = 0; i < d.size(); ++i) {
-    energy += d[i] * Ad[i];
-    diagonal_energy += problem.A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)] * d[i] * d[i];
     work += problem.b[i] * d[i];
     terms += std::abs(problem.b[i] * d[i]);
     largest = std::max(largest, std::abs(d[i]));
   }
-  return energy <= rounding * diagonal_energy && work > negligible * terms &&
+  return energy.of_matrix <= rounding * energy.of_diagonal && work > negligible * terms &&
          !meets_a_bound(problem.constraints, d, negligible * largest);
 }
 

@@ -14,6 +14,12 @@ void check_rows(const SparseRows& matrix, std::string_view place) {
   if (matrix.rows < 0 || matrix.columns < 0)
     input_error(place, fmt::format("found {} rows and {} columns, expected sizes that are not negative", matrix.rows,
                                    matrix.columns));
+  if (matrix.row.size() != static_cast<std::size_t>(matrix.rows) + 1 || matrix.column.size() != matrix.value.size() ||
+      static_cast<Offset>(matrix.value.size()) != std::max<Offset>(matrix.row.back(), 0))
+    input_error(place,
+                fmt::format("found {} row positions, {} columns and {} values, expected {}, and as many of each "
+                            "as the last position says",
+                            matrix.row.size(), matrix.column.size(), matrix.value.size(), Offset{matrix.rows} + 1));
   if (matrix.row.front() != 0)
     input_error(place, fmt::format("the first row begins at entry {}, expected 0", matrix.row.front()));
   for (Index i = 0; i < matrix.rows; ++i)

@@ -49,6 +49,18 @@ TEST(BlackBoxMatrix, WithBrokenRowsIsRefused) {
   refused({0, -1, -2}, {0, 1}, "row 1 ends at entry -1, before its begin 0");
 }
 
+TEST(BlackBoxMatrix, WithArraysThatDoNotFitIsRefused) {
+  const auto refused = [](auto&& change) {
+    SparseRows A(laplacian(4));
+    change(A);
+    expect_error([&] { BlackBox solver(A); }, "matrix: found ");
+  };
+  refused([](SparseRows& A) { A.row.pop_back(); });
+  refused([](SparseRows& A) { A.column.pop_back(); });
+  refused([](SparseRows& A) { A.value.push_back(1); });
+  refused([](SparseRows& A) { A.rows = -1; });
+}
+
 TEST(BlackBoxMatrix, WithValuesThatAreNotFiniteIsRefused) {
   for (const double bad : {std::nan(""), infinity}) {
     Matrix A = laplacian(4);
