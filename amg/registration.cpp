@@ -1,6 +1,8 @@
 #include "amg/registration.hpp"
 
 #include "amg/coarse_newton.hpp"
+#include "smoothers/registration.hpp"
+#include "transfer/registration.hpp"
 
 namespace signorini {
 
@@ -19,6 +21,14 @@ void register_coarse_solvers(Registry& registry) {
       {"coarse", "pgs", "projected symmetric Gauss-Seidel alone", {}, file, {}},
       [] { return std::make_unique<CoarseGaussSeidel<1>>(); }, [] { return std::make_unique<CoarseGaussSeidel<2>>(); },
       [] { return std::make_unique<CoarseGaussSeidel<3>>(); });
+}
+
+Registry solver_components() {
+  Registry registry;
+  register_smoothers(registry);
+  register_transfers(registry);
+  register_coarse_solvers(registry);
+  return registry;
 }
 
 }  // namespace signorini

@@ -6,4 +6,7 @@ namespace signorini {
 /// Adds the components of this folder: newton, pgs.
 void register_coarse_solvers(Registry& registry);
 
+/// All smoothers, transfers and coarse solvers: what a solve is composed from.
+Registry solver_components();
+
 }  // namespace signorini

@@ -1,4 +1,5 @@
-# The targets signorini::core (the library) and signorini::sdk (what a plugin is built with), and the installed tree,
+# The targets signorini::core (the library), signorini::sdk (what a plugin is built with) and signorini::amg (the solver
+# for matrices of other codes), and the installed tree,
 # whose layout is that of the build tree: bin/, lib/, lib/signorini/plugins/.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -15,9 +16,14 @@ target_include_directories(signorini_settings INTERFACE $<INSTALL_INTERFACE:${CM
 set_target_properties(signorini_settings PROPERTIES EXPORT_NAME settings)
 set_target_properties(signorini_core PROPERTIES EXPORT_NAME core)
 set_target_properties(signorini_sdk PROPERTIES EXPORT_NAME sdk)
+foreach(part amg smoothers transfer)
+  add_library(signorini::${part} ALIAS signorini_${part})
+  set_target_properties(signorini_${part} PROPERTIES EXPORT_NAME ${part})
+endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/signorini)
-install(TARGETS signorini_settings signorini_core signorini_sdk EXPORT signorini COMPONENT sdk)
+install(TARGETS signorini_settings signorini_core signorini_sdk signorini_amg signorini_smoothers signorini_transfer
+  EXPORT signorini COMPONENT sdk)
 install(EXPORT signorini NAMESPACE signorini:: FILE signoriniTargets.cmake DESTINATION ${package} COMPONENT sdk)
 configure_package_config_file(cmake/signoriniConfig.cmake.in ${PROJECT_BINARY_DIR}/signoriniConfig.cmake
   INSTALL_DESTINATION ${package})
@@ -26,6 +32,7 @@ install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
 install(DIRECTORY core ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
   COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE)
+install(FILES amg/black_box.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
 
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <set>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
@@ -72,7 +73,7 @@ void check(const Scene& scene, const Registry& registry) {
 
 void check_command(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   const Scene scene = read_scene(file, overrides);
-  Registry registry = own_components();
+  Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
   const auto& body = scene.bodies.front();

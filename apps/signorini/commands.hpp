@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/solver/options.hpp"
 
 namespace signorini {
 
@@ -16,6 +17,16 @@ struct SolveArguments {
 };
 
 Exit solve_command(const SolveArguments& arguments);
+
+/// `signorini qp`. Paths of files that are not given are empty.
+struct QpArguments {
+  std::filesystem::path matrix, load, lower, upper, start;
+  std::filesystem::path out, report;
+  int block = 1;
+  SolverOptions options;
+};
+
+Exit qp_command(const QpArguments& arguments);
 
 /// `signorini check`: says what would be solved.
 void check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);

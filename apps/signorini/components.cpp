@@ -4,11 +4,8 @@
 
 #include <algorithm>
 
-#include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/component/plugin_loader.hpp"
-#include "smoothers/registration.hpp"
-#include "transfer/registration.hpp"
 
 namespace signorini {
 namespace {
@@ -17,14 +14,6 @@ namespace {
 bool is_later_type(const std::string& id) { return id == "coulomb" || id == "elastic" || id == "elastic_coulomb"; }
 
 }  // namespace
-
-Registry own_components() {
-  Registry registry;
-  register_smoothers(registry);
-  register_transfers(registry);
-  register_coarse_solvers(registry);
-  return registry;
-}
 
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
   PluginLoader loader(registry, scene.plugin_path);

@@ -5,9 +5,6 @@
 
 namespace signorini {
 
-/// What the program itself provides: smoothers, transfers and coarse solvers.
-Registry own_components();
-
 /// Loads the plugins of the obstacles that a scene names, and says which file each came from.
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry);
 

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
 #include "core/component/plugin_loader.hpp"
@@ -74,7 +75,7 @@ const std::vector<std::string>& listable_kinds() {
 }
 
 void list_command(const std::string& kinds) {
-  Registry registry = own_components();
+  Registry registry = solver_components();
   PluginLoader loader(registry);
   const Catalogue all = catalogue(registry, loader);
   for (const Kind& kind : kinds_table)

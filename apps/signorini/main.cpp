@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include "apps/signorini/commands.hpp"
@@ -34,6 +35,18 @@ constexpr const char* check_exit_status = R"(Exit status:
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C))";
 
+constexpr const char* qp_notes =
+    R"(Files are Matrix Market files: coordinate or array, real or integer, general or symmetric, packed by gzip or not. Of a
+vector in coordinates what is left out is zero. inf and -inf in bounds mean none.
+
+Exit status:
+  0    solved to the tolerance
+  1    wrong usage
+  2    bad input (file, matrix); nothing is written but the message
+  3    the iteration limit was reached; results are written, marked "converged": false
+  4    no solution exists (infeasible bounds, unbounded energy)
+  130  interrupted (Ctrl-C); nothing is written)";
+
 constexpr const char* list_exit_status = R"(Exit status:
   0    listed, with the plugins that were rejected
   1    wrong usage
@@ -41,6 +54,7 @@ constexpr const char* list_exit_status = R"(Exit status:
 
 struct Arguments {
   SolveArguments solve;
+  QpArguments qp;
   std::string list_kinds;
 };
 
@@ -73,6 +87,37 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
       "check", "validate a scene and say what would be solved, with which plugins and how many unknowns");
   add_scene(*command, arguments);
   command->footer(check_exit_status);
+  return command;
+}
+
+CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
+  QpArguments& qp = arguments.qp;
+  auto* command = app.add_subcommand("qp", "minimise 1/2 x'Ax - b'x over l <= x <= u, purely algebraically");
+  command->add_option("MATRIX", qp.matrix, "A, symmetric and positive (semi)definite")->required();
+  command->add_option("LOAD", qp.load, "b")->required();
+  const auto file = [&](const char* name, std::filesystem::path& path, const char* help) {
+    command->add_option(name, path, help)->type_name("FILE")->check([](const std::string& found) {
+      return found.empty() ? "expected the name of a file" : "";
+    });
+  };
+  file("--lower", qp.lower, "lower bounds l");
+  file("--upper", qp.upper, "upper bounds u");
+  file("--start", qp.start, "where to start; default: zero");
+  file("--out", qp.out, "file for the solution; default, or '-': print a summary only");
+  file("--report", qp.report, "JSON file for what the solver did");
+  command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
+      ->check(CLI::IsMember({1, 2, 3}))
+      ->capture_default_str();
+  command->add_option("--tol", qp.options.tolerance, "bound for the residual and the algebraic error, both relative")
+      ->check([](const std::string& found) {
+        const double tolerance = std::strtod(found.c_str(), nullptr);
+        return tolerance > 0 && tolerance < 1 ? "" : "found '" + found + "', expected a number between 0 and 1";
+      })
+      ->capture_default_str();
+  command->add_option("--method", qp.options.method, "see docs/solver.md")
+      ->check(CLI::IsMember({"monotone", "tnnmg", "pgs"}))
+      ->capture_default_str();
+  command->footer(std::string(solve_notes) + qp_notes);
   return command;
 }
 
@@ -120,8 +165,8 @@ int run(int argc, char** argv) {
   app.footer(exit_status);
   auto* solve = add_solve(app, arguments);
   auto* check = add_check(app, arguments);
+  auto* qp = add_qp(app, arguments);
   auto* list = add_list(app, arguments);
-  add_future(app, "qp", "minimise a quadratic function within bounds, from Matrix Market files");
   add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
   add_future(app, "plugin", "start a plugin project, or check a plugin");
   if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty())
@@ -134,6 +179,7 @@ int run(int argc, char** argv) {
   }
   if (*solve) return static_cast<int>(solve_command(arguments.solve));
   if (*check) check_command(arguments.solve.scene, arguments.solve.overrides);
+  if (*qp) return static_cast<int>(qp_command(arguments.qp));
   if (*list) list_command(arguments.list_kinds);
   return 0;
 }

@@ -24,6 +24,14 @@ void Progress::cycle(const IterationRecord& record) const {
   if (shown_) fmt::print(stderr, "{}\n", convergence_row(record));
 }
 
+void print_summary(const Summary& summary, bool solved) {
+  const std::vector<Index>& unknowns = summary.level_unknowns;
+  fmt::print("{}", convergence_table(summary.history));
+  fmt::print("{}: {}\n", solved ? "solved" : "not solved", summary.reason);
+  fmt::print("{} unknowns on {} levels, {} iterations, rate {:.3f}, energy {:.10g}\n",
+             unknowns.empty() ? 0 : unknowns.back(), unknowns.size(), summary.iterations, summary.rate, summary.energy);
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning);
 }

@@ -18,6 +18,10 @@ class Progress {
   bool shown_;
 };
 
+/// What a solve did: the convergence table, why it stopped, and its size.
+/// @param solved this solve and all before it
+void print_summary(const Summary& summary, bool solved);
+
 /// On standard error, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 

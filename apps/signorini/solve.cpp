@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
@@ -10,7 +11,6 @@
 #include "apps/signorini/nested_solver.hpp"
 #include "apps/signorini/output.hpp"
 #include "apps/signorini/problem.hpp"
-#include "core/io/convergence.hpp"
 
 namespace signorini {
 namespace {
@@ -89,11 +89,8 @@ class SolveRun {
 
 void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
-  fmt::print("{}\n{}", report.title, convergence_table(last.summary.history));
-  fmt::print("{}: {}\n", report.converged() ? "solved" : "not solved", last.summary.reason);
-  fmt::print("{} unknowns on {} levels, {} iterations, rate {:.3f}, energy {:.10g}\n",
-             report.level_unknowns.empty() ? 0 : report.level_unknowns.back(), report.level_unknowns.size(),
-             last.summary.iterations, last.summary.rate, last.summary.energy);
+  fmt::print("{}\n", report.title);
+  print_summary(last.summary, report.converged());
   for (const ContactReport& contact : last.contact)
     fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
                contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);
@@ -114,7 +111,7 @@ Exit solve_command(const SolveArguments& arguments) {
   Report report;
   report.scene = arguments.scene.string();
   report.title = scene.title;
-  Registry registry = own_components();
+  Registry registry = solver_components();
   check_components(scene, registry);
   report.plugins = load_plugins(scene, registry);
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out);

@@ -2,30 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "core/base/error.hpp"
 #include "core/io/msh_reader.hpp"
+#include "core/io/read_file.hpp"
 #include "core/io/vtu_reader.hpp"
 
 namespace signorini {
-namespace {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::error_code failure;
-  if (!std::filesystem::exists(path, failure)) input_error(path.string(), "no such mesh file");
-  if (!std::filesystem::is_regular_file(path, failure)) input_error(path.string(), "is not a file");
-  const auto size = std::filesystem::file_size(path, failure);
-  std::ifstream file(path, std::ios::binary);
-  if (failure || !file) input_error(path.string(), "cannot open the mesh file");
-  std::string content(size, '\0');
-  file.read(content.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(file.gcount()) != size) input_error(path.string(), "cannot read the mesh file");
-  return content;
-}
-
-}  // namespace
-
 AnyMesh parse_mesh(std::string_view content, std::string_view place) {
   std::size_t first = content.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;  // byte order mark
   first = content.find_first_not_of(" \t\r\n", first);
@@ -37,7 +19,9 @@ AnyMesh parse_mesh(std::string_view content, std::string_view place) {
                                  static_cast<unsigned char>(content[first])));
 }
 
-AnyMesh read_any_mesh(const std::filesystem::path& path) { return parse_mesh(read_file(path), path.string()); }
+AnyMesh read_any_mesh(const std::filesystem::path& path) {
+  return parse_mesh(read_file(path, "mesh file"), path.string());
+}
 
 template <int D>
 Mesh<D> read_mesh(const std::filesystem::path& path) {

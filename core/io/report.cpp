@@ -95,6 +95,16 @@ bool Report::converged() const {
   return std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
 }
 
+Json to_json(const Summary& summary) {
+  const std::vector<Index>& unknowns = summary.level_unknowns;
+  Json json{{"converged", summary.converged()},
+            {"unknowns", unknowns.empty() ? 0 : unknowns.back()},
+            {"levels", levels(unknowns)}};
+  add_summary(json, summary);
+  finite_or_null(json);
+  return json;
+}
+
 Json to_json(const Report& report) {
   Json json{{"scene", report.scene},
             {"title", report.title},

@@ -56,6 +56,9 @@ struct Report {
   bool converged() const;
 };
 
+/// One solve alone, with the keys that a report has for it.
+nlohmann::ordered_json to_json(const Summary& summary);
+
 /// The keys that are promised to users, in full precision; a number that is not finite becomes null.
 nlohmann::ordered_json to_json(const Report& report);
 

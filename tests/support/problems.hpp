@@ -8,10 +8,8 @@
 #include "core/mesh/refine.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/solver/solve.hpp"
-#include "smoothers/registration.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/obstacles.hpp"
-#include "transfer/registration.hpp"
 
 /// Small problems on hierarchies of rectangles and boxes, and how to solve them.
 namespace signorini::test {
@@ -47,13 +45,7 @@ double solution_norm(const Nested<B>& p, const Eigen::VectorXd& x) {
 }
 
 inline const Registry& registry() {
-  static const Registry all = [] {
-    Registry r;
-    register_smoothers(r);
-    register_transfers(r);
-    register_coarse_solvers(r);
-    return r;
-  }();
+  static const Registry all = solver_components();
   return all;
 }
 

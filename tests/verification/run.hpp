@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/components.hpp"
 #include "apps/signorini/nested_solver.hpp"
@@ -37,7 +38,7 @@ struct Run {
 
 template <int D, int B>
 Run<D, B> run(const Scene& scene) {
-  Registry registry = own_components();
+  Registry registry = solver_components();
   load_plugins(scene, registry);
   const Progress quiet(true);
   Times times;

@@ -1,0 +1,125 @@
+#include "amg/black_box.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "amg/block_rows.hpp"
+#include "amg/box.hpp"
+#include "amg/definite.hpp"
+#include "amg/given_levels.hpp"
+#include "amg/hierarchy.hpp"
+#include "amg/recession.hpp"
+#include "amg/registration.hpp"
+#include "core/algebra/products.hpp"
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace {
+
+void check_size(const char* what, std::span<const double> values, std::size_t expected) {
+  if (values.size() != expected)
+    input_error(what, fmt::format("found {} values, expected {}, one per row of the matrix", values.size(), expected));
+}
+
+void check_finite(const char* what, std::span<const double> values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      input_error(what, fmt::format("found {} in row {}, expected a finite number", values[i], i + 1));
+}
+
+}  // namespace
+
+class BlackBox::Solver {
+ public:
+  using Given = std::optional<std::span<const SparseRows>>;  // none: levels chosen by the matrix
+
+  virtual ~Solver() = default;
+  virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
+                       std::span<const double> start, const Monitor& monitor) = 0;
+
+  static std::unique_ptr<Solver> create(const SparseRows& A, const Given& given, int block,
+                                        const SolverOptions& options);
+};
+
+template <int B>
+class BlackBox::BlockSolver final : public Solver {
+ public:
+  BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options)
+      : options_(options), registry_(solver_components()) {
+    problem_.A = block_matrix<B>(A);
+    problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
+    problem_.fixed.assign(static_cast<std::size_t>(A.rows) / B, 0);
+    problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
+    const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+    levels_ = given ? given_levels(*given, problem_.A.size()) : algebraic_hierarchy<B>(problem_, transfer);
+    refuse_indefinite<B>(problem_.A, levels_);
+  }
+
+  Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
+               std::span<const double> start, const Monitor& monitor) override {
+    const std::size_t n = problem_.b.size();
+    check_size("b", b, n);
+    check_finite("b", b);
+    problem_.b.assign(b.begin(), b.end());
+    problem_.constraints = box<B>(n, lower, upper);
+    Result result;
+    result.x.assign(n, 0);
+    if (!start.empty()) {
+      check_size("start", start, n);
+      check_finite("start", start);
+      result.x.assign(start.begin(), start.end());
+    }
+    result.summary = signorini::solve<B>(problem_, levels_, result.x, options_, registry_, monitor);
+    if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
+    result.multiplier.resize(n);
+    residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
+    for (double& force : result.multiplier) force = -force;
+    return result;
+  }
+
+ private:
+  void recognise_unbounded(Result& result) const {
+    if (!falls_forever(problem_, result.x)) return;
+    result.summary.outcome = Outcome::unbounded;
+    result.summary.reason = "the energy is unbounded below: the iterates run away along a direction without energy";
+  }
+
+  SolverOptions options_;
+  Registry registry_;
+  DiscreteProblem<B> problem_;
+  std::vector<Prolongation> levels_;
+};
+
+std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
+                                                           const SolverOptions& options) {
+  switch (block) {
+    case 1:
+      return std::make_unique<BlockSolver<1>>(A, given, options);
+    case 2:
+      return std::make_unique<BlockSolver<2>>(A, given, options);
+    case 3:
+      return std::make_unique<BlockSolver<3>>(A, given, options);
+    default:
+      input_error("block", fmt::format("found {}, expected 1, 2 or 3 unknowns in a block", block));
+  }
+}
+
+BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options)
+    : solver_(Solver::create(A, {}, block, options)) {}
+
+BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block,
+                   const SolverOptions& options)
+    : solver_(Solver::create(A, interpolations, block, options)) {}
+
+BlackBox::~BlackBox() = default;
+BlackBox::BlackBox(BlackBox&&) noexcept = default;
+BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
+
+BlackBox::Result BlackBox::solve(std::span<const double> b, std::span<const double> lower,
+                                 std::span<const double> upper, std::span<const double> start, const Monitor& monitor) {
+  return solver_->solve(b, lower, upper, start, monitor);
+}
+
+}  // namespace signorini

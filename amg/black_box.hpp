@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/algebra/sparse_rows.hpp"
+#include "core/solver/options.hpp"
+#include "core/solver/solve.hpp"
+
+namespace signorini {
+
+/// min 1/2 x'Ax - b'x over lower <= x <= upper for a symmetric positive (semi)definite matrix A, without any mesh.
+///
+///   BlackBox solver(A);                                      // an Eigen::SparseMatrix<double>, or SparseRows
+///   BlackBox::Result result = solver.solve(b, lower, upper);
+///
+/// The set-up serves any number of right-hand sides and bounds. Everything that is wrong with the input is an Error
+/// naming the place; messages count rows and columns from 1.
+class BlackBox {
+ public:
+  struct Result {
+    std::vector<double> x;
+    std::vector<double> multiplier;  ///< A x - b: at a solution >= 0 at lower bounds, <= 0 at upper ones, 0 elsewhere
+    Summary summary;
+  };
+
+  /// Levels chosen by the matrix.
+  /// @param block 1, 2 or 3 unknowns that belong together, such as the displacement of a mesh vertex, in consecutive
+  ///     rows
+  /// @throws Error(Exit::input) for a matrix that is not symmetric, not square or seen not to be positive semidefinite
+  explicit BlackBox(const SparseRows& A, int block = 1, const SolverOptions& options = {});
+
+  /// Levels by the interpolations of another linear multigrid code, coarsest first: one row per fine vector, one column
+  /// per coarse one, weights of any sign. With blocks, a vector is a block, all of whose components are interpolated
+  /// alike. None at all is a single level.
+  BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block = 1,
+           const SolverOptions& options = {});
+
+  ~BlackBox();
+  BlackBox(BlackBox&&) noexcept;
+  BlackBox& operator=(BlackBox&&) noexcept;
+
+  /// Bounds may be infinite, and lower and upper ones equal. Whether a solution was found, or what prevented it, is in
+  /// the summary's outcome.
+  /// @param lower, upper, start one value per unknown; empty: none, and zero
+  /// @throws Error(Exit::input) for sizes that do not fit and values that are not numbers, Error(Exit::no_solution)
+  ///     where a lower bound lies above the upper one
+  Result solve(std::span<const double> b, std::span<const double> lower = {}, std::span<const double> upper = {},
+               std::span<const double> start = {}, const Monitor& monitor = {});
+
+ private:
+  class Solver;
+  template <int B>
+  class BlockSolver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,158 @@
+#include "amg/block_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr const char* place = "matrix";
+// Of an entry, relative to the diagonal entries of its row and column.
+constexpr double rounding = 1e-12;
+
+[[noreturn]] void fail(const std::string& message) { input_error(place, message); }
+
+void check_shape(const SparseRows& matrix, int block) {
+  check_entries(matrix, place);
+  if (matrix.rows != matrix.columns)
+    fail(fmt::format("found {} rows and {} columns, expected a square matrix", matrix.rows, matrix.columns));
+  if (matrix.rows == 0) fail("found no rows, expected at least one");
+  if (matrix.rows % block != 0)
+    fail(fmt::format("found {} rows, expected a multiple of the block size {}", matrix.rows, block));
+}
+
+/// One row of blocks at a time, its blocks found by their column.
+template <int B>
+class RowBuilder {
+ public:
+  explicit RowBuilder(Index vectors) : position_(static_cast<std::size_t>(vectors), -1) {}
+
+  void append(const SparseRows& matrix, Index p, BlockMatrix<B>& A) {
+    place_of(p);
+    for (Index i = 0; i < B; ++i)
+      for (Offset k = matrix.row[p * B + i]; k < matrix.row[p * B + i + 1]; ++k) {
+        const Index j = matrix.column[k];
+        values_[place_of(j / B) + static_cast<std::size_t>(i * B + j % B)] += matrix.value[k];
+      }
+    std::sort(columns_.begin() + 1, columns_.end());
+    for (const Index q : columns_) {
+      const double* block = values_.data() + position_[q];
+      position_[q] = -1;
+      if (q != p && std::all_of(block, block + B * B, [](double v) { return v == 0; })) continue;
+      A.column.push_back(q);
+      A.value.insert(A.value.end(), block, block + B * B);
+    }
+    A.row.push_back(static_cast<Offset>(A.column.size()));
+    columns_.clear();
+    values_.clear();
+  }
+
+ private:
+  std::size_t place_of(Index q) {
+    if (position_[q] < 0) {
+      position_[q] = static_cast<Offset>(values_.size());
+      columns_.push_back(q);
+      values_.resize(values_.size() + B * B);
+    }
+    return static_cast<std::size_t>(position_[q]);
+  }
+
+  std::vector<Offset> position_;  // among the values of this row; -1: not in it
+  std::vector<Index> columns_;    // the diagonal first
+  std::vector<double> values_;
+};
+
+template <int B>
+double diagonal(const BlockMatrix<B>& A, Index i) {
+  return A.diagonal(i / B)[i % B * (B + 1)];
+}
+
+template <int B>
+void check_diagonal(const BlockMatrix<B>& A) {
+  for (Index i = 0; i < A.size() * B; ++i)
+    if (const double d = diagonal(A, i); !(d > 0))
+      fail(
+          fmt::format("the diagonal entry of row {} is {}, expected a positive one: the matrix is not positive "
+                      "definite",
+                      i + 1, d));
+}
+
+/// The block in row p and column q, null where it is zero.
+template <int B>
+double* find(BlockMatrix<B>& A, Index p, Index q) {
+  if (p == q) return A.at(A.row[p]);
+  const auto end = A.column.begin() + A.row[p + 1];
+  const auto found = std::lower_bound(A.column.begin() + A.row[p] + 1, end, q);
+  return found == end || *found != q ? nullptr : A.at(found - A.column.begin());
+}
+
+template <int B>
+void check_entry(const BlockMatrix<B>& A, Index i, Index j, double here, double there) {
+  const double size = std::sqrt(diagonal(A, i)) * std::sqrt(diagonal(A, j));
+  if (std::abs(here - there) > rounding * size)
+    fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}", i + 1,
+                     j + 1, here, j + 1, i + 1, there));
+  if (i != j && std::abs(here) > (1 + rounding) * size)
+    fail(
+        fmt::format("not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "
+                    "{} and {} of these rows allow",
+                    here, i + 1, j + 1, diagonal(A, i), diagonal(A, j)));
+}
+
+/// Returns whether a block without counterpart was found, which is rounding, and set to zero.
+template <int B>
+bool check_symmetry(BlockMatrix<B>& A) {
+  constexpr double zero[B * B] = {};
+  bool lone = false;
+  for (Index p = 0; p < A.size(); ++p)
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+      const Index q = A.column[k];
+      const double* counterpart = find(A, q, p);
+      for (Index i = 0; i < B; ++i)
+        for (Index j = 0; j < B; ++j)
+          check_entry(A, p * B + i, q * B + j, A.at(k)[i * B + j], (counterpart ? counterpart : zero)[j * B + i]);
+      if (counterpart) continue;
+      lone = true;
+      std::fill_n(A.at(k), B * B, 0.0);
+    }
+  return lone;
+}
+
+template <int B>
+BlockMatrix<B> without_zero_blocks(const BlockMatrix<B>& A) {
+  BlockMatrix<B> out;
+  for (Index p = 0; p < A.size(); ++p) {
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+      const double* block = A.at(k);
+      if (A.column[k] != p && std::all_of(block, block + B * B, [](double v) { return v == 0; })) continue;
+      out.column.push_back(A.column[k]);
+      out.value.insert(out.value.end(), block, block + B * B);
+    }
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int B>
+BlockMatrix<B> block_matrix(const SparseRows& matrix) {
+  check_shape(matrix, B);
+  BlockMatrix<B> A;
+  RowBuilder<B> builder(matrix.rows / B);
+  for (Index p = 0; p < matrix.rows / B; ++p) builder.append(matrix, p, A);
+  check_diagonal(A);
+  if (check_symmetry(A)) A = without_zero_blocks(A);
+  return A;
+}
+
+template BlockMatrix<1> block_matrix(const SparseRows&);
+template BlockMatrix<2> block_matrix(const SparseRows&);
+template BlockMatrix<3> block_matrix(const SparseRows&);
+
+}  // namespace signorini

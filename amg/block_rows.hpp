@@ -1,0 +1,15 @@
+#pragma once
+#include "core/algebra/block_matrix.hpp"
+#include "core/algebra/sparse_rows.hpp"
+
+namespace signorini {
+
+/// A symmetric matrix of scalars in blocks. Zero blocks are left out, so that the pattern is symmetric, too.
+///
+/// Error(Exit::input) where the matrix is not square, does not divide into blocks of size B, is not symmetric but for
+/// rounding, or is seen not to be positive semidefinite: by its diagonal, which must be positive, or by two rows and
+/// columns alone. Messages count rows and columns from 1.
+template <int B>
+BlockMatrix<B> block_matrix(const SparseRows& matrix);
+
+}  // namespace signorini

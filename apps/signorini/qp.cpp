@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <utility>
+
+#include "amg/black_box.hpp"
+#include "apps/signorini/commands.hpp"
+#include "apps/signorini/interrupt.hpp"
+#include "apps/signorini/progress.hpp"
+#include "core/io/atomic_files.hpp"
+#include "core/io/matrix_market.hpp"
+#include "core/io/report.hpp"
+
+namespace signorini {
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Vectors {
+  std::vector<double> load, lower, upper, start;
+};
+
+Vectors read_vectors(const QpArguments& arguments, Index size) {
+  const auto read = [&](const fs::path& file, Infinities infinities) {
+    return file.empty() ? std::vector<double>() : read_vector(file, size, infinities);
+  };
+  return {read(arguments.load, Infinities::refused), read(arguments.lower, Infinities::allowed),
+          read(arguments.upper, Infinities::allowed), read(arguments.start, Infinities::refused)};
+}
+
+/// The files of a run, in one folder or several.
+class Outputs {
+ public:
+  /// Where to write a file so that commit() puts it into its place; creates its folder.
+  fs::path stage(const fs::path& file) {
+    if (fs::is_directory(file)) input_error(file.string(), "is a folder, expected the name of a file");
+    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
+    return folders_.try_emplace(folder, folder).first->second.stage(file.filename().string());
+  }
+
+  void commit() {
+    for (auto& [path, files] : folders_) files.commit();
+  }
+
+ private:
+  std::map<fs::path, AtomicFiles> folders_;
+};
+
+struct Active {
+  Index lower = 0, upper = 0;
+};
+
+Active active(const std::vector<double>& x, const Vectors& vectors) {
+  Active count;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    count.lower += !vectors.lower.empty() && x[i] == vectors.lower[i];
+    count.upper += !vectors.upper.empty() && x[i] == vectors.upper[i];
+  }
+  return count;
+}
+
+/// One run of `signorini qp`.
+class QpRun {
+ public:
+  explicit QpRun(const QpArguments& arguments)
+      : arguments_(arguments), wants_solution_(!arguments.out.empty() && arguments.out != "-") {}
+
+  Exit run() {
+    read();
+    BlackBox solver = set_up();
+    solve(solver);
+    write();
+    print();
+    return result_.summary.converged() ? Exit::solved : Exit::not_converged;
+  }
+
+ private:
+  void read() {
+    progress_.phase("reading");
+    matrix_ = read_matrix(arguments_.matrix);
+    vectors_ = read_vectors(arguments_, matrix_.rows);
+    if (wants_solution_) out_ = outputs_.stage(arguments_.out);
+    if (!arguments_.report.empty()) report_ = outputs_.stage(arguments_.report);
+    if (wants_solution_ && out_ == report_)
+      throw Error(Exit::usage, fmt::format("{} is both --out and --report", arguments_.out.string()));
+    time_.read = lap_.lap();
+    stop_if_interrupted();
+  }
+
+  /// What is refused here is wrong with the matrix.
+  BlackBox set_up() {
+    progress_.phase(fmt::format("setting up {} unknowns", matrix_.rows));
+    try {
+      return BlackBox(std::exchange(matrix_, {}), arguments_.block, arguments_.options);
+    } catch (const Error& error) {
+      throw Error(error.status(), fmt::format("{}: {}", arguments_.matrix.string(), error.what()));
+    }
+  }
+
+  void solve(BlackBox& solver) {
+    time_.setup = lap_.lap();
+    stop_if_interrupted();
+    const auto monitor = [this](const IterationRecord& record) {
+      progress_.cycle(record);
+      return !interrupted();
+    };
+    result_ = solver.solve(vectors_.load, vectors_.lower, vectors_.upper, vectors_.start, monitor);
+    stop_if_interrupted();
+    if (result_.summary.outcome == Outcome::unbounded)
+      throw Error(Exit::no_solution,
+                  fmt::format("{}: the energy is unbounded below within the bounds, as far as rounding lets one tell",
+                              arguments_.matrix.string()));
+    time_.solve = lap_.lap();
+    active_ = active(result_.x, vectors_);
+  }
+
+  void write() {
+    if (wants_solution_) write_text(out_, matrix_market(result_.x));
+    time_.total = watch_.elapsed();
+    if (!report_.empty()) write_text(report_, report_text());
+    stop_if_interrupted();
+    outputs_.commit();
+  }
+
+  std::string report_text() const {
+    auto json = to_json(result_.summary);
+    json["active"] = {{"lower", active_.lower}, {"upper", active_.upper}};
+    json["time"] = {{"read", time_.read}, {"setup", time_.setup}, {"solve", time_.solve}, {"total", time_.total}};
+    return json.dump(2) + '\n';
+  }
+
+  void print() const {
+    print_summary(result_.summary, result_.summary.converged());
+    fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
+    fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,
+               time_.solve, time_.total, peak_memory_mb());
+    if (wants_solution_) fmt::print("wrote {}\n", arguments_.out.string());
+    if (!report_.empty()) fmt::print("wrote {}\n", arguments_.report.string());
+  }
+
+  const QpArguments& arguments_;
+  const bool wants_solution_;
+  const Progress progress_{false};
+  Stopwatch watch_, lap_;
+  struct {
+    double read = 0, setup = 0, solve = 0, total = 0;  // seconds
+  } time_;
+  SparseRows matrix_;  // until the set-up
+  Vectors vectors_;
+  Outputs outputs_;
+  fs::path out_, report_;  // where they are written before they appear; empty: not wanted
+  BlackBox::Result result_;
+  Active active_;
+};
+
+}  // namespace
+
+Exit qp_command(const QpArguments& arguments) { return QpRun(arguments).run(); }
+
+}  // namespace signorini

@@ -1,0 +1,205 @@
+// A matrix and bounds alone: the solution is that of an independent solver, whatever the levels are.
+#include "amg/black_box.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/amg/matrices.hpp"
+#include "tests/support/pdas.hpp"
+#include "tests/support/problems.hpp"
+#include "tests/support/random_problem.hpp"
+
+namespace signorini::test {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+template <int B>
+void expect_solution(BlackBox& solver, const Given<B>& given, const DiscreteProblem<B>& problem) {
+  const BlackBox::Result found = solver.solve(given.b, given.lower, given.upper);
+  EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+  const Reference exact = reference(problem);
+  EXPECT_LE((vector(found.x) - exact.x).norm(), 1e-6 * (exact.x.norm() + 1e-300));
+  const Eigen::VectorXd force = given.A * vector(found.x) - vector(given.b);
+  EXPECT_LE((vector(found.multiplier) - force).norm(), 1e-12 * (1 + vector(given.b).norm()));
+  for (std::size_t i = 0; i < found.x.size(); ++i) {
+    EXPECT_GE(found.x[i], given.lower[i]);
+    EXPECT_LE(found.x[i], given.upper[i]);
+  }
+}
+
+template <int B>
+void expect_solution(const DiscreteProblem<B>& problem) {
+  const Given<B> given(problem);
+  BlackBox solver(given.A, B);
+  expect_solution(solver, given, problem);
+}
+
+TEST(BlackBox, SolvesRandomProblemsLikeTheReferenceSolver) {
+  Random random(81);
+  for (int trial = 0; trial < 3; ++trial) {
+    expect_solution(random_problem<1>(random, 900));
+    expect_solution(random_problem<2>(random, 500));
+    expect_solution(random_problem<3>(random, 450));
+  }
+}
+
+// Prescribed values are rows and columns of the identity, bounds of a quarter are equal, or touched without any force.
+TEST(BlackBox, SolvesObstacleProblemsLikeTheReferenceSolver) {
+  for (const auto& c : scalar_cases()) {
+    SCOPED_TRACE(c.name);
+    expect_solution(c.nested.finest());
+  }
+}
+
+TEST(BlackBox, SolvesContactProblemsLikeTheReferenceSolver) {
+  for (const auto& c : plane_cases()) {
+    SCOPED_TRACE(c.name);
+    expect_solution(c.nested.finest());
+  }
+  for (const auto& c : space_cases()) {
+    SCOPED_TRACE(c.name);
+    expect_solution(c.nested.finest());
+  }
+}
+
+TEST(BlackBox, LevelsOfTheMatrixMakeTheNumberOfCyclesIndependentOfItsSize) {
+  for (const int cells : {32, 64, 128}) {
+    const Matrix A = laplacian(cells);
+    const std::vector<double> b(static_cast<std::size_t>(A.rows()), -1.0 / (cells * cells)), lower(b.size(), -0.03);
+    const auto result = BlackBox(A).solve(b, lower);
+    EXPECT_TRUE(result.summary.converged()) << result.summary.reason;
+    EXPECT_LE(result.summary.iterations, 20) << cells;
+    EXPECT_GE(result.summary.level_unknowns.size(), 2u);
+  }
+}
+
+TEST(BlackBox, TakesTheLevelsOfAnotherCode) {
+  for (const auto& c : scalar_cases()) {
+    const Given<1> given(c.nested.finest());
+    std::vector<SparseRows> interpolations;
+    for (const Prolongation& P : c.nested.prolongations)
+      interpolations.emplace_back(P.fine(), P.coarse, P.row.data(), P.column.data(), P.weight.data());
+    BlackBox solver(given.A, interpolations);
+    SCOPED_TRACE(c.name);
+    expect_solution(solver, given, c.nested.finest());
+    EXPECT_EQ(solver.solve(given.b).summary.level_unknowns.size(), interpolations.size() + 1);
+  }
+}
+
+TEST(BlackBox, OneSetUpServesSeveralLoadsAndBounds) {
+  Random random(82);
+  auto problem = random_problem<2>(random, 300);
+  BlackBox solver(Given<2>(problem).A, 2);
+  for (int step = 0; step < 5; ++step) {
+    for (double& v : problem.b) v = random.between(-1, 1);
+    for (double& v : problem.constraints.lower) v -= random.unit();
+    expect_solution(solver, Given<2>(problem), problem);
+  }
+}
+
+TEST(BlackBox, TakesCompressedRowsInAnyOrderAndOfEitherWidth) {
+  // 2 -1 / -1 2 with the columns swapped and a diagonal entry in two parts.
+  const std::vector<int> narrow{0, 3, 5}, column{1, 0, 0, 1, 0};
+  const std::vector<std::int64_t> wide(narrow.begin(), narrow.end());
+  const std::vector<double> value{-1, 0.5, 1.5, 2, -1}, b{1, 1};
+  for (const SparseRows& A : {SparseRows(2, 2, narrow.data(), column.data(), value.data()),
+                              SparseRows(2, 2, wide.data(), column.data(), value.data())}) {
+    const auto x = BlackBox(A).solve(b).x;
+    EXPECT_NEAR(x[0], 1, 1e-12);
+    EXPECT_NEAR(x[1], 1, 1e-12);
+  }
+}
+
+TEST(BlackBox, StartsWhereItIsTold) {
+  const Matrix A = laplacian(40);
+  const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1);
+  BlackBox solver(A);
+  const auto cold = solver.solve(b);
+  const auto warm = solver.solve(b, {}, {}, cold.x);
+  EXPECT_LE(warm.summary.iterations, 2);
+  EXPECT_GT(cold.summary.iterations, 4);
+}
+
+TEST(BlackBox, SolvesWithoutBoundsAndWithAllOfThemEqual) {
+  const Matrix A = laplacian(30);
+  Random random(83);
+  std::vector<double> b(static_cast<std::size_t>(A.rows()));
+  for (double& v : b) v = random.between(-1, 1);
+  BlackBox solver(A);
+  const auto free = solver.solve(b);
+  const Eigen::VectorXd exact = Eigen::CholmodSimplicialLDLT<Matrix>(A).solve(vector(b));
+  EXPECT_LE((vector(free.x) - exact).norm(), 1e-7 * exact.norm());
+  const auto fixed = solver.solve(b, b, b);
+  EXPECT_TRUE(fixed.summary.converged()) << fixed.summary.reason;
+  EXPECT_EQ(fixed.x, b);
+}
+
+// The graph Laplacian has the constants in its kernel.
+TEST(BlackBox, SolvesSemidefiniteProblemsThatTheBoundsMakeSolvable) {
+  for (const int cells : {10, 60}) {
+    const Matrix A = neumann_laplacian(cells);
+    const auto n = static_cast<std::size_t>(A.rows());
+    DiscreteProblem<1> problem = problem_of(A);
+    Random random(84);
+    for (double& v : problem.b) v = random.between(-1, 0.5);
+    const std::vector<double> lower = waves(n);
+    bound(problem, lower, std::vector<double>(n, infinity));
+    expect_solution(problem);
+  }
+}
+
+TEST(BlackBox, SolvesSemidefiniteProblemsWithAConsistentLoad) {
+  const Matrix A = neumann_laplacian(60);
+  Random random(85);
+  Eigen::VectorXd v(A.rows());
+  for (double& value : v) value = random.between(-1, 1);
+  const Eigen::VectorXd b = A * v;
+  const auto result = BlackBox(A).solve({b.data(), static_cast<std::size_t>(b.size())});
+  EXPECT_TRUE(result.summary.converged()) << result.summary.reason;
+  EXPECT_LE((A * vector(result.x) - b).norm(), 1e-6 * b.norm());
+}
+
+TEST(BlackBox, SeesThatTheEnergyFallsForever) {
+  for (const int cells : {10, 60}) {
+    const Matrix A = neumann_laplacian(cells);
+    const auto n = static_cast<std::size_t>(A.rows());
+    const std::vector<double> b(n, 1.0);
+    BlackBox solver(A);
+    EXPECT_EQ(solver.solve(b).summary.outcome, Outcome::unbounded);
+    EXPECT_EQ(solver.solve(b, waves(n)).summary.outcome, Outcome::unbounded);  // the bounds are on the wrong side
+    EXPECT_TRUE(solver.solve(b, {}, waves(n)).summary.converged());
+  }
+}
+
+// The coarse levels do not hold the direction without energy exactly: a scaled constant, a rotation.
+TEST(BlackBox, SeesThatTheEnergyFallsForeverAlongAnyDirection) {
+  for (const int cells : {10, 60}) {
+    const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>((cells + 1) * (cells + 1)))).array() + 2;
+    const Matrix A = s.asDiagonal() * neumann_laplacian(cells) * s.asDiagonal();
+    const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1.0);
+    BlackBox solver(A);
+    EXPECT_EQ(solver.solve(b).summary.outcome, Outcome::unbounded) << cells;
+    EXPECT_EQ(solver.solve(b, waves(b.size())).summary.outcome, Outcome::unbounded) << cells;
+    EXPECT_TRUE(solver.solve(b, {}, waves(b.size())).summary.converged()) << cells;
+  }
+  const Mesh<2> mesh = cube<2>(0, 1, 40);
+  std::vector<double> torque, pull;
+  for (const Point<2>& x : mesh.points) {
+    torque.insert(torque.end(), {0.5 - x[1], x[0] - 0.5});
+    pull.insert(pull.end(), {1, 0});
+  }
+  BlackBox solver(sparse(stiffness<2, 2>(mesh, Model<2>{})), 2);
+  EXPECT_EQ(solver.solve(torque).summary.outcome, Outcome::unbounded);
+  EXPECT_EQ(solver.solve(pull).summary.outcome, Outcome::unbounded);
+}
+
+TEST(BlackBox, StopsWhenTheMonitorSaysSo) {
+  const Matrix A = laplacian(30);
+  const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1.0);
+  const auto result = BlackBox(A).solve(b, {}, {}, {}, [](const IterationRecord& r) { return r.iteration < 2; });
+  EXPECT_EQ(result.summary.outcome, Outcome::interrupted);
+}
+
+}  // namespace
+}  // namespace signorini::test
