@@ -10,6 +10,7 @@
 #include "amg/definite.hpp"
 #include "amg/given_levels.hpp"
 #include "amg/hierarchy.hpp"
+#include "amg/nested_start.hpp"
 #include "amg/recession.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
@@ -65,8 +66,9 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.b.assign(b.begin(), b.end());
     problem_.constraints = box<B>(n, lower, upper);
     Result result;
-    result.x.assign(n, 0);
-    if (!start.empty()) {
+    if (start.empty()) {
+      result.x = nested_start<B>(problem_, levels_, loose(options_), registry_, monitor);
+    } else {
       check_size("start", start, n);
       check_finite("start", start);
       result.x.assign(start.begin(), start.end());

@@ -42,7 +42,7 @@ class BlackBox {
 
   /// Bounds may be infinite, and lower and upper ones equal. Whether a solution was found, or what prevented it, is in
   /// the summary's outcome.
-  /// @param lower, upper, start one value per unknown; empty: none, and zero
+  /// @param lower, upper, start one value per unknown; empty: none, and nested iteration
   /// @throws Error(Exit::input) for sizes that do not fit and values that are not numbers, Error(Exit::no_solution)
   ///     where a lower bound lies above the upper one
   Result solve(std::span<const double> b, std::span<const double> lower = {}, std::span<const double> upper = {},

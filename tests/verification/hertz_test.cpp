@@ -86,9 +86,10 @@ void expect_hertz(double delta, const std::string& size, int refinements) {
   EXPECT_LE(std::abs(last.radius), std::abs(first.radius) / 2);
   EXPECT_LE(std::abs(last.pressure), std::abs(first.pressure) / 4);
   for (int k = 1; k <= refinements; ++k) {
-    if (k > 1)  // the error of the largest pressure may change its sign
+    if (k > 1) {  // the error of the largest pressure may change its sign
       EXPECT_LE(std::abs(found[k].pressure),
                 std::max(std::abs(found[k - 1].pressure), std::abs(found[k - 2].pressure)));
+    }
     EXPECT_LE(std::abs(found[k].approach), std::abs(found[k - 1].approach));
   }
 }
