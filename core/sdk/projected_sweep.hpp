@@ -15,13 +15,19 @@ inline void row_residual(const LevelView<B>& level, Index p, double* r) {
   for (int i = 0; i < B; ++i) r[i] = level.b[Offset{p} * B + i] - Ax[i];
 }
 
+/// relaxation A_pp^-1. It is the inverse that is scaled, since the next vector waits for what follows the residual.
+template <int B>
+inline void relaxed_inverse(const LevelView<B>& level, Index p, double* out) {
+  for (int i = 0; i < B * B; ++i) out[i] = level.relaxation * level.inverse[Offset{p} * B * B + i];
+}
+
 /// Over-relaxed Gauss-Seidel at a vector without obstacle.
 template <int B>
 inline void relax(const LevelView<B>& level, Index p) {
-  double r[B];
+  double inverse[B * B], r[B];
+  relaxed_inverse<B>(level, p, inverse);
   row_residual<B>(level, p, r);
-  for (int i = 0; i < B; ++i) r[i] *= level.relaxation;
-  block::add_product<B>(level.inverse + Offset{p} * B * B, r, level.x + Offset{p} * B);
+  block::add_product<B>(inverse, r, level.x + Offset{p} * B);
 }
 
 /// Projected Gauss-Seidel at the vector of a slot, over-relaxed where that meets no bound, and up to it for scalars.
@@ -32,24 +38,25 @@ inline void relax_projected(const LevelView<B>& level, Index slot) {
   const Index p = level.constrained[slot];
   double* x = level.x + Offset{p} * B;
   if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
-    double r;
+    double inverse, r;
+    relaxed_inverse<1>(level, p, &inverse);
     row_residual<1>(level, p, &r);
-    *x = Local::clamp(*x + level.inverse[p] * (level.relaxation * r), level.lower[slot], level.upper[slot]);
+    *x = Local::clamp(*x + inverse * r, level.lower[slot], level.upper[slot]);
     return;
   }
   const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};
-  double r[B], relaxed[B], lower[B], upper[B], d[B];
+  double inverse[B * B], r[B], lower[B], upper[B], d[B];
+  relaxed_inverse<B>(level, p, inverse);
   row_residual<B>(level, p, r);
   for (int k = 0; k < B; ++k) {
-    relaxed[k] = level.relaxation * r[k];
     lower[k] = bound[0][k] - x[k];
     upper[k] = bound[1][k] - x[k];
   }
-  const double* inverse = level.inverse + Offset{p} * B * B;
-  block::product<B>(inverse, relaxed, d);
+  block::product<B>(inverse, r, d);
   bool inside = true;
   for (int k = 0; k < B; ++k) inside = inside && d[k] >= lower[k] && d[k] <= upper[k];
-  if (!inside) Local::correct(level.value + level.row[p] * B * B, inverse, r, lower, upper, d);
+  if (!inside)
+    Local::correct(level.value + level.row[p] * B * B, level.inverse + Offset{p} * B * B, r, lower, upper, d);
   // Set, not added, where a bound is met: contact then is an exact comparison.
   for (int k = 0; k < B; ++k) x[k] = d[k] <= lower[k] ? bound[0][k] : d[k] >= upper[k] ? bound[1][k] : x[k] + d[k];
 }
