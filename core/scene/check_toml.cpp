@@ -39,11 +39,15 @@ class Walk {
     if (static_cast<unsigned char>(c) >= 127 || (c < ' ' && c != '\t' && c != '\n' && c != '\r'))
       fail("a character that is not plain ASCII outside of texts and comments");
     if (c == '[' && open_.empty() && !in_value_) header();
+    if (in_value_ && (c == '[' || c == '{')) expect_token_start(c);
+    if (in_value_ && c == '=') fail("a second '=' in one line");
     ++at_;
     if (c == '\n') ++line_;
     const bool line_end = c == '\n' || c == '\r';
-    in_value_ = c == '=' || (in_value_ && !line_end);
     bracket(c);
+    if (c == '=' || c == '}') in_value_ = true;
+    if ((line_end && open_.empty()) || c == '{' || (c == ',' && open_.ends_with('}')))
+      in_value_ = false;  // a key follows
     if (c == '.' && ++dots_ > deepest_key) fail(fmt::format("a key of more than {} parts", deepest_key));
     if (line_end || c == '=' || c == ',' || c == '{' || c == '[') dots_ = 0;
   }
@@ -68,11 +72,12 @@ class Walk {
       fail("expected the name of a table after '['");
   }
 
-  // The TOML library reads on through a quote inside of a value, and does not survive every character there.
-  void expect_token_start(char quote) const {
-    constexpr std::string_view before = " \t\r\n=,[{.";
+  // The TOML library reads on through quotes and brackets inside of a value, and does not survive every character
+  // there.
+  void expect_token_start(char c) const {
+    const std::string_view before = in_value_ ? " \t\r\n=,[{" : " \t\r\n=,[{.";
     if (at_ > 0 && before.find(text_[at_ - 1]) == std::string_view::npos && !(at_ == 3 && text_[0] == '\xef'))
-      fail(fmt::format("a {} in the middle of a value", quote));
+      fail(fmt::format("a {} in the middle of a value", c));
   }
 
   void string(char quote) {
