@@ -40,16 +40,22 @@ class Walk {
       fail("a character that is not plain ASCII outside of texts and comments");
     if (c == '[' && open_.empty() && !in_value_) header();
     if (in_value_ && (c == '[' || c == '{')) expect_token_start(c);
-    if (in_value_ && c == '=') fail("a second '=' in one line");
+    if (c == '=') begin_value();
     ++at_;
     if (c == '\n') ++line_;
     const bool line_end = c == '\n' || c == '\r';
     bracket(c);
-    if (c == '=' || c == '}') in_value_ = true;
+    if (c == '}') in_value_ = true;
     if ((line_end && open_.empty()) || c == '{' || (c == ',' && open_.ends_with('}')))
       in_value_ = false;  // a key follows
     if (c == '.' && ++dots_ > deepest_key) fail(fmt::format("a key of more than {} parts", deepest_key));
     if (line_end || c == '=' || c == ',' || c == '{' || c == '[') dots_ = 0;
+  }
+
+  void begin_value() {
+    if (in_value_) input_error(fmt::format("{}:{}", name_, value_line_), "a second '=' before the value's end");
+    in_value_ = true;
+    value_line_ = line_;
   }
 
   void bracket(char c) {
@@ -100,7 +106,7 @@ class Walk {
 
   std::string_view text_;
   const std::string& name_;
-  std::size_t at_ = 0, line_ = 1;
+  std::size_t at_ = 0, line_ = 1, value_line_ = 1;
   std::string open_;  // the brackets that will close what is open
   int dots_ = 0;
   bool in_value_ = false;
