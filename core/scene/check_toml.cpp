@@ -41,6 +41,7 @@ class Walk {
     if (c == '[' && open_.empty() && !in_value_) header();
     if (in_value_ && (c == '[' || c == '{')) expect_token_start(c);
     if (c == '=') begin_value();
+    if (c == '\n' && !open_.empty() && !in_value_) fail(fmt::format("expected '{}' in this line", open_.back()));
     ++at_;
     if (c == '\n') ++line_;
     const bool line_end = c == '\n' || c == '\r';
