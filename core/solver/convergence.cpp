@@ -15,7 +15,8 @@ void ErrorEstimate::add(double gain, double correction) {
   double ratio = 0.5;
   const std::size_t n = gains_.size();
   if (n > 0 && gains_[n - 1] > 0) ratio = gain / gains_[n - 1];
-  if (n > 1 && gains_[n - 2] > 0) ratio = std::max(ratio, std::sqrt(gain / gains_[n - 2]));  // acceleration makes single ones uneven
+  if (n > 1 && gains_[n - 2] > 0)
+    ratio = std::max(ratio, std::sqrt(gain / gains_[n - 2]));  // acceleration makes single ones uneven
   ratio = std::min(ratio, slowest);
   error_ = caution * std::sqrt(2 * gain * ratio / (1 - ratio));
   gains_.push_back(gain);
