@@ -1,6 +1,5 @@
 #include "amg/nested_start.hpp"
 
-#include "core/algebra/products.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/multigrid.hpp"
 
