@@ -112,7 +112,6 @@ struct Scene {
   struct Solver : SolverOptions {
     std::string start = "nested";  ///< nested or zero
     bool algebraic = true;         ///< levels chosen by the matrix below a large coarsest mesh
-    int threads = 1;
     Source source;
   };
 

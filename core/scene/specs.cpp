@@ -138,7 +138,8 @@ constexpr KeySpec solver[] = {
      "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
-    {"threads", integer, "1", "1", "[2, 4096]", "number of threads"},
+    {"threads", integer, "1", "[1, 4096]", "",
+     "threads of the cycles, for large problems; results do not depend on them"},
 };
 
 constexpr KeySpec refine[] = {

@@ -42,8 +42,9 @@ struct LocalConstraint {
 };
 
 /// An obstacle type: everything nonlinear about a problem, all of it local to one vector. The kernel knows no more than
-/// this, and calls it once per sweep and segment, never per vector. Implementations come from plugins; they derive
-/// from BoxObstacle (core/sdk/box_obstacle.hpp) unless their admissible set is no box.
+/// this, and calls it once per sweep and segment, never per vector. Several threads may call it at a time, for vectors
+/// that the matrix does not couple. Implementations come from plugins; they derive from BoxObstacle
+/// (core/sdk/box_obstacle.hpp) unless their admissible set is no box.
 template <int B>
 class Obstacle {
  public:

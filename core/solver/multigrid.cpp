@@ -49,7 +49,10 @@ Level<B> finest_level(const DiscreteProblem<B>& problem) {
 template <int B>
 MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                         Components<B> components, Settings settings)
-    : levels_(prolongations.size() + 1), components_(std::move(components)), settings_(settings) {
+    : levels_(prolongations.size() + 1),
+      components_(std::move(components)),
+      settings_(settings),
+      crew_(settings.threads) {
   levels_.back() = finest_level(problem);
   transfers_.resize(prolongations.size());
   for (std::size_t k = prolongations.size(); k-- > 0;) {
@@ -82,7 +85,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   Passes down, up;
   if (before) down.add(before);
   if (k == 0) {
-    down.run(level.chunks);
+    down.run(level.chunks, crew_);
     if (finest) update_phases(level, 0, level.vectors);
     if (!components_.coarse->solve(level)) report_.bounded = settings_.line_search;
     level.renewed.clear();
@@ -96,7 +99,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
       restrict_residual(k, first, last);
       coarse.inherited_rounding += rounding_of_work(level, first, last);
     });
-    down.run(level.chunks);
+    down.run(level.chunks, crew_);
     if (finest) report_.rounding = coarse.inherited_rounding;
     elsewhere = correct(k, cycle);
     if (finest && settings_.line_search)
@@ -108,7 +111,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     components_.smoother->add_passes(level, settings_.post, Side::ascend, up);
   }
   if (after) up.add(after);
-  up.run(level.chunks);
+  up.run(level.chunks, crew_);
   report_.levels[k].seconds += seconds() - begin - elsewhere;
 }
 

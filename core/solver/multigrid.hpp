@@ -41,6 +41,7 @@ class MonotoneMultigrid {
     /// (Graeser and Kornhuber 2009, section 5). Needs no monotone restriction of the bounds.
     bool line_search = false;
     double relaxation = 1.2;  ///< of the sweeps on all levels
+    int threads = 1;          ///< results do not depend on it
   };
 
   /// Keeps references to the problem and the prolongations (coarsest first).
@@ -69,6 +70,7 @@ class MonotoneMultigrid {
   std::vector<std::unique_ptr<Transfer<B>>> transfers_;
   Components<B> components_;
   Settings settings_;
+  Crew crew_;
   CycleReport report_;
   double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk

@@ -19,6 +19,7 @@ struct SolverOptions {
   double cut = 0;              ///< truncate also at distances up to this part of the last cycle's largest change
   std::string rotate = "all";  ///< all, not_coarsest or none
   bool krylov = true;          ///< accelerate the cycles while the phases rest
+  int threads = 1;             ///< at most; small problems start none, and results do not depend on them
 };
 
 /// For a start on a finer level, which need not be better than the discretisation error.

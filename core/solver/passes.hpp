@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/algebra/block_matrix.hpp"
+#include "core/base/crew.hpp"
 #include "core/sdk/level_view.hpp"
 
 namespace signorini {
@@ -33,7 +34,9 @@ class Passes {
   void add(Order order, Run run) { passes_.push_back({order, true, std::move(run)}); }
   /// A pass of which any order of chunks is fine.
   void add(Run run) { passes_.push_back({Order::forward, false, std::move(run)}); }
-  void run(const Chunks& chunks) const;
+  /// With a crew of several threads different passes go on at the same time, each where it would be without them: the
+  /// result is bitwise the same. More threads than passes gain nothing; where the chunks are few, none is started.
+  void run(const Chunks& chunks, Crew& crew) const;
 
  private:
   struct Pass {

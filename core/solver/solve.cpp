@@ -44,6 +44,7 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
   require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
   require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
   require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
+  require(o.threads >= 1 && o.threads <= 4096, "threads", fmt::format("{}", o.threads), "a number from 1 to 4096");
   const bool tnnmg = choice<bool>("method", o.method, {{"monotone", false}, {"tnnmg", true}, {"pgs", false}});
   const auto truncate = choice<Truncation>(
       "truncate", o.truncate,
@@ -59,7 +60,8 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
           choice<Rotate>("rotate", o.rotate,
                          {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
           tnnmg,
-          o.relaxation};
+          o.relaxation,
+          o.threads};
 }
 
 template <int B>

@@ -177,7 +177,8 @@ TEST(GaussSeidelOrder, IsWhatTheNameSays) {
     level.x = x.data();
     Passes passes;
     GaussSeidel<2>(order).add_passes(level, steps, side, passes);
-    passes.run(level.chunks);
+    Crew alone(1);
+    passes.run(level.chunks, alone);
     return x;
   };
   constexpr Order f = Order::forward, b = Order::backward;

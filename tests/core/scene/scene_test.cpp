@@ -63,7 +63,6 @@ TEST(Scene, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(scene.solver.method, "monotone");
   EXPECT_EQ(scene.solver.cycle, "V");
   EXPECT_EQ(scene.solver.start, "nested");
-  EXPECT_EQ(scene.solver.threads, 1);
   EXPECT_EQ(scene.refine.uniform, 0);
   EXPECT_EQ(scene.steps.count, 1);
   EXPECT_TRUE(scene.plugin_path.empty());
@@ -90,6 +89,7 @@ TEST(Scene, DefaultsOfTheSolverAreThoseOfItsOptions) {
   EXPECT_EQ(scene.solver.truncate, options.truncate);
   EXPECT_EQ(scene.solver.rotate, options.rotate);
   EXPECT_EQ(scene.solver.krylov, options.krylov);
+  EXPECT_EQ(scene.solver.threads, options.threads);
 }
 
 TEST(Scene, EverySettingIsRead) {

@@ -1,6 +1,7 @@
-// What must not change the answer: units, the numbering of the vectors, the fineness of the mesh.
+// What must not change the answer: units, the numbering of the vectors, the fineness of the mesh, threads.
 #include <gtest/gtest.h>
 
+#include "core/solver/passes.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/random.hpp"
@@ -219,6 +220,30 @@ TEST(Invariance, IterationsDoNotGrowWithTheMeshInElasticContact) {
   expect_mesh_independence("circle", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, circle), 4);
   const auto held = resting_block<2>({3, -1}, {"left"});
   expect_mesh_independence("held", discretize_all<2, 2>(cube<2>(0, 1, 2), 6, held), 4);
+}
+
+// Bitwise, iterates of every cycle: what a cycle does next depends on all that came before.
+template <int B>
+void expect_independent_of_threads(const Nested<B>& nested) {
+  ASSERT_GT(divide(nested.levels.back().A).count(), 8) << "too small for threads";
+  const auto solve_with = [&](int threads) {
+    SolverOptions options;
+    options.threads = threads;
+    std::vector<double> x;
+    const Summary s = solve_from_zero(nested, x, options);
+    EXPECT_TRUE(s.converged());
+    for (const IterationRecord& cycle : s.history)
+      x.insert(x.end(), {cycle.energy, cycle.residual, cycle.algebraic_error});
+    return x;
+  };
+  const std::vector<double> alone = solve_with(1);
+  for (const int threads : {2, 5}) EXPECT_EQ(solve_with(threads), alone) << threads << " threads";
+}
+
+TEST(Invariance, Threads) {
+  expect_independent_of_threads(discretize_all<2, 1>(cube<2>(-2, 2, 4), 7, radial_model<2>()));
+  expect_independent_of_threads(
+      discretize_all<3, 3>(cube<3>(0, 1, 3), 3, pressed_block<3>(sphere<3>({0.4, 0.55, -1}, 0.98), 0.08)));
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+
 #include "core/algebra/products.hpp"
 #include "core/solver/multigrid.hpp"
 #include "tests/support/random_problem.hpp"
@@ -35,7 +39,8 @@ std::vector<Index> visits(const Chunks& chunks, Order first, Order second) {
   Passes passes;
   passes.add(first, [&](Index begin, Index) { out.push_back(begin / chunks.size); });
   passes.add(second, [&](Index begin, Index) { out.push_back(chunks.count() + begin / chunks.size); });
-  passes.run(chunks);
+  Crew alone(1);
+  passes.run(chunks, alone);
   return out;
 }
 
@@ -61,7 +66,7 @@ TEST(Passes, WaitForEachOtherWhereTheMatrixReachesFarOrTheOrderTurns) {
   second_after_first(divide(banded(random, 3, false), 1000), Order::forward, Order::backward);
 }
 
-TEST(Passes, GiveTheResultOfWholePasses) {
+TEST(Passes, GiveTheResultOfWholePassesWithAnyNumberOfThreads) {
   Random random(5);
   for (const Index reach : {1, 20, 90}) {
     DiscreteProblem<1> problem;
@@ -70,7 +75,7 @@ TEST(Passes, GiveTheResultOfWholePasses) {
     problem.fixed.assign(n, 0);
     problem.start.assign(n, 0);
     Level<1> level = finest_level(problem);
-    const auto run = [&](const Chunks& chunks) {
+    const auto run = [&](const Chunks& chunks, int threads) {
       std::vector<double> x(n, 0.0), r(n);
       level.x = x.data();
       Passes passes;
@@ -78,14 +83,54 @@ TEST(Passes, GiveTheResultOfWholePasses) {
         passes.add(order, [&level, order](Index first, Index last) { level.sweep(order, first, last); });
       passes.add(
           [&](Index first, Index last) { residual<1>(problem.A, level.x, level.b, first, last, r.data() + first); });
-      passes.run(chunks);
+      Crew crew(threads);
+      passes.run(chunks, crew);
       x.insert(x.end(), r.begin(), r.end());
       return x;
     };
     const Chunks whole = divide(problem.A, Offset{1} << 40), parts = divide(problem.A, 800);
     ASSERT_EQ(whole.count(), 1);
     ASSERT_GT(parts.count(), 10);
-    EXPECT_EQ(run(parts), run(whole)) << "reach " << reach;
+    for (const int threads : {1, 2, 3, 8})
+      EXPECT_EQ(run(parts, threads), run(whole, 1)) << "reach " << reach << ", threads " << threads;
+  }
+}
+
+TEST(Passes, GoOnAtTheSameTimeOnSeveralThreads) {
+  Random random(6);
+  const Chunks chunks = divide(banded(random, 1, false), 100);
+  Crew pair(2);
+  std::atomic<int> inside = 0, together = 0;
+  const auto meet = [&](Index, Index) {  // waits for the other pass, but not for ever
+    ++inside;
+    for (int patience = 0; patience < 10000 && together == 0 && inside < 2; ++patience)
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    together += inside == 2;
+    --inside;
+  };
+  Passes passes;
+  passes.add(Order::forward, meet);
+  passes.add(Order::forward, meet);
+  passes.run(chunks, pair);
+  EXPECT_GT(together, 0);
+}
+
+TEST(Passes, WhatOneThrowsEndsAllOnEveryThread) {
+  Random random(7);
+  const Chunks chunks = divide(banded(random, 3, false), 100);
+  for (const int threads : {1, 2, 3}) {
+    Crew crew(threads);
+    Passes passes;
+    passes.add([](Index, Index) {});
+    passes.add([](Index first, Index) {
+      if (first > n / 2) throw std::runtime_error("half way");
+    });
+    EXPECT_THROW(passes.run(chunks, crew), std::runtime_error) << threads;
+    Passes next;
+    std::atomic<int> count = 0;
+    for (int pass = 0; pass < 2; ++pass) next.add([&](Index, Index) { ++count; });
+    next.run(chunks, crew);
+    EXPECT_EQ(count, 2 * chunks.count()) << "the crew works on";
   }
 }
 
