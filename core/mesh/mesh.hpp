@@ -36,6 +36,7 @@ struct Mesh {
   std::vector<Face<D>> boundary;                   ///< every boundary face, once
   std::vector<Part> parts;                         ///< named parts; all faces together always answer to "boundary"
   std::vector<Curve<D>> curves;
+  std::vector<Index> layer;  ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
 
   Index vertices() const { return static_cast<Index>(points.size()); }
 };

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/layers.hpp"
 #include "core/mesh/red_refinement.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
@@ -35,7 +37,11 @@ Simplex<3> put_shortest_diagonal_first(const std::vector<Point<3>>& points, cons
 template <int D>
 class Refiner {
  public:
-  Refiner(const Mesh<D>& coarse, Mesh<D>& fine) : coarse_(coarse), fine_(fine), fathers_(coarse.elements) {
+  Refiner(const Mesh<D>& coarse, Mesh<D>& fine)
+      : coarse_(coarse),
+        fine_(fine),
+        fathers_(coarse.elements),
+        layer_(coarse.layer.empty() ? layers(coarse) : coarse.layer) {
     if constexpr (D == 3)
       for (auto& e : fathers_) e = put_shortest_diagonal_first(coarse.points, e);
     edges_ = number_edges<D>(coarse.vertices(), fathers_);
@@ -55,6 +61,9 @@ class Refiner {
   static constexpr auto& children = RedRefinement<D>::children;
   static constexpr auto& face_children = RedRefinement<D - 1>::children;
   static constexpr std::size_t nodes = D + 1 + ends.size();
+  /// The lowest layer of a child is twice that of its father, or one or two more: on refined meshes, numbers of layers
+  /// are linear on every coarsest element, so that inner diagonals go over two layers, all other edges over one.
+  static constexpr int lowest_of_children = 3;
 
   void check_size() const {
     const double limit = std::numeric_limits<Index>::max();
@@ -67,17 +76,57 @@ class Refiner {
   }
 
   /// The fine vertex at a corner (i <= D) or edge midpoint of a coarse element, made when it is first asked for.
-  Index fine_vertex(std::size_t element, int i) {
+  Index fine_vertex(Index element, int i) {
     const Simplex<D>& father = fathers_[element];
-    const Index key = i <= D ? father[i] : coarse_.vertices() + edges_.number[element * ends.size() + i - D - 1];
+    const Index key =
+        i <= D ? father[i]
+               : coarse_.vertices() + edges_.number[static_cast<std::size_t>(element) * ends.size() + i - D - 1];
     Index& number = number_[key];
     if (number >= 0) return number;
     const Index a = i <= D ? father[i] : father[ends[i - D - 1][0]];
     const Index b = i <= D ? father[i] : father[ends[i - D - 1][1]];
     number = fine_.vertices();
     fine_.points.push_back(a == b ? coarse_.points[a] : midpoint<D>(coarse_.points[a], coarse_.points[b]));
+    fine_.layer.push_back(layer_[a] + layer_[b]);
     refinement_.parents.push_back({a, b});
     return number;
+  }
+
+  Index lowest_layer(const Simplex<D>& element) const {
+    Index lowest = layer_[element[0]];
+    for (const Index v : element) lowest = std::min(lowest, layer_[v]);
+    return lowest;
+  }
+
+  /// The elements in the order of their lowest layers, and where those of each layer begin.
+  std::pair<std::vector<Index>, std::vector<Offset>> sort_fathers() const {
+    const Index last = layer_.empty() ? 0 : *std::ranges::max_element(layer_);
+    std::vector<Offset> begin(static_cast<std::size_t>(last) + 3, 0);
+    for (const auto& father : fathers_) ++begin[lowest_layer(father) + 2];
+    for (std::size_t l = 2; l < begin.size(); ++l) begin[l] += begin[l - 1];
+    std::vector<Index> order(fathers_.size());
+    for (std::size_t e = 0; e < fathers_.size(); ++e)
+      order[begin[lowest_layer(fathers_[e]) + 1]++] = static_cast<Index>(e);
+    return {std::move(order), std::move(begin)};
+  }
+
+  /// The children whose lowest layer is the given one.
+  void add_children(Index father, Index layer) {
+    std::array<Index, nodes> node, layers;
+    node.fill(-1);
+    for (int i = 0; i <= D; ++i) layers[i] = 2 * layer_[fathers_[father][i]];
+    for (std::size_t k = 0; k < ends.size(); ++k) layers[D + 1 + k] = (layers[ends[k][0]] + layers[ends[k][1]]) / 2;
+    for (const auto& child : children) {
+      Index lowest = layers[child[0]];
+      for (const int i : child) lowest = std::min(lowest, layers[i]);
+      if (lowest != layer) continue;
+      Simplex<D>& element = fine_.elements.emplace_back();
+      for (int i = 0; i <= D; ++i) {
+        if (node[child[i]] < 0) node[child[i]] = fine_vertex(father, child[i]);
+        element[i] = node[child[i]];
+      }
+      refinement_.father.push_back(father);
+    }
   }
 
   void refine_elements() {
@@ -85,21 +134,18 @@ class Refiner {
     number_.assign(vertices, -1);
     fine_ = {};
     fine_.points.reserve(vertices);
+    fine_.layer.reserve(vertices);
     refinement_.parents.reserve(vertices);
     fine_.elements.reserve(fathers_.size() * children.size());
     refinement_.father.reserve(fathers_.size() * children.size());
-    for (std::size_t e = 0; e < fathers_.size(); ++e) {
-      std::array<Index, nodes> node;
-      node.fill(-1);
-      for (const auto& child : children) {
-        Simplex<D>& element = fine_.elements.emplace_back();
-        for (int i = 0; i <= D; ++i) {
-          if (node[child[i]] < 0) node[child[i]] = fine_vertex(e, child[i]);
-          element[i] = node[child[i]];
+    first_child_.resize(lowest_of_children * fathers_.size());
+    const auto [order, begin] = sort_fathers();
+    for (std::size_t layer = 0; layer + 1 < begin.size(); ++layer)
+      for (int above = 0; above < lowest_of_children; ++above)
+        for (Offset i = begin[layer]; i < begin[layer + 1]; ++i) {
+          first_child_[lowest_of_children * order[i] + above] = static_cast<Index>(fine_.elements.size());
+          add_children(order[i], 2 * static_cast<Index>(layer) + above);
         }
-        refinement_.father.push_back(static_cast<Index>(e));
-      }
-    }
   }
 
   /// Fine vertex between two vertices of a coarse element.
@@ -111,9 +157,12 @@ class Refiner {
   }
 
   Index child_with(Index father, const std::array<Index, D>& face) const {
-    Index e = father * static_cast<Index>(children.size());
-    while (!std::ranges::all_of(face, [&](Index v) { return std::ranges::count(fine_.elements[e], v) > 0; })) ++e;
-    return e;
+    for (int above = 0; above < lowest_of_children; ++above)
+      for (Index e = first_child_[lowest_of_children * father + above];
+           e < static_cast<Index>(fine_.elements.size()) && refinement_.father[e] == father; ++e)
+        if (std::ranges::all_of(face, [&](Index v) { return std::ranges::count(fine_.elements[e], v) > 0; })) return e;
+    assert(false && "a child of a face bounds a child of its element");
+    return -1;
   }
 
   void refine_boundary() {
@@ -158,7 +207,9 @@ class Refiner {
   Mesh<D>& fine_;
   std::vector<Simplex<D>> fathers_;
   Numbering edges_;
-  std::vector<Index> number_;  // fine number of each coarse vertex, then of each coarse edge
+  std::vector<Index> layer_;        // per coarse vertex
+  std::vector<Index> first_child_;  // of each coarse element, by its lowest layer
+  std::vector<Index> number_;       // fine number of each coarse vertex, then of each coarse edge
   Refinement refinement_;
 };
 
@@ -189,7 +240,7 @@ HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
   double edges = uniform > 0 ? number_edges<D>(coarsest.vertices(), coarsest.elements).distinct : 0;
 
   const auto level_bytes = [&] {
-    return vertices * (sizeof(Point<D>) + sizeof(Refinement::parents[0])) +
+    return vertices * (sizeof(Point<D>) + sizeof(Index) + sizeof(Refinement::parents[0])) +
            elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + boundary * sizeof(Face<D>) +
            in_parts * sizeof(Index);
   };

@@ -3,9 +3,10 @@
 
 namespace signorini {
 
-/// Red refinement: every triangle becomes 4, every tetrahedron 8. The children of an element follow each other, the
-/// vertices are numbered in the order in which the elements first meet them. Child k of boundary face f is face
-/// k + 2^(D-1) f; parts and curves are inherited, and midpoints of edges of curved faces are moved onto the curve.
+/// Red refinement: every triangle becomes 4, every tetrahedron 8. Elements are in the order of their lowest layers,
+/// then in that of their fathers; vertices are numbered in the order in which the elements first meet them. Child k of
+/// boundary face f is face k + 2^(D-1) f; parts and curves are inherited, and midpoints of edges of curved faces are
+/// moved onto the curve.
 ///
 /// An octahedron inside a tetrahedron is cut along its shortest diagonal; among equal ones along that between the
 /// midpoints of edges 02 and 13 of the element, as in Bey, Computing 55 (1995), so that Kuhn meshes stay Kuhn meshes.
