@@ -50,6 +50,7 @@ std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
 template <int B>
 DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P, Transfer<B>& transfer) {
   Level<B> fine = finest_level(problem), coarse;
+  if (!problem.galerkin.empty()) coarse.galerkin = &problem.galerkin.back();
   transfer.prepare(fine, P, true, coarse);
   fine.clear_phases();
   coarse.clear_phases();
@@ -61,6 +62,7 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
   DiscreteProblem<B> out;
   const std::vector<Index> twin = P.twins();
   out.A = std::move(coarse.own_matrix);
+  if (coarse.galerkin) out.galerkin = problem.galerkin.first(problem.galerkin.size() - 1);
   out.b = std::move(coarse.own_b);
   out.fixed = std::move(coarse.off);
   out.start.assign(out.b.size(), 0.0);

@@ -48,7 +48,8 @@ LinearSolve linear(const MatrixProblem& matrix, double body_load, const Registry
   const auto levels =
       algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
   const double hierarchy = watch.elapsed();
-  LinearSolve result = multigrid_cg<B>(problem, levels, registry, 1e-8);
+  problem.galerkin = levels.matrices;
+  LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, 1e-8);
   result.setup += hierarchy;
   return result;
 }
@@ -77,7 +78,8 @@ void compare(const Case& c, int uniform) {
 
 void print_algebraic(bool quick) {
   fmt::print(
-      "\n## Matrices and bounds alone\n\n| problem | unknowns | cycles | CG iterations | geometric cycles | set-up, s | "
+      "\n## Matrices and bounds alone\n\n| problem | unknowns | cycles | CG iterations | geometric cycles | set-up, s "
+      "| "
       "solve, s | solve over linear | set-up and solve over linear | over geometric |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   const Case s2{"S2", "obstacle_radial_2d.toml", 5, 7, 0}, s3{"S3", "obstacle_cube_3d.toml", 3, 4, 0},
