@@ -37,6 +37,7 @@ class BlackBox::Solver {
   using Given = std::optional<std::span<const SparseRows>>;  // none: levels chosen by the matrix
 
   virtual ~Solver() = default;
+  virtual void set_tolerance(double tolerance) = 0;
   virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                        std::span<const double> start, const Monitor& monitor) = 0;
 
@@ -59,6 +60,8 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_.prolongations);
   }
+
+  void set_tolerance(double tolerance) override { options_.tolerance = tolerance; }
 
   Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                std::span<const double> start, const Monitor& monitor) override {
@@ -120,6 +123,8 @@ BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolatio
 BlackBox::~BlackBox() = default;
 BlackBox::BlackBox(BlackBox&&) noexcept = default;
 BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
+
+void BlackBox::set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
 BlackBox::Result BlackBox::solve(std::span<const double> b, std::span<const double> lower,
                                  std::span<const double> upper, std::span<const double> start, const Monitor& monitor) {

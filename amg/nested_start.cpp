@@ -1,5 +1,6 @@
 #include "amg/nested_start.hpp"
 
+#include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/multigrid.hpp"
 
@@ -83,12 +84,18 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
   if (prolongations.empty()) return problem.start;
   const std::size_t below = prolongations.size() - 1;
   const Prolongation& P = prolongations[below];
-  const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
-  const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
-  auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
-  const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
-  if (summary.outcome == Outcome::unbounded) return problem.start;
-  return interpolate(coarse, x, P, problem);
+  try {
+    const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
+    const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
+    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
+    const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
+    if (summary.outcome == Outcome::unbounded) return problem.start;
+    return interpolate(coarse, x, P, problem);
+  } catch (const Error& error) {
+    // What fails on a coarse level may well hold on the finest one, which alone decides.
+    if (error.status() == Exit::interrupted) throw;
+    return problem.start;
+  }
 }
 
 template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,

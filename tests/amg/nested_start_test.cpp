@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "amg/hierarchy.hpp"
+#include "core/base/error.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"
@@ -51,6 +52,22 @@ TEST(NestedStart, IsNearTheSolution) {
 TEST(NestedStart, WithoutLevelsIsTheProblemsOwn) {
   const auto problem = pressed_membrane(8);
   EXPECT_EQ(nested_start<1>(problem, {}, {}, registry()), problem.start);
+}
+
+TEST(NestedStart, DoesWithoutTheLevelsThatFail) {
+  const auto problem = pressed_membrane(64);
+  const auto P = hierarchy(problem);
+  ASSERT_GE(P.size(), 2u);
+  const auto start = [&](Index failing, Exit status) {
+    return nested_start<1>(problem, P, loose({}), registry(), [=](const IterationRecord& record) {
+      if (record.levels.back().vectors == failing) throw Error(status, "fails");
+      return true;
+    });
+  };
+  const Index coarsest = P.front().coarse, finest = P.back().coarse;
+  EXPECT_EQ(start(finest, Exit::input), problem.start);
+  EXPECT_NE(start(coarsest, Exit::no_solution), problem.start);
+  EXPECT_THROW(start(coarsest, Exit::interrupted), Error);
 }
 
 }  // namespace
