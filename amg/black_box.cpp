@@ -58,7 +58,7 @@ class BlackBox::BlockSolver final : public Solver {
     levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer)
                     : algebraic_hierarchy<B>(problem_, transfer);
     problem_.galerkin = levels_.matrices;
-    refuse_indefinite<B>(problem_.A, levels_.prolongations);
+    refuse_indefinite<B>(problem_.A, levels_);
   }
 
   void set_tolerance(double tolerance) override { options_.tolerance = tolerance; }
