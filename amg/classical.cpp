@@ -69,7 +69,15 @@ class Row {
 class Weights {
  public:
   Weights(const StrengthGraph& graph, const CoarseVectors& coarse)
-      : graph_(graph), coarse_(coarse), seen_(coarse.vector.size(), -1), row_(coarse.size()) {}
+      : graph_(graph),
+        coarse_(coarse),
+        to_coarse_(coarse.number.size(), 0.0),
+        seen_(coarse.vector.size(), -1),
+        row_(coarse.size()) {
+    for (Index p = 0; p < graph.size(); ++p)
+      for (const Coupling& c : graph.of(p))
+        if (coarse.number[c.to] >= 0) to_coarse_[p] += c.strength;
+  }
 
   void append_row(Index p, Prolongation& P) {
     if (coarse_.number[p] >= 0)
@@ -85,30 +93,22 @@ class Weights {
     for (const Coupling& c : graph_.of(p)) {
       const Index q = coarse_.number[c.to];
       if (q >= 0) seen_[q] = p;
-      if (q >= 0 || has_coarse(c.to)) total += c.strength;
+      if (q >= 0 || to_coarse_[c.to] > 0) total += c.strength;
     }
     const double scale = graph_.balanced[p] / total;
     for (const Coupling& c : graph_.of(p)) {
       if (const Index q = coarse_.number[c.to]; q >= 0)
         row_.add(q, scale * c.strength);
-      else
+      else if (to_coarse_[c.to] > 0)
         go_through(p, c.to, scale * c.strength);
     }
   }
 
-  bool has_coarse(Index p) const {
-    return std::ranges::any_of(graph_.of(p), [&](const Coupling& c) { return coarse_.number[c.to] >= 0; });
-  }
-
   void go_through(Index p, Index fine, double weight) {
-    double common = 0, all = 0;
+    double common = 0;
     for (const Coupling& c : graph_.of(fine))
-      if (const Index q = coarse_.number[c.to]; q >= 0) {
-        all += c.strength;
-        if (seen_[q] == p) common += c.strength;
-      }
-    if (all == 0) return;
-    weight *= graph_.balanced[fine] / (common > 0 ? common : all);
+      if (const Index q = coarse_.number[c.to]; q >= 0 && seen_[q] == p) common += c.strength;
+    weight *= graph_.balanced[fine] / (common > 0 ? common : to_coarse_[fine]);
     for (const Coupling& c : graph_.of(fine))
       if (const Index q = coarse_.number[c.to]; q >= 0 && (common == 0 || seen_[q] == p))
         row_.add(q, weight * c.strength);
@@ -116,7 +116,8 @@ class Weights {
 
   const StrengthGraph& graph_;
   const CoarseVectors& coarse_;
-  std::vector<Index> seen_;  // per coarse vector: the last vector that it is a neighbour of
+  std::vector<double> to_coarse_;  // per vector: strength of its couplings to coarse ones
+  std::vector<Index> seen_;        // per coarse vector: the last vector that it is a neighbour of
   Row row_;
 };
 
