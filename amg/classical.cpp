@@ -150,11 +150,11 @@ Prolongation product(const Prolongation& first, const Prolongation& second) {
 template <int B>
 Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
   const StrengthGraph graph = strong_couplings(A, off);
-  const CoarseVectors coarse(split(graph));
+  const CoarseVectors coarse(split(graph, Part::fine));  // the smoother solves for what is coupled to nothing
   Prolongation P = interpolation(graph, coarse);
   if (coarse.size() <= many * graph.size()) return P;
   const StrengthGraph further = couplings_among(coarse, graph);
-  return product(P, interpolation(further, CoarseVectors(split(further))));
+  return product(P, interpolation(further, CoarseVectors(split(further, Part::coarse))));
 }
 
 template Prolongation classical_interpolation(const BlockMatrix<1>&, const std::vector<Flags>&);

@@ -60,7 +60,7 @@ std::size_t largest_worth(const StrengthGraph& serves) {
 
 }  // namespace
 
-std::vector<Part> split(const StrengthGraph& depends) {
+std::vector<Part> split(const StrengthGraph& depends, Part alone) {
   const StrengthGraph serves = transposed(depends);
   const Index n = depends.size();
   std::vector<Part> part(static_cast<std::size_t>(n), Part::open);
@@ -69,7 +69,7 @@ std::vector<Part> split(const StrengthGraph& depends) {
   for (Index p = n - 1; p >= 0; --p) {
     worth[p] = static_cast<Index>(serves.of(p).size());
     if (depends.of(p).empty() && worth[p] == 0)
-      part[p] = Part::fine;  // the smoother solves for it
+      part[p] = alone;
     else
       open.insert(p, worth[p]);
   }
