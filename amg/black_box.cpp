@@ -37,6 +37,7 @@ class BlackBox::Solver {
   using Given = std::optional<std::span<const SparseRows>>;  // none: levels chosen by the matrix
 
   virtual ~Solver() = default;
+  virtual void set_tolerance(double tolerance) = 0;
   virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                        std::span<const double> start, const Monitor& monitor) = 0;
 
@@ -54,9 +55,13 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.fixed.assign(static_cast<std::size_t>(A.rows) / B, 0);
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
-    levels_ = given ? given_levels(*given, problem_.A.size()) : algebraic_hierarchy<B>(problem_, transfer);
+    levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer)
+                    : algebraic_hierarchy<B>(problem_, transfer);
+    problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }
+
+  void set_tolerance(double tolerance) override { options_.tolerance = tolerance; }
 
   Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                std::span<const double> start, const Monitor& monitor) override {
@@ -67,13 +72,13 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.constraints = box<B>(n, lower, upper);
     Result result;
     if (start.empty()) {
-      result.x = nested_start<B>(problem_, levels_, loose(options_), registry_, monitor);
+      result.x = nested_start<B>(problem_, levels_.prolongations, loose(options_), registry_, monitor);
     } else {
       check_size("start", start, n);
       check_finite("start", start);
       result.x.assign(start.begin(), start.end());
     }
-    result.summary = signorini::solve<B>(problem_, levels_, result.x, options_, registry_, monitor);
+    result.summary = signorini::solve<B>(problem_, levels_.prolongations, result.x, options_, registry_, monitor);
     if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
     result.multiplier.resize(n);
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
@@ -91,7 +96,7 @@ class BlackBox::BlockSolver final : public Solver {
   SolverOptions options_;
   Registry registry_;
   DiscreteProblem<B> problem_;
-  std::vector<Prolongation> levels_;
+  AlgebraicLevels<B> levels_;
 };
 
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
@@ -118,6 +123,8 @@ BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolatio
 BlackBox::~BlackBox() = default;
 BlackBox::BlackBox(BlackBox&&) noexcept = default;
 BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
+
+void BlackBox::set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
 BlackBox::Result BlackBox::solve(std::span<const double> b, std::span<const double> lower,
                                  std::span<const double> upper, std::span<const double> start, const Monitor& monitor) {

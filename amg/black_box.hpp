@@ -40,6 +40,9 @@ class BlackBox {
   BlackBox(BlackBox&&) noexcept;
   BlackBox& operator=(BlackBox&&) noexcept;
 
+  /// For the solves from now on; in (0, 1).
+  void set_tolerance(double tolerance);
+
   /// Bounds may be infinite, and lower and upper ones equal. Whether a solution was found, or what prevented it, is in
   /// the summary's outcome.
   /// @param lower, upper, start one value per unknown; empty: none, and nested iteration

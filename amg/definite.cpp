@@ -16,8 +16,8 @@ namespace {
 
 using Vector = std::vector<double>;  // B per vector of a level
 
-constexpr double rounding = 1e-12;  // of d'Ad, relative to d'Dd with the diagonal D of A
-constexpr int steps = 40;
+constexpr double rounding = 1e-12;                       // of d'Ad, relative to d'Dd with the diagonal D of A
+constexpr int steps_on_coarsest = 40, steps_above = 16;  // of conjugate gradients
 
 template <int B>
 Vector interpolated(const Prolongation& P, const Vector& coarse) {
@@ -26,18 +26,6 @@ Vector interpolated(const Prolongation& P, const Vector& coarse) {
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
       for (int i = 0; i < B; ++i) fine[Offset{p} * B + i] += P.weight[k] * coarse[Offset{P.column[k]} * B + i];
   return fine;
-}
-
-/// By the transposed weights, to the power given.
-template <int B>
-Vector restricted(const Prolongation& P, const Vector& fine, int power = 1) {
-  Vector coarse(static_cast<std::size_t>(P.coarse) * B, 0.0);
-  for (Index p = 0; p < P.fine(); ++p)
-    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
-      const double weight = power == 1 ? P.weight[k] : P.weight[k] * P.weight[k];
-      for (int i = 0; i < B; ++i) coarse[Offset{P.column[k]} * B + i] += weight * fine[Offset{p} * B + i];
-    }
-  return coarse;
 }
 
 Vector random_vector(std::size_t size) {
@@ -59,69 +47,109 @@ void refuse_if_negative(const BlockMatrix<B>& A, const Vector& d) {
                           found.of_matrix / found.of_diagonal, largest - d.begin() + 1));
 }
 
-/// Bramble, Pasciak and Xu's preconditioner (Math. Comp. 55, 1990): a diagonal correction on every level at once. It
-/// needs no coarse matrix.
 template <int B>
-class Bpx {
- public:
-  Bpx(const BlockMatrix<B>& A, std::span<const Prolongation> prolongations)
-      : prolongations_(prolongations), inverse_(prolongations.size() + 1) {
-    Vector diagonal;
-    for (Index p = 0; p < A.size(); ++p)
-      for (int k = 0; k < B; ++k) diagonal.push_back(A.diagonal(p)[k * B + k]);
-    inverse_.back() = inverted(diagonal, 1);
-    for (std::size_t k = prolongations.size(); k-- > 0;) {
-      diagonal = restricted<B>(prolongations[k], diagonal, 2);
-      inverse_[k] = inverted(diagonal, part_of_diagonal(A, k, diagonal));
+bool diagonal_dominates(const BlockMatrix<B>& A) {
+  for (Index p = 0; p < A.size(); ++p)
+    for (int i = 0; i < B; ++i) {
+      double others = 0;
+      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+        for (int j = 0; j < B; ++j) others += std::abs(A.at(k)[i * B + j]);
+      const double diagonal = A.diagonal(p)[i * B + i];
+      if (!(others - diagonal <= (1 + rounding) * diagonal)) return false;
     }
-  }
+  return true;
+}
 
-  void operator()(const Vector& r, Vector& z) const {
-    std::vector<Vector> residual(inverse_.size());
-    residual.back() = r;
-    for (std::size_t k = prolongations_.size(); k-- > 0;)
-      residual[k] = restricted<B>(prolongations_[k], residual[k + 1]);
-    z.clear();
-    for (std::size_t k = 0; k < inverse_.size(); ++k) {
-      z = k == 0 ? Vector(residual[0].size(), 0.0) : interpolated<B>(prolongations_[k - 1], z);
-      for (std::size_t i = 0; i < z.size(); ++i) z[i] += inverse_[k][i] * residual[k][i];
+/// The levels of a matrix, the finest last.
+template <int B>
+class Search {
+ public:
+  Search(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels)
+      : A_(A), levels_(levels), nothing_off_(static_cast<std::size_t>(A.size()), 0) {}
+
+  void run() const {
+    for (std::size_t k = 0; k <= levels_.matrices.size(); ++k) {
+      if (k < levels_.matrices.size()) check_lost(k);
+      Vector d = falling_direction(k);
+      if (!d.empty()) check(k, std::move(d));
     }
   }
 
  private:
-  // The diagonal of P'DP says how the energies of the coarse functions compare with each other; how much smaller all of
-  // them are, one rough function says.
-  double part_of_diagonal(const BlockMatrix<B>& A, std::size_t level, const Vector& diagonal) const {
-    Vector d = random_vector(diagonal.size());
-    double size = 0;
-    for (std::size_t i = 0; i < d.size(); ++i) size += diagonal[i] * d[i] * d[i];
-    for (std::size_t k = level; k < prolongations_.size(); ++k) d = interpolated<B>(prolongations_[k], d);
-    refuse_if_negative(A, d);
-    return size > 0 ? std::max(energy_along(A, d).of_matrix / size, rounding) : 1;
+  const BlockMatrix<B>& matrix(std::size_t k) const { return k < levels_.matrices.size() ? levels_.matrices[k].A : A_; }
+  const std::vector<Flags>& off(std::size_t k) const {
+    return k < levels_.matrices.size() ? levels_.matrices[k].off : nothing_off_;
   }
 
-  static Vector inverted(const Vector& diagonal, double part) {
-    Vector out(diagonal.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = diagonal[i] > 0 ? 1 / (part * diagonal[i]) : 0;
-    return out;
+  void check(std::size_t level, Vector d) const {
+    for (std::size_t k = level; k < levels_.prolongations.size(); ++k) d = interpolated<B>(levels_.prolongations[k], d);
+    refuse_if_negative(A_, d);
   }
 
-  std::span<const Prolongation> prolongations_;
-  std::vector<Vector> inverse_;  // per level, coarsest first
+  /// Empty where conjugate gradients met none.
+  Vector falling_direction(std::size_t k) const {
+    const BlockMatrix<B>& A = matrix(k);
+    const Precondition by_diagonal = [&](const Vector& r, Vector& z) {
+      for (Index p = 0; p < A.size(); ++p)
+        for (int i = 0; i < B; ++i) z[Offset{p} * B + i] = r[Offset{p} * B + i] / A.diagonal(p)[i * B + i];
+    };
+    Vector r = random_vector(static_cast<std::size_t>(A.size()) * B), d;
+    apply_mask<B>(off(k), r);
+    const int steps = k == 0 ? steps_on_coarsest : steps_above;
+    if (!masked_cg<B>(A, off(k), by_diagonal, {.iterations = steps}, r, d).singular) return {};
+    return d;
+  }
+
+  // A component is decoupled when its diagonal entry, the energy of its function, is not positive.
+  void check_lost(std::size_t k) const {
+    const Vector energy = energy_of_lost(k);
+    const auto least = std::min_element(energy.begin(), energy.end());
+    if (least == energy.end() || *least >= 0) return;
+    Vector d(energy.size(), 0.0);
+    d[static_cast<std::size_t>(least - energy.begin())] = 1;
+    check(k, std::move(d));
+  }
+
+  /// d'Ad for the function d of each component that is off on level k, zero for the others; empty where none is off.
+  Vector energy_of_lost(std::size_t k) const {
+    const std::vector<Flags>& lost = off(k);
+    if (std::ranges::all_of(lost, [](Flags flags) { return flags == 0; })) return {};
+    const Prolongation& P = levels_.prolongations[k];
+    const BlockMatrix<B>& A = matrix(k + 1);
+    const std::vector<Flags>& gone = off(k + 1);
+    Vector energy(lost.size() * B, 0.0);
+    for (Index p = 0; p < A.size(); ++p)
+      for (Offset c = P.row[p]; c < P.row[p + 1]; ++c) {
+        const Index q = P.column[c];
+        for (int i = 0; i < B; ++i)
+          if ((lost[q] & ~gone[p]) >> i & 1u) energy[Offset{q} * B + i] += P.weight[c] * product_with(A, P, p, q, i);
+      }
+    return energy;
+  }
+
+  /// (Ad)_p with the function d of component i of q
+  static double product_with(const BlockMatrix<B>& A, const Prolongation& P, Index p, Index q, int i) {
+    double sum = 0;
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+      for (Offset m = P.row[A.column[k]]; m < P.row[A.column[k] + 1]; ++m)
+        if (P.column[m] == q) sum += A.at(k)[i * B + i] * P.weight[m];
+    return sum;
+  }
+
+  const BlockMatrix<B>& A_;
+  const AlgebraicLevels<B>& levels_;
+  const std::vector<Flags> nothing_off_;
 };
 
 }  // namespace
 
 template <int B>
-void refuse_indefinite(const BlockMatrix<B>& A, std::span<const Prolongation> prolongations) {
-  const Bpx<B> precondition(A, prolongations);
-  const std::vector<Flags> mask(static_cast<std::size_t>(A.size()), 0);
-  Vector r = random_vector(mask.size() * B), d;
-  if (masked_cg<B>(A, mask, precondition, {.iterations = steps}, r, d).singular) refuse_if_negative(A, d);
+void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
+  if (!diagonal_dominates(A)) Search<B>(A, levels).run();
 }
 
-template void refuse_indefinite(const BlockMatrix<1>&, std::span<const Prolongation>);
-template void refuse_indefinite(const BlockMatrix<2>&, std::span<const Prolongation>);
-template void refuse_indefinite(const BlockMatrix<3>&, std::span<const Prolongation>);
+template void refuse_indefinite(const BlockMatrix<1>&, const AlgebraicLevels<1>&);
+template void refuse_indefinite(const BlockMatrix<2>&, const AlgebraicLevels<2>&);
+template void refuse_indefinite(const BlockMatrix<3>&, const AlgebraicLevels<3>&);
 
 }  // namespace signorini

@@ -1,17 +1,13 @@
 #pragma once
-#include <span>
-
-#include "core/algebra/block_matrix.hpp"
-#include "core/solver/prolongation.hpp"
+#include "amg/hierarchy.hpp"
 
 namespace signorini {
 
 /// Error(Exit::input) where a direction d with d'Ad < 0 is found, naming the row of its largest entry: by a few
-/// conjugate gradient steps with a correction on every level, so that rough directions show as well as smooth ones.
-/// A search, no proof that there is none.
+/// conjugate gradient steps on every level, so that rough directions show as well as smooth ones. Where the diagonal
+/// dominates there is none; else this is a search, no proof.
 /// @param A with a positive diagonal
-/// @param prolongations coarsest first
 template <int B>
-void refuse_indefinite(const BlockMatrix<B>& A, std::span<const Prolongation> prolongations);
+void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels);
 
 }  // namespace signorini

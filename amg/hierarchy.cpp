@@ -11,36 +11,73 @@ namespace {
 
 constexpr double progress = 0.8;  // coarse over fine vectors above which coarsening has ended
 
+/// Goes down from level to level.
+template <int B>
+class Descent {
+ public:
+  explicit Descent(const DiscreteProblem<B>& problem) : level_(finest_level(problem)) { level_.clear_phases(); }
+
+  const Level<B>& level() const { return level_; }
+
+  void go_down(Prolongation P, Transfer<B>& transfer) {
+    Level<B> coarse;
+    transfer.prepare(level_, P, true, coarse);
+    coarse.clear_phases();
+    transfer.assemble(level_, coarse);
+    leave();
+    prolongations_.push_back(std::move(P));
+    level_ = std::move(coarse);
+    level_.A = &level_.own_matrix;
+  }
+
+  AlgebraicLevels<B> levels() && {
+    leave();
+    std::ranges::reverse(prolongations_);
+    std::ranges::reverse(matrices_);
+    return {std::move(prolongations_), std::move(matrices_)};
+  }
+
+ private:
+  void leave() {
+    if (!prolongations_.empty()) matrices_.push_back({std::move(level_.own_matrix), std::move(level_.off)});
+  }
+
+  Level<B> level_;
+  std::vector<Prolongation> prolongations_;  // finest first
+  std::vector<GalerkinMatrix<B>> matrices_;
+};
+
 }  // namespace
 
 template <int B>
-std::vector<Prolongation> algebraic_hierarchy(const DiscreteProblem<B>& problem,
-                                              const std::function<std::unique_ptr<Transfer<B>>()>& transfer,
-                                              Index enough) {
-  std::vector<Prolongation> finest_first;
-  Level<B> fine = finest_level(problem);
-  fine.clear_phases();
-  while (fine.vectors > enough) {
-    Prolongation P = classical_interpolation(*fine.A, fine.off);
-    if (P.coarse == 0 || P.coarse > progress * fine.vectors) break;
-    Level<B> coarse;
-    const auto step = transfer();
-    step->prepare(fine, P, true, coarse);
-    coarse.clear_phases();
-    step->assemble(fine, coarse);
-    finest_first.push_back(std::move(P));
-    fine = std::move(coarse);
-    fine.A = &fine.own_matrix;
+AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
+                                       Index enough) {
+  Descent<B> descent(problem);
+  while (descent.level().vectors > enough) {
+    Prolongation P = classical_interpolation(*descent.level().A, descent.level().off);
+    if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
+    descent.go_down(std::move(P), *transfer());
   }
-  std::ranges::reverse(finest_first);
-  return finest_first;
+  return std::move(descent).levels();
 }
 
-template std::vector<Prolongation> algebraic_hierarchy(const DiscreteProblem<1>&,
-                                                       const std::function<std::unique_ptr<Transfer<1>>()>&, Index);
-template std::vector<Prolongation> algebraic_hierarchy(const DiscreteProblem<2>&,
-                                                       const std::function<std::unique_ptr<Transfer<2>>()>&, Index);
-template std::vector<Prolongation> algebraic_hierarchy(const DiscreteProblem<3>&,
-                                                       const std::function<std::unique_ptr<Transfer<3>>()>&, Index);
+template <int B>
+AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
+                                      const TransferFactory<B>& transfer) {
+  Descent<B> descent(problem);
+  for (; !prolongations.empty(); prolongations.pop_back())
+    descent.go_down(std::move(prolongations.back()), *transfer());
+  return std::move(descent).levels();
+}
+
+template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index);
+template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index);
+template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index);
+template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
+                                               const TransferFactory<1>&);
+template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,
+                                               const TransferFactory<2>&);
+template AlgebraicLevels<3> galerkin_hierarchy(const DiscreteProblem<3>&, std::vector<Prolongation>,
+                                               const TransferFactory<3>&);
 
 }  // namespace signorini

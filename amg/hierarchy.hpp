@@ -7,12 +7,28 @@
 
 namespace signorini {
 
-/// Prolongations below the level of a problem, coarsest first, until at most `enough` vectors are left or coarsening
-/// makes no progress. They continue a geometric hierarchy downwards, or are a hierarchy of their own.
+/// Levels below that of a problem, coarsest first, and their matrices, which serve all problems with the same matrix,
+/// frames and prescribed components: see DiscreteProblem::galerkin.
+template <int B>
+struct AlgebraicLevels {
+  std::vector<Prolongation> prolongations;
+  std::vector<GalerkinMatrix<B>> matrices;  ///< one for each prolongation
+};
+
+template <int B>
+using TransferFactory = std::function<std::unique_ptr<Transfer<B>>()>;
+
+/// Levels chosen by the matrix, until at most `enough` vectors are left or coarsening makes no progress. They continue
+/// a geometric hierarchy downwards, or are a hierarchy of their own.
 /// @param transfer makes the transfers whose Galerkin products the coarser levels are chosen by
 template <int B>
-std::vector<Prolongation> algebraic_hierarchy(const DiscreteProblem<B>& problem,
-                                              const std::function<std::unique_ptr<Transfer<B>>()>& transfer,
-                                              Index enough = 400);
+AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
+                                       Index enough = 400);
+
+/// The matrices of given levels.
+/// @param prolongations coarsest first; the last one leads to the level of `problem`
+template <int B>
+AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
+                                      const TransferFactory<B>& transfer);
 
 }  // namespace signorini

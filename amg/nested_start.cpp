@@ -1,5 +1,6 @@
 #include "amg/nested_start.hpp"
 
+#include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/multigrid.hpp"
 
@@ -50,6 +51,7 @@ std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
 template <int B>
 DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P, Transfer<B>& transfer) {
   Level<B> fine = finest_level(problem), coarse;
+  if (!problem.galerkin.empty()) coarse.galerkin = &problem.galerkin.back();
   transfer.prepare(fine, P, true, coarse);
   fine.clear_phases();
   coarse.clear_phases();
@@ -61,6 +63,7 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
   DiscreteProblem<B> out;
   const std::vector<Index> twin = P.twins();
   out.A = std::move(coarse.own_matrix);
+  if (coarse.galerkin) out.galerkin = problem.galerkin.first(problem.galerkin.size() - 1);
   out.b = std::move(coarse.own_b);
   out.fixed = std::move(coarse.off);
   out.start.assign(out.b.size(), 0.0);
@@ -81,12 +84,18 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
   if (prolongations.empty()) return problem.start;
   const std::size_t below = prolongations.size() - 1;
   const Prolongation& P = prolongations[below];
-  const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
-  const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
-  auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
-  const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
-  if (summary.outcome == Outcome::unbounded) return problem.start;
-  return interpolate(coarse, x, P, problem);
+  try {
+    const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
+    const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
+    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
+    const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
+    if (summary.outcome == Outcome::unbounded) return problem.start;
+    return interpolate(coarse, x, P, problem);
+  } catch (const Error& error) {
+    // What fails on a coarse level may well hold on the finest one, which alone decides.
+    if (error.status() == Exit::interrupted) throw;
+    return problem.start;
+  }
 }
 
 template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,

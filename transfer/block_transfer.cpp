@@ -12,13 +12,6 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   assert(prolongation.fine() == fine.vectors);
   P_ = &prolongation;
   const auto n = static_cast<std::size_t>(prolongation.coarse);
-  child_row_.assign(n + 1, 0);
-  for (const Index q : P_->column) ++child_row_[static_cast<std::size_t>(q) + 1];
-  for (std::size_t q = 0; q < n; ++q) child_row_[q + 1] += child_row_[q];
-  child_.resize(P_->column.size());
-  std::vector<Offset> next(child_row_.begin(), child_row_.end() - 1);
-  for (Index p = 0; p < P_->fine(); ++p)
-    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, P_->weight[k]};
   position_.assign(n, 0);
   marked_.assign(n, 0);
   scale_.assign(n, 0);
@@ -31,7 +24,10 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   coarse.A = &coarse.own_matrix;
   inherit_twins(fine, rotate, coarse);
   give_slots(fine, coarse);
-  build_pattern(*fine.A, coarse.own_matrix);
+  if (coarse.galerkin)
+    adopt(*coarse.galerkin, coarse);
+  else
+    build_pattern(*fine.A, coarse.own_matrix);
   coarse.chunks = divide(coarse.own_matrix);
 }
 

@@ -23,11 +23,12 @@ class BlockTransfer : public Transfer<B> {
  private:
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
-  template <class Visit>
-  void visit_reached(const BlockMatrix<B>& A, Index p, const Visit& visit) const;
+  void adopt(const GalerkinMatrix<B>& known, Level<B>& coarse);
+  void transpose_weights();
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);
   void mark_parents(Index p, std::vector<Index>& rows);
+  void sum_children(const Level<B>& fine, Index q);
   void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q);
   void finish_row(Level<B>& coarse, Index q);
 
@@ -42,6 +43,9 @@ class BlockTransfer : public Transfer<B> {
   std::vector<double> scale_;      // per coarse vector: largest diagonal entry before any truncation
   std::vector<Offset> position_;   // per coarse vector: its block in the row at work
   std::vector<char> marked_;       // per coarse vector
+  std::vector<Index> place_;       // per fine vector: its block among `sums_`, -1: none
+  std::vector<Index> reached_;     // fine vectors that the row at work is coupled to
+  std::vector<double> sums_;       // their blocks
   bool assembled_ = false;
 };
 

@@ -24,37 +24,71 @@ void decouple(BlockMatrix<B>& C, Index q, Flags off) {
   }
 }
 
+template <int B>
+void invert_diagonal(Level<B>& level, Index q) {
+  double* inverse = level.inverse.data() + Offset{q} * B * B;
+  block::invert<B>(level.own_matrix.diagonal(q), inverse);
+  for (int i = 0; i < B; ++i)
+    if (level.off[q] >> i & 1u) inverse[i * B + i] = 0;
+}
+
 }  // namespace
 
-// Calls visit(s) for the coarse vectors s that a parent of p is coupled to through p.
 template <int B>
-template <class Visit>
-void BlockTransfer<B>::visit_reached(const BlockMatrix<B>& A, Index p, const Visit& visit) const {
-  const auto visit_parents = [&](Index r) {
-    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) visit(P_->column[m]);
-  };
-  if (P_->midpoints) return visit_parents(p);
-  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) visit_parents(A.column[k]);
+void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, Level<B>& coarse) {
+  coarse.own_matrix = known.A;
+  coarse.off = prescribed_ = known.off;
+  for (Index q = 0; q < coarse.vectors; ++q) {
+    const double* diagonal = known.A.diagonal(q);
+    for (int i = 0; i < B; ++i)
+      if (!(known.off[q] >> i & 1u)) scale_[q] = std::max(scale_[q], diagonal[i * B + i]);
+    invert_diagonal(coarse, q);
+  }
+  assembled_ = true;
 }
 
 template <int B>
+void BlockTransfer<B>::transpose_weights() {
+  const auto n = static_cast<std::size_t>(P_->coarse);
+  child_row_.assign(n + 1, 0);
+  for (const Index q : P_->column) ++child_row_[static_cast<std::size_t>(q) + 1];
+  for (std::size_t q = 0; q < n; ++q) child_row_[q + 1] += child_row_[q];
+  child_.resize(P_->column.size());
+  std::vector<Offset> next(child_row_.begin(), child_row_.end() - 1);
+  for (Index p = 0; p < P_->fine(); ++p)
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, P_->weight[k]};
+}
+
+// The coarse vectors that a row reaches through the fine ones that its children are coupled to.
+template <int B>
 void BlockTransfer<B>::build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
+  transpose_weights();
   const Index n = P_->coarse;
   coarse.row.assign(1, 0);
   coarse.row.reserve(static_cast<std::size_t>(n) + 1);
   coarse.column.clear();
   coarse.column.reserve(P_->column.size() + static_cast<std::size_t>(n));
-  std::vector<Index> seen(static_cast<std::size_t>(n), -1);
+  std::vector<Index> seen(static_cast<std::size_t>(n), -1), seen_fine(static_cast<std::size_t>(A.size()), -1);
   std::vector<Index> row;
   for (Index q = 0; q < n; ++q) {
     row.clear();
     seen[q] = q;
-    const auto add = [&](Index s) {
-      if (seen[s] == q) return;
-      seen[s] = q;
-      row.push_back(s);
+    const auto add_parents = [&](Index r) {
+      if (seen_fine[r] == q) return;
+      seen_fine[r] = q;
+      for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m)
+        if (const Index s = P_->column[m]; seen[s] != q) {
+          seen[s] = q;
+          row.push_back(s);
+        }
     };
-    for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) visit_reached(A, child_[c].vector, add);
+    for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
+      const Index p = child_[c].vector;
+      if (P_->midpoints)
+        add_parents(p);
+      else
+        for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) add_parents(A.column[k]);
+    }
     std::sort(row.begin(), row.end());
     coarse.column.push_back(q);
     coarse.column.insert(coarse.column.end(), row.begin(), row.end());
@@ -75,6 +109,8 @@ Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
   }
   fine.changed.clear();
   fine.renewed.clear();
+  if (!rows.empty() && child_row_.empty()) transpose_weights();
+  place_.resize(static_cast<std::size_t>(fine.vectors), -1);
   for (const Index q : rows) assemble_row(fine, coarse, q);
   for (const Index q : rows) finish_row(coarse, q);
   coarse.renewed.insert(coarse.renewed.end(), rows.begin(), rows.end());
@@ -103,13 +139,14 @@ std::vector<Index> BlockTransfer<B>::affected_rows(const Level<B>& fine) {
   return rows;
 }
 
+// Row q of P'A in global coordinates, for the fine vectors reached.
 template <int B>
-void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Index q) {
+void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q) {
   const BlockMatrix<B>& A = *fine.A;
-  BlockMatrix<B>& C = coarse.own_matrix;
-  for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
-  std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
   constexpr Flags all = (1u << B) - 1;
+  for (const Index r : reached_) place_[r] = -1;
+  reached_.clear();
+  sums_.clear();
   for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
     const Index p = child_[c].vector;
     if (fine.removed[p] == all) continue;
@@ -123,12 +160,30 @@ void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Inde
         modifier::block_to_global<B>(fine, p, r, M, modified);
         M = modified;
       }
-      for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) {
-        const double weight = child_[c].weight * P_->weight[m];
-        double* entry = C.at(position_[P_->column[m]]);
-        for (int i = 0; i < B * B; ++i) entry[i] += weight * M[i];
+      if (place_[r] < 0) {
+        place_[r] = static_cast<Index>(reached_.size());
+        reached_.push_back(r);
+        sums_.resize(sums_.size() + B * B, 0.0);
       }
+      double* sum = sums_.data() + Offset{place_[r]} * B * B;
+      for (int i = 0; i < B * B; ++i) sum[i] += child_[c].weight * M[i];
     }
+  }
+}
+
+template <int B>
+void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Index q) {
+  BlockMatrix<B>& C = coarse.own_matrix;
+  for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
+  std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
+  sum_children(fine, q);
+  const double* sum = sums_.data();
+  for (const Index r : reached_) {
+    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) {
+      double* entry = C.at(position_[P_->column[m]]);
+      for (int i = 0; i < B * B; ++i) entry[i] += P_->weight[m] * sum[i];
+    }
+    sum += B * B;
   }
 }
 
@@ -146,14 +201,11 @@ void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {
   for (int i = 0; i < B; ++i)
     if (!(diagonal[i * B + i] > lost * scale_[q])) off |= static_cast<Flags>(1u << i);
   decouple(C, q, off);
-  double* inverse = coarse.inverse.data() + Offset{q} * B * B;
-  block::invert<B>(diagonal, inverse);
-  for (int i = 0; i < B; ++i)
-    if (off >> i & 1u) inverse[i * B + i] = 0;
   // A component that came back interpolates again; whether it is truncated is for the next visit to say.
   const Flags truncated = coarse.removed[q] & static_cast<Flags>(~coarse.off[q]);
   coarse.off[q] = off;
   coarse.removed[q] = off | truncated;
+  invert_diagonal(coarse, q);
 }
 
 template class BlockTransfer<1>;

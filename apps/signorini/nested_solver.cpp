@@ -64,8 +64,9 @@ void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarse
   continued_ = true;
   if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
   Stopwatch watch;
-  auto below =
-      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  auto below = algebraic_hierarchy<B>(coarsest, [this] {
+                 return registry_.create<Transfer<B>>("transfer", options_.transfer);
+               }).prolongations;
   algebraic_ = below.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.begin()),
                         std::make_move_iterator(below.end()));

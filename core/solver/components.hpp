@@ -27,10 +27,11 @@ template <int B>
 class Transfer {
  public:
   virtual ~Transfer() = default;
-  /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level.
+  /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level, and its matrix where
+  /// coarse.galerkin knows that.
   virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) = 0;
-  /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time; clears both lists, and
-  /// appends what it recomputed to `coarse.renewed`. Returns the number of rows.
+  /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time if none is known; clears
+  /// both lists, and appends what it recomputed to `coarse.renewed`. Returns the number of rows.
   virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;
   /// coarse.b = coarse.x = 0.
   virtual void begin_restriction(Level<B>& coarse) const = 0;

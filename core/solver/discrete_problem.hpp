@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,13 @@ struct Segment {
   std::shared_ptr<const Obstacle<B>> obstacle;
 };
 
+/// The matrix of a coarser level without any truncation.
+template <int B>
+struct GalerkinMatrix {
+  BlockMatrix<B> A;
+  std::vector<Flags> off;  ///< per vector: components prescribed, or without any fine function
+};
+
 /// min 1/2 x'Ax - b'x with x within bounds: what the solver is given. All of it is in local coordinates. A component
 /// whose bit is set in `fixed` is prescribed: its row and column are those of the identity and b holds its value, while
 /// the other entries of b account for it.
@@ -73,10 +81,13 @@ struct DiscreteProblem {
   std::vector<double> start;  ///< B per vector: prescribed values, zero elsewhere
   Frames<B> frames;
   Constraints<B> constraints;
-  double prescribed_energy = 0;      ///< g'A g of the prescribed values g, before elimination
-  double prescribed_work = 0;        ///< b'g, before elimination
-  std::vector<Index> coupled;        ///< ascending: vectors with free components that A couples to prescribed values
-  std::vector<double> coupling;      ///< B per coupled vector: (A g) on its free components, zero on the others
+  double prescribed_energy = 0;  ///< g'A g of the prescribed values g, before elimination
+  double prescribed_work = 0;    ///< b'g, before elimination
+  std::vector<Index> coupled;    ///< ascending: vectors with free components that A couples to prescribed values
+  std::vector<double> coupling;  ///< B per coupled vector: (A g) on its free components, zero on the others
+  /// The coarser levels' matrices where they are known from before, coarsest first, one for each prolongation; with
+  /// frames only for Rotate::all. Not owned.
+  std::span<const GalerkinMatrix<B>> galerkin;
   std::vector<Segment<B>> segments;  ///< cover all vectors in ascending order; empty when there is no obstacle
 };
 

@@ -13,8 +13,9 @@ template <int B>
 struct Level {
   Index vectors = 0;
   const BlockMatrix<B>* A = nullptr;
-  BlockMatrix<B> own_matrix;    ///< coarse levels: the Galerkin matrix that A points to
-  std::vector<double> inverse;  ///< inverse diagonal blocks
+  BlockMatrix<B> own_matrix;                    ///< coarse levels: the Galerkin matrix that A points to
+  const GalerkinMatrix<B>* galerkin = nullptr;  ///< coarse levels: what own_matrix is without truncation, if known
+  std::vector<double> inverse;                  ///< inverse diagonal blocks
   const double* b = nullptr;
   double* x = nullptr;
   std::vector<double> own_b, own_x;  ///< coarse levels

@@ -55,9 +55,12 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
       crew_(settings.threads) {
   levels_.back() = finest_level(problem);
   transfers_.resize(prolongations.size());
+  const bool known = problem.galerkin.size() == prolongations.size() &&
+                     (settings.rotate == Rotate::all || problem.frames.slot.empty());
   for (std::size_t k = prolongations.size(); k-- > 0;) {
     const bool rotate = settings.rotate == Rotate::all || (settings.rotate == Rotate::not_coarsest && k > 0);
     transfers_[k] = components_.transfer();
+    if (known) levels_[k].galerkin = &problem.galerkin[k];
     transfers_[k]->prepare(levels_[k + 1], prolongations[k], rotate, levels_[k]);
     levels_[k].segments = one_box_segment<B>(levels_[k].vectors);
   }

@@ -1,0 +1,66 @@
+#ifndef SIGNORINI_H
+#define SIGNORINI_H
+/*
+ * Plain C interface of the solver for matrices and bounds,
+ *
+ *     min 1/2 x'Ax - b'x   over lower <= x <= upper
+ *
+ * for a sparse symmetric positive (semi)definite matrix A. See docs/black_box.md. Arrays belong to the caller and are
+ * read or written during the call only. No exception leaves a function; a solver serves one thread at a time, different
+ * solvers may be used by different threads.
+ */
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the functions return: the exit status of `signorini qp`. */
+enum {
+  SIGNORINI_SOLVED = 0,
+  SIGNORINI_BAD_INPUT = 2,       /* the matrix, a vector or an argument */
+  SIGNORINI_ITERATION_LIMIT = 3, /* results are written */
+  SIGNORINI_NO_SOLUTION = 4,     /* bounds with nothing between them, energy unbounded below */
+  SIGNORINI_FAILURE = 6          /* memory, or a mistake of this library */
+};
+
+/* Levels of a matrix. The set-up serves any number of right-hand sides and bounds. */
+typedef struct signorini_solver signorini_solver;
+
+typedef struct {
+  int iterations, levels;
+  double residual;        /* natural residual over its value at the projected zero */
+  double algebraic_error; /* estimate of |x - x*| / |x*| in the norm of A */
+  double energy;          /* 1/2 x'Ax - b'x */
+  double rate;            /* mean reduction of the error per iteration at the end */
+} signorini_summary;
+
+/*
+ * Sets up a solver for `rows` rows in compressed form: entries row[i] to row[i + 1] - 1 of `column` (from 0) and `value`
+ * are those of row i, in any order; both triangles are given. `block` is 1, 2 or 3 consecutive unknowns that belong
+ * together. *solver is null unless SIGNORINI_SOLVED is returned. signorini_create64 is for more than 2^31 entries.
+ */
+int signorini_create(int32_t rows, const int32_t* row, const int32_t* column, const double* value, int block,
+                     signorini_solver** solver);
+int signorini_create64(int32_t rows, const int64_t* row, const int32_t* column, const double* value, int block,
+                       signorini_solver** solver);
+
+/*
+ * Solves to a relative error of `tolerance`, in (0, 1). `b` has one value per row, as have the others. Null is allowed
+ * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b: at a
+ * solution >= 0 at lower bounds, <= 0 at upper ones, 0 elsewhere) and `summary`. What is written is the solution where
+ * SIGNORINI_SOLVED is returned, the last iterate with SIGNORINI_ITERATION_LIMIT, and nothing with the others.
+ */
+int signorini_solve(signorini_solver* solver, const double* b, const double* lower, const double* upper,
+                    const double* start, double tolerance, double* x, double* multiplier, signorini_summary* summary);
+
+/* Why the last call in this thread returned what it did; never null. Rows and columns are counted from 1. */
+const char* signorini_message(void);
+
+/* Null is allowed. */
+void signorini_destroy(signorini_solver* solver);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

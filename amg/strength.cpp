@@ -1,0 +1,58 @@
+#include "amg/strength.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+
+namespace {
+
+template <int B>
+constexpr double strong = B == 3 ? 0.4 : 0.25;  // part of the largest coupling of a row
+
+template <int B>
+double strength(const double* block) {
+  if constexpr (B == 1) return std::max(0.0, -*block);
+  double sum = 0;
+  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
+  return std::sqrt(sum);
+}
+
+template <int B>
+double balanced(const BlockMatrix<B>& A, Index p) {
+  if constexpr (B > 1) return 1;
+  double sum = 0;
+  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) sum += *A.at(k);
+  return 1 - std::clamp(sum / *A.diagonal(p), 0.0, 1.0);
+}
+
+}  // namespace
+
+template <int B>
+StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
+  constexpr Flags all = (1u << B) - 1;
+  StrengthGraph graph;
+  graph.row.reserve(static_cast<std::size_t>(A.size()) + 1);
+  graph.edge.reserve(A.column.size());
+  for (Index p = 0; p < A.size(); ++p) graph.balanced.push_back(balanced(A, p));
+  for (Index p = 0; p < A.size(); ++p) {
+    const std::size_t begin = graph.edge.size();
+    double largest = 0;
+    for (Offset k = A.row[p]; k < A.row[p + 1] && off[p] != all; ++k)
+      if (const Index q = A.column[k]; q != p && off[q] != all) {
+        graph.edge.push_back({q, strength<B>(A.at(k))});
+        largest = std::max(largest, graph.edge.back().strength);
+      }
+    const auto weak = [&](const Coupling& c) { return !(c.strength >= strong<B> * largest) || c.strength == 0; };
+    graph.edge.erase(std::remove_if(graph.edge.begin() + static_cast<std::ptrdiff_t>(begin), graph.edge.end(), weak),
+                     graph.edge.end());
+    graph.row.push_back(static_cast<Offset>(graph.edge.size()));
+  }
+  return graph;
+}
+
+template StrengthGraph strong_couplings(const BlockMatrix<1>&, const std::vector<Flags>&);
+template StrengthGraph strong_couplings(const BlockMatrix<2>&, const std::vector<Flags>&);
+template StrengthGraph strong_couplings(const BlockMatrix<3>&, const std::vector<Flags>&);
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+
+namespace signorini {
+
+/// How strongly a vector is coupled to another one.
+struct Coupling {
+  Index to;
+  double strength;
+};
+
+/// The strong couplings of each vector, in compressed rows.
+struct StrengthGraph {
+  std::vector<Offset> row{0};
+  std::vector<Coupling> edge;
+  /// Per vector, in [0, 1]: the part of a scalar's diagonal that its couplings to others balance, which is less than
+  /// one next to prescribed values; one for blocks.
+  std::vector<double> balanced;
+
+  Index size() const { return static_cast<Index>(row.size()) - 1; }
+  std::span<const Coupling> of(Index p) const { return {edge.data() + row[p], edge.data() + row[p + 1]}; }
+};
+
+/// Couplings that are no small part of the largest one of their row. A scalar coupling counts where it is negative, a
+/// block by its norm, so that local rotations change nothing.
+/// @param off components prescribed; vectors without any other one are coupled to nothing
+template <int B>
+StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off);
+
+}  // namespace signorini

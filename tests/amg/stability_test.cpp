@@ -1,0 +1,190 @@
+// Matrices that are hard on a solver: all are solved to the tolerance, and the energy never grows.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "amg/black_box.hpp"
+#include "tests/amg/matrices.hpp"
+#include "tests/support/random_problem.hpp"
+
+namespace signorini::test {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+struct Problem {
+  Matrix A;
+  std::vector<double> b, lower, upper;
+};
+
+/// max |x - Proj(x - D^-1 (Ax - b))| with the diagonal D of A.
+double natural_residual(const Problem& p, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd step = (vector(p.b) - p.A * x).cwiseQuotient(p.A.diagonal());
+  return (x - (x + step).cwiseMax(vector(p.lower)).cwiseMin(vector(p.upper))).cwiseAbs().maxCoeff();
+}
+
+void expect_solved(const Problem& p, int block = 1) {
+  const BlackBox::Result result = BlackBox(p.A, block).solve(p.b, p.lower, p.upper);
+  EXPECT_TRUE(result.summary.converged()) << result.summary.reason;
+  const Eigen::VectorXd x = vector(result.x);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.size()).cwiseMax(vector(p.lower)).cwiseMin(vector(p.upper));
+  const double rounding = 1e-12 * x.cwiseAbs().maxCoeff();
+  EXPECT_LE(natural_residual(p, x),
+            3e-8 * natural_residual(p, zero) + rounding);  // for blocks D is their diagonal here
+  const Eigen::VectorXd size = x.cwiseAbs();
+  const double terms = size.dot(p.A.cwiseAbs() * size) + vector(p.b).cwiseAbs().dot(size);
+  double energy = infinity;
+  for (const IterationRecord& cycle : result.summary.history) {
+    EXPECT_LE(cycle.energy, energy + 1e-13 * terms) << cycle.iteration;
+    energy = cycle.energy;
+  }
+}
+
+/// The graph Laplacian of a grid and of random further edges, the weights between 10^-decades and 10^decades, and a
+/// diagonal shift of parts of the rows.
+Matrix random_graph(Random& random, int nodes, double decades, double shift) {
+  const Index n = nodes * nodes;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto edge = [&](Index p, Index q) {
+    if (p == q) return;
+    const double weight = std::pow(10, random.between(-decades, decades));
+    for (const auto& [i, j] : {std::pair(p, q), {q, p}}) {
+      entries.emplace_back(i, j, -weight);
+      entries.emplace_back(i, i, weight);
+    }
+  };
+  for (Index p = 0; p < n; ++p) {
+    if (p % nodes != nodes - 1) edge(p, p + 1);
+    if (p + nodes < n) edge(p, p + nodes);
+    if (random.chance(0.1)) edge(p, random.below(n));
+    if (shift > 0 && random.chance(0.3)) entries.emplace_back(p, p, shift * random.unit());
+  }
+  Matrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+Problem random_box(Random& random, Matrix A) {
+  const auto n = static_cast<std::size_t>(A.rows());
+  Problem p{std::move(A), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  for (std::size_t i = 0; i < n; ++i) {
+    p.b[i] = random.between(-1, 1) * p.A.coeff(static_cast<Index>(i), static_cast<Index>(i));
+    std::tie(p.lower[i], p.upper[i]) = random_interval(random, 0, 1);
+  }
+  return p;
+}
+
+TEST(Stability, RandomMMatrices) {
+  Random random(71);
+  for (const double decades : {0.0, 1.5, 3.0})
+    for (int trial = 0; trial < 3; ++trial) {
+      SCOPED_TRACE(fmt::format("weights over {} decades, trial {}", 2 * decades, trial));
+      expect_solved(random_box(random, random_graph(random, 50, decades, 1)));
+    }
+}
+
+TEST(Stability, GraphLaplaciansWithWeightsOverEightDecades) {
+  Random random(72);
+  for (int trial = 0; trial < 5; ++trial) expect_solved(random_box(random, random_graph(random, 50, 4, 0)));
+}
+
+template <int D>
+Mesh<D> mapped(Mesh<D> mesh, const std::function<Point<D>(Point<D>)>& map) {
+  for (Point<D>& x : mesh.points) x = map(x);
+  return mesh;
+}
+
+Matrix positive_part(const Matrix& A) {
+  Matrix out = A;
+  out.prune([](Index i, Index j, double value) { return i != j && value > 0; });
+  return out;
+}
+
+template <int D, int B>
+Problem problem_on(const Mesh<D>& mesh, const Model<B>& model) {
+  const Given<B> given(discretize<D, B>(mesh, model).problem);
+  return {given.A, given.b, given.lower, given.upper};
+}
+
+Model<1> pressed_membrane() {
+  return membrane(-1, [](const double* x) { return -0.01 - 0.002 * std::sin(7 * x[0]); }, {});
+}
+
+TEST(Stability, PositiveOffDiagonalsOfObtuseTriangles) {
+  for (const double shear : {0.5, 1.0, 2.0, 4.0}) {
+    const auto mesh = mapped<2>(cube<2>(0, 1, 48), [=](Point<2> x) -> Point<2> { return {x[0] + shear * x[1], x[1]}; });
+    const Problem problem = problem_on<2, 1>(mesh, pressed_membrane());
+    EXPECT_GT(positive_part(problem.A).nonZeros(), 0);
+    SCOPED_TRACE(shear);
+    expect_solved(problem);
+  }
+}
+
+TEST(Stability, NeedleElements) {
+  for (const double width : {1e-1, 1e-2, 1e-3}) {
+    SCOPED_TRACE(width);
+    const auto thin = mapped<2>(cube<2>(0, 1, 48), [=](Point<2> x) -> Point<2> { return {width * x[0], x[1]}; });
+    Model<1> model = pressed_membrane();
+    model.fixes = {{on("top"), {Field(0)}}, {on("bottom"), {Field(0)}}};
+    expect_solved(problem_on<2, 1>(thin, model));
+  }
+}
+
+TEST(Stability, NeedleElementsOfAnElasticBody) {
+  for (const double width : {1e-1, 1e-2}) {
+    SCOPED_TRACE(width);
+    const auto thin = mapped<2>(cube<2>(0, 1, 24), [=](Point<2> x) -> Point<2> { return {width * x[0], x[1]}; });
+    const auto c = problem_on<2, 2>(thin, pressed_block<2>(plane<2>({0, 0}, {0, 1}), 0.05));
+    expect_solved(c, 2);
+  }
+}
+
+// Two bodies that nothing but the obstacle holds, one of which it does not even touch at the start.
+TEST(Stability, FloatingBodies) {
+  Random random(73);
+  const Matrix one = random_graph(random, 30, 0, 0);
+  const Index n = static_cast<Index>(one.rows());
+  Matrix two(2 * n, 2 * n);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index column = 0; column < n; ++column)
+    for (Matrix::InnerIterator entry(one, column); entry; ++entry)
+      for (const Index first : {0, n}) entries.emplace_back(first + entry.row(), first + column, entry.value());
+  two.setFromTriplets(entries.begin(), entries.end());
+  const auto size = static_cast<std::size_t>(2 * n);
+  Problem p{two, std::vector<double>(size, -1), std::vector<double>(size, -infinity),
+            std::vector<double>(size, infinity)};
+  for (std::size_t i = 0; i < size; ++i)
+    if (i % 7 == 0) p.lower[i] = i < size / 2 ? 0 : -5;
+  expect_solved(p);
+}
+
+TEST(Stability, FloatingElasticBlocks) {
+  expect_solved(problem_on<2, 2>(cube<2>(0, 1, 24), resting_block<2>({0.1, -1}, {"left"})), 2);
+  expect_solved(problem_on<3, 3>(cube<3>(0, 1, 8), resting_block<3>({0.1, 0.1, -1}, {"left", "front"})), 3);
+}
+
+// The solution touches both bounds, or one, nearly everywhere without any force.
+TEST(Stability, BiactiveSets) {
+  const Matrix A = laplacian(60);
+  const auto n = static_cast<std::size_t>(A.rows());
+  Eigen::VectorXd solution = vector(waves(n));
+  const Eigen::VectorXd b = A * solution;
+  Problem p{A, {b.begin(), b.end()}, {solution.begin(), solution.end()}, {solution.begin(), solution.end()}};
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i % 3 != 0) p.upper[i] = infinity;
+    if (i % 5 == 0) p.lower[i] = -infinity;
+  }
+  expect_solved(p);
+}
+
+TEST(Stability, AllBoundsEqualAndNoneAtAll) {
+  Random random(74);
+  Problem p = random_box(random, random_graph(random, 50, 2, 1));
+  p.lower = p.upper = waves(p.b.size());
+  expect_solved(p);
+  p.lower.assign(p.b.size(), -infinity);
+  p.upper.assign(p.b.size(), infinity);
+  expect_solved(p);
+}
+
+}  // namespace
+}  // namespace signorini::test
