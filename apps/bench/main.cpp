@@ -1,9 +1,11 @@
 // The figures of docs/performance.md, as ratios within one run. `signorini_bench` prints the tables in Markdown;
-// `signorini_bench --quick` leaves out the largest sizes.
+// `signorini_bench --quick` leaves out the largest sizes,
+// `signorini_bench --algebraic [--quick]` prints the table of matrices without meshes alone.
 #include <fmt/format.h>
 
 #include <cstring>
 
+#include "apps/bench/algebraic.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/traffic.hpp"
@@ -167,6 +169,7 @@ void run(bool quick) {
   growth<3, 3>(ball);
   growth<2, 1>(fine);
   growth<3, 3>(ball_fine);
+  print_algebraic(quick);
   print_variants();
 }
 
@@ -177,7 +180,10 @@ int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
   signorini::keep_freed_memory();
   try {
-    signorini::bench::run(quick);
+    if (argc > 1 && std::strcmp(argv[1], "--algebraic") == 0)
+      signorini::bench::print_algebraic(argc > 2 && std::strcmp(argv[2], "--quick") == 0);
+    else
+      signorini::bench::run(quick);
   } catch (const std::exception& error) {
     fmt::print(stderr, "signorini_bench: error: {}\n", error.what());
     return 2;
