@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "apps/bench/peers/accuracy.hpp"
-#include "apps/signorini/progress.hpp"
+#include "apps/bench/peers/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -127,7 +127,7 @@ std::vector<double> start_from(const GridLevel& level, const std::vector<double>
 Attempt active_set(const Instance& instance, const MakeLinearSolver& make, const ActiveSetOptions& options,
                    double tolerance) {
   Attempt out;
-  Stopwatch watch;
+  const ProcessorTime time;
   const std::size_t finest = instance.levels.size() - 1;
   for (std::size_t k = options.nested ? 0 : finest; k <= finest; ++k) {
     const GridLevel& level = instance.levels[k];
@@ -136,7 +136,7 @@ Attempt active_set(const Instance& instance, const MakeLinearSolver& make, const
     out.iterations =
         ActiveSet(level, *solver, options).solve(out.x, k == finest ? tolerance : std::max(tolerance, 1e-4));
   }
-  out.seconds = watch.elapsed();
+  out.seconds = time.elapsed();
   return out;
 }
 

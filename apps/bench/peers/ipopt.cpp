@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "apps/bench/peers/accuracy.hpp"
-#include "apps/signorini/progress.hpp"
+#include "apps/bench/peers/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -117,7 +117,7 @@ double mean_diagonal(const SparseRows& A) {
 Attempt ipopt(const Instance& instance, double tolerance) {
   const MpiSession session;
   Attempt out;
-  Stopwatch watch;
+  const ProcessorTime time;
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = IpoptApplicationFactory();
   const auto options = application->Options();
   options->SetIntegerValue("print_level", 0);
@@ -136,7 +136,7 @@ Attempt ipopt(const Instance& instance, double tolerance) {
   if (program->x.empty()) throw std::runtime_error("IPOPT gives no solution");
   if (Ipopt::IsValid(application->Statistics())) out.iterations = application->Statistics()->IterationCount();
   out.x = program->x;
-  out.seconds = watch.elapsed();
+  out.seconds = time.elapsed();
   return out;
 }
 

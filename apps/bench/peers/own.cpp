@@ -8,6 +8,7 @@
 #include "amg/black_box.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/peers/instance.hpp"
+#include "apps/bench/peers/processor_time.hpp"
 #include "apps/bench/problems.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
@@ -17,34 +18,89 @@
 namespace signorini::bench {
 namespace {
 
-/// The prolongation of a mesh level for the unknowns of its vectors that are not prescribed.
-template <int B>
-SparseRows free_interpolation(const Prolongation& P, const std::vector<Index>& fine, const std::vector<Index>& coarse,
-                              const GridLevel& level, const GridLevel& coarser) {
-  SparseRows out;
-  out.rows = static_cast<Index>(level.problem.b.size());
-  out.columns = static_cast<Index>(coarser.problem.b.size());
-  for (Index p = 0; p < P.fine(); ++p) {
-    if (fine[p] < 0) continue;
-    for (int i = 0; i < B; ++i) {
-      for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
-        const Index q = coarse[P.column[k]];
-        if (q < 0) continue;
-        out.column.push_back(q * B + i);
-        out.value.push_back(P.weight[k]);
-      }
-      out.row.push_back(static_cast<Offset>(out.column.size()));
-    }
+/// Which vectors of a level are not prescribed, and in which order solvers get them: along the lines of the grid, as
+/// codes for such grids number them.
+struct Numbering {
+  std::vector<Index> vertex;  ///< per vector
+  std::vector<Index> number;  ///< per vertex, -1 where prescribed
+};
+
+template <int D, int B>
+Numbering along_grid(const Mesh<D>& mesh, const DiscreteProblem<B>& problem) {
+  Numbering out;
+  out.number = free_vectors(problem);
+  for (Index p = 0; p < mesh.vertices(); ++p)
+    if (out.number[p] >= 0) out.vertex.push_back(p);
+  const auto place = [&mesh](Index p) {
+    std::array<long long, D> at;
+    for (int i = 0; i < D; ++i) at[D - 1 - i] = std::llround(std::ldexp(mesh.points[p][i], 30));
+    return at;
+  };
+  std::sort(out.vertex.begin(), out.vertex.end(), [&](Index p, Index q) { return place(p) < place(q); });
+  for (std::size_t k = 0; k < out.vertex.size(); ++k) out.number[out.vertex[k]] = static_cast<Index>(k);
+  return out;
+}
+
+/// Fills rows that are added one after the other.
+void add_row(SparseRows& A, std::vector<std::pair<Index, double>>& entries) {
+  std::sort(entries.begin(), entries.end());
+  for (const auto& [column, value] : entries) {
+    A.column.push_back(column);
+    A.value.push_back(value);
   }
+  A.row.push_back(static_cast<Offset>(A.column.size()));
+  entries.clear();
+}
+
+/// A problem whose unknown i becomes the number to[i].
+MatrixProblem renumbered(const MatrixProblem& problem, const std::vector<Index>& to) {
+  MatrixProblem out;
+  const SparseRows& A = problem.A;
+  std::vector<Index> from(to.size());
+  for (std::size_t i = 0; i < to.size(); ++i) from[to[i]] = static_cast<Index>(i);
+  std::vector<std::pair<Index, double>> entries;
+  for (const Index i : from) {
+    for (Offset k = A.row[i]; k < A.row[i + 1]; ++k) entries.emplace_back(to[A.column[k]], A.value[k]);
+    add_row(out.A, entries);
+    out.b.push_back(problem.b[i]);
+    out.lower.push_back(problem.lower[i]);
+    out.upper.push_back(problem.upper[i]);
+  }
+  out.A.rows = out.A.columns = A.rows;
+  return out;
+}
+
+/// The matrix and bounds of a level, numbered like that.
+template <int B>
+MatrixProblem matrix_problem(const DiscreteProblem<B>& problem, const Numbering& numbering) {
+  std::vector<Index> to;
+  for (const Index number : numbering.number)
+    for (int i = 0; number >= 0 && i < B; ++i) to.push_back(number * B + i);
+  return renumbered(bench::matrix_problem(problem), to);
+}
+
+/// The prolongation of a mesh level for unknowns that are not prescribed.
+template <int B>
+SparseRows free_interpolation(const Prolongation& P, const Numbering& fine, const Numbering& coarse) {
+  SparseRows out;
+  std::vector<std::pair<Index, double>> entries;
+  for (const Index p : fine.vertex)
+    for (int i = 0; i < B; ++i) {
+      for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
+        if (const Index q = coarse.number[P.column[k]]; q >= 0) entries.emplace_back(q * B + i, P.weight[k]);
+      add_row(out, entries);
+    }
+  out.rows = static_cast<Index>(fine.vertex.size()) * B;
+  out.columns = static_cast<Index>(coarse.vertex.size()) * B;
   return out;
 }
 
 template <int B>
-std::vector<Index> free_twins(const Prolongation& P, const std::vector<Index>& fine, const std::vector<Index>& coarse) {
+std::vector<Index> free_twins(const Prolongation& P, const Numbering& fine, const Numbering& coarse) {
   std::vector<Index> out;
   const std::vector<Index> twins = P.twins();
-  for (std::size_t q = 0; q < coarse.size(); ++q)
-    for (int i = 0; coarse[q] >= 0 && i < B; ++i) out.push_back(fine[static_cast<std::size_t>(twins[q])] * B + i);
+  for (const Index q : coarse.vertex)
+    for (int i = 0; i < B; ++i) out.push_back(fine.number[twins[q]] * B + i);
   return out;
 }
 
@@ -61,12 +117,13 @@ class Own {
   Benchmark benchmark(const std::shared_ptr<const Own>& self) {
     Benchmark out;
     out.instance.block = B;
-    add_levels(out);
+    add_levels(out.instance);
+    out.assembly = assembly();
     Model<B> free = model();
     free.obstacles.clear();
     if (B > 1) free.loads.push_back(downwards());
     free_ = discretize<D, B>(hierarchy_.finest(), free).problem;
-    out.instance.free_load = matrix_problem(free_).b;
+    out.instance.free_load = matrix_problem(free_, numbering_).b;
     out.nested = [self](double tolerance) { return self->nested(tolerance); };
     out.multigrid_cg = [self](double tolerance) { return self->linear(tolerance); };
     const auto finest = discretize<D, B>(hierarchy_.finest(), model());
@@ -87,42 +144,35 @@ class Own {
     return load;
   }
 
-  void add_levels(Benchmark& out) {
-    std::vector<Index> coarser;
+  void add_levels(Instance& instance) {
+    Numbering coarser;
     DiscreteProblem<B> coarse_problem;
     for (std::size_t k = 0; k < hierarchy_.levels.size(); ++k) {
-      Stopwatch watch;
-      DiscreteProblem<B> problem = discretize<D, B>(hierarchy_.levels[k], model()).problem;
-      out.assembly += watch.elapsed();
+      const Mesh<D>& mesh = hierarchy_.levels[k];
+      DiscreteProblem<B> problem = discretize<D, B>(mesh, model()).problem;
+      numbering_ = along_grid(mesh, problem);
       GridLevel level;
-      level.problem = matrix_problem(problem);
-      number_ = free_vectors(problem);
-      add_coordinates(hierarchy_.levels[k], level);
-      if (k > 0) connect(level, out.instance.levels.back(), prolongations_[k - 1], coarser, coarse_problem, problem);
-      out.instance.levels.push_back(std::move(level));
-      coarser = number_;
+      level.problem = matrix_problem(problem, numbering_);
+      for (const Index p : numbering_.vertex)
+        for (int i = 0; i < 3; ++i) level.coordinates.push_back(i < D ? mesh.points[p][i] : 0);
+      if (k > 0) {
+        const Prolongation& P = prolongations_[k - 1];
+        level.interpolation = free_interpolation<B>(P, numbering_, coarser);
+        level.twin = free_twins<B>(P, numbering_, coarser);
+        level.offset = free_values(problem, interpolate(coarse_problem, coarse_problem.start, P, problem));
+      }
+      instance.levels.push_back(std::move(level));
+      coarser = numbering_;
       coarse_problem = std::move(problem);
     }
-  }
-
-  void connect(GridLevel& level, const GridLevel& coarser, const Prolongation& P, const std::vector<Index>& coarse,
-               const DiscreteProblem<B>& coarse_problem, const DiscreteProblem<B>& problem) const {
-    level.interpolation = free_interpolation<B>(P, number_, coarse, level, coarser);
-    level.twin = free_twins<B>(P, number_, coarse);
-    level.offset = free_values(problem, interpolate(coarse_problem, coarse_problem.start, P, problem));
-  }
-
-  void add_coordinates(const Mesh<D>& mesh, GridLevel& level) const {
-    for (std::size_t p = 0; p < number_.size(); ++p)
-      for (int i = 0; number_[p] >= 0 && i < 3; ++i) level.coordinates.push_back(i < D ? mesh.points[p][i] : 0);
   }
 
   /// Global coordinates, without prescribed vectors.
   std::vector<double> free_values(const DiscreteProblem<B>& problem, const std::vector<double>& local) const {
     const std::vector<double> u = to_global(problem, local);
     std::vector<double> out;
-    for (std::size_t p = 0; p < number_.size(); ++p)
-      for (int i = 0; number_[p] >= 0 && i < B; ++i) out.push_back(u[p * B + i]);
+    for (const Index p : numbering_.vertex)
+      for (int i = 0; i < B; ++i) out.push_back(u[Offset{p} * B + i]);
     return out;
   }
 
@@ -136,11 +186,11 @@ class Own {
     const Progress quiet(true);
     Scene::Solver options = problem_.scene.solver;
     options.tolerance = tolerance;
-    Times times;
-    Stopwatch watch;
-    Solution<B> solution = NestedSolver<D, B>(hierarchy_, options, problem_.registry, quiet, times).solve(model());
+    Times wall;
+    const ProcessorTime time;
+    Solution<B> solution = NestedSolver<D, B>(hierarchy_, options, problem_.registry, quiet, wall).solve(model());
     Attempt out;
-    out.seconds = watch.elapsed() - times.assemble;
+    out.seconds = time.elapsed();
     out.iterations = solution.summary.iterations;
     if (!solution.summary.converged()) throw std::runtime_error(solution.summary.reason);
     return {std::move(out), std::move(solution)};
@@ -149,19 +199,28 @@ class Own {
   Attempt nested(double tolerance) const {
     auto [out, solution] = nested_solution(tolerance);
     out.x = free_values(solution.discretization.problem, solution.x);
+    out.seconds -= assembly();
     return out;
   }
 
+  /// Seconds that all levels take.
+  double assembly() const {
+    const ProcessorTime time;
+    for (const Mesh<D>& mesh : hierarchy_.levels) (void)discretize<D, B>(mesh, model());
+    return time.elapsed();
+  }
+
   Attempt linear(double tolerance) const {
+    const ProcessorTime time;
     const LinearSolve solve = multigrid_cg<B>(free_, prolongations_, problem_.registry, tolerance);
-    return {solve.setup + solve.solve, solve.iterations, free_values(free_, solve.x)};
+    return {time.elapsed(), solve.iterations, free_values(free_, solve.x)};
   }
 
   Problem problem_;
   MeshHierarchy<D> hierarchy_;
   std::vector<Prolongation> prolongations_;
-  std::vector<Index> number_;  // of the finest level's vectors among the free ones, -1 where prescribed
-  DiscreteProblem<B> free_;    // without the obstacle
+  Numbering numbering_;      // of the finest level
+  DiscreteProblem<B> free_;  // without the obstacle
 };
 
 template <int D, int B>
@@ -182,20 +241,21 @@ Solver black_box(const Instance& instance) {
     SolverOptions options;
     options.tolerance = tolerance;
     const MatrixProblem& problem = instance.finest();
-    Stopwatch watch;
+    const ProcessorTime time;
     BlackBox solver(problem.A, instance.block, options);
     BlackBox::Result result = solver.solve(problem.b, problem.lower, problem.upper);
     if (!result.summary.converged()) throw std::runtime_error(result.summary.reason);
-    return Attempt{watch.elapsed(), result.summary.iterations, std::move(result.x)};
+    return Attempt{time.elapsed(), result.summary.iterations, std::move(result.x)};
   };
 }
 
 Solver algebraic_cg(const Instance& instance) {
   return [&instance](double tolerance) {
     const auto& A = instance.finest().A;
+    const ProcessorTime time;
     LinearSolve solve = instance.block == 3 ? algebraic_cg<3>(A, instance.free_load, tolerance)
                                             : algebraic_cg<1>(A, instance.free_load, tolerance);
-    return Attempt{solve.setup + solve.solve, solve.iterations, std::move(solve.x)};
+    return Attempt{time.elapsed(), solve.iterations, std::move(solve.x)};
   };
 }
 

@@ -5,7 +5,7 @@
 
 #include "apps/bench/peers/accuracy.hpp"
 #include "apps/bench/peers/petsc_objects.hpp"
-#include "apps/signorini/progress.hpp"
+#include "apps/bench/peers/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -154,7 +154,7 @@ Attempt petsc_newton(const Instance& instance, const PetscPreconditioner& precon
                      double tolerance) {
   const PetscSession session(preconditioner.options + " -ksp_rtol 1e-3");
   Attempt out;
-  Stopwatch watch;
+  const ProcessorTime time;
   const std::size_t finest = instance.levels.size() - 1;
   for (std::size_t k = nested ? 0 : finest; k <= finest; ++k) {
     const GridLevel& level = instance.levels[k];
@@ -162,14 +162,14 @@ Attempt petsc_newton(const Instance& instance, const PetscPreconditioner& precon
     out.iterations =
         NewtonLevel(instance, k, preconditioner, k == finest ? tolerance : std::max(tolerance, 1e-4)).solve(out.x);
   }
-  out.seconds = watch.elapsed();
+  out.seconds = time.elapsed();
   return out;
 }
 
 Attempt petsc_cg(const Instance& instance, const PetscPreconditioner& preconditioner, double tolerance) {
   const PetscSession session(preconditioner.options);
   Attempt out;
-  Stopwatch watch;
+  const ProcessorTime time;
   const QuadraticProgram program = unbounded(instance);
   const std::size_t finest = instance.levels.size() - 1;
   const PetscMatrix A = system_matrix(program.A, preconditioner, instance.block, instance.levels.back().coordinates);
@@ -181,7 +181,7 @@ Attempt petsc_cg(const Instance& instance, const PetscPreconditioner& preconditi
   check(VecDuplicate(b, x.fresh()));
   out.iterations = solve(ksp, b, x, tolerance);
   out.x = values_of(x);
-  out.seconds = watch.elapsed();
+  out.seconds = time.elapsed();
   return out;
 }
 

@@ -4,13 +4,15 @@
 #include <malloc.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
-#include "apps/signorini/progress.hpp"
 #include "core/base/heap.hpp"
 
 namespace signorini::bench {
@@ -62,18 +64,12 @@ void solve_into(SharedResult& result, const Solver& solver, double tolerance) {
   }
 }
 
-/// @returns whether the process ended by itself in time
-bool wait_for(pid_t child, double limit) {
-  Stopwatch watch;
-  while (waitpid(child, nullptr, WNOHANG) == 0) {
-    if (watch.elapsed() > limit) {
-      kill(child, SIGKILL);
-      waitpid(child, nullptr, 0);
-      return false;
-    }
-    usleep(2000);
-  }
-  return true;
+/// Ends this process after that much processor time, and with its parent.
+void limit_process(double seconds) {
+  const auto whole = static_cast<rlim_t>(std::ceil(seconds));
+  const rlimit limit{whole, whole + 1};
+  setrlimit(RLIMIT_CPU, &limit);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
 /// One run in a process of its own: what a library leaves behind, or its crash, concerns no other run.
@@ -84,12 +80,15 @@ Measurement run_apart(const Solver& solver, std::size_t unknowns, double toleran
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("cannot start a process");
   if (child == 0) {
+    limit_process(limit);
     solve_into(result, solver, tolerance);
     _exit(0);
   }
+  int status = 0;
+  waitpid(child, &status, 0);
   Measurement out;
   out.tolerance = tolerance;
-  out.too_slow = !wait_for(child, limit);
+  out.too_slow = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
   if (out.too_slow)
     out.failure = fmt::format("> {:.0f} s", limit);
   else if (result.header().done)

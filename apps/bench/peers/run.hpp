@@ -5,7 +5,7 @@ namespace signorini::bench {
 
 /// When a run is given up, and how often a short one is repeated.
 struct Patience {
-  double seconds = 60;
+  double seconds = 60;  ///< of processor time
   int repeats = 3;
   double is_short = 2;  ///< seconds
 };

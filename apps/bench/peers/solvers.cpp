@@ -4,7 +4,7 @@
 #include "apps/bench/peers/active_set.hpp"
 #include "apps/bench/peers/ipopt.hpp"
 #include "apps/bench/peers/petsc.hpp"
-#include "apps/signorini/progress.hpp"
+#include "apps/bench/peers/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -119,12 +119,12 @@ class Listing {
 
   static Attempt linear(const Instance& instance, const MakeLinearSolver& make, double tolerance) {
     Attempt out;
-    Stopwatch watch;
+    const ProcessorTime time;
     const auto solver = make();
     solver->set_up(instance.finest().A, instance.levels.back().coordinates);
     out.x.assign(instance.free_load.size(), 0.0);
     out.iterations = solver->solve(instance.free_load, out.x, tolerance);
-    out.seconds = watch.elapsed();
+    out.seconds = time.elapsed();
     return out;
   }
 #endif
