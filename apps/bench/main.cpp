@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/bench/algebraic.hpp"
+#include "apps/bench/boundary.hpp"
 #include "apps/bench/linear.hpp"
+#include "apps/bench/memory.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
@@ -164,6 +166,8 @@ void run(bool quick) {
   growth<2, 1>(fine);
   growth<3, 3>(ball_fine);
   print_algebraic(quick);
+  print_boundary(quick);
+  print_memory(quick);
   print_variants();
 }
 
@@ -172,17 +176,19 @@ void run(bool quick) {
 
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
-  bool quick = false, algebraic = false;
+  bool quick = false, algebraic = false, boundary = false, memory = false;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
+  app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
+  app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
     signorini::keep_freed_memory();
-    if (algebraic)
-      signorini::bench::print_algebraic(quick);
-    else
-      signorini::bench::run(quick);
+    if (algebraic) signorini::bench::print_algebraic(quick);
+    if (boundary) signorini::bench::print_boundary(quick);
+    if (memory) signorini::bench::print_memory(quick);
+    if (!algebraic && !boundary && !memory) signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

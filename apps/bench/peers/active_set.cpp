@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "apps/bench/peers/accuracy.hpp"
-#include "apps/bench/peers/processor_time.hpp"
+#include "apps/bench/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include "apps/bench/peers/active_set.hpp"
 #include "apps/bench/peers/ipopt.hpp"
 #include "apps/bench/peers/petsc.hpp"
-#include "apps/bench/peers/processor_time.hpp"
+#include "apps/bench/processor_time.hpp"
 
 namespace signorini::bench {
 namespace {
