@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
                  "vertices along an edge, odd; several; default: 257 for S2, 33 for S3, 17 for E3 and E3w");
   app.add_option("--solver", arguments.only, "only solvers with this text in their names, and this project's own");
   app.add_option("--limit", arguments.patience.seconds,
-                 "seconds after which a run is given up; that solver is not run on larger sizes of the problem")
+                 "seconds after which a solver is given up; that solver is not run on larger sizes of the problem")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--repeat", arguments.patience.repeats, "runs of solvers that take less than 2 s; the best counts")

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -90,7 +91,7 @@ Measurement run_apart(const Solver& solver, std::size_t unknowns, double toleran
   out.tolerance = tolerance;
   out.too_slow = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
   if (out.too_slow)
-    out.failure = fmt::format("> {:.0f} s", limit);
+    out.failure = "too slow";
   else if (result.header().done)
     out.attempt = result.load();
   else
@@ -113,9 +114,11 @@ Measurement measure(const Solver& solver, const QuadraticProgram& program, const
   constexpr double least = 1e-14;
   const NaturalResidual residual(program);
   const std::size_t unknowns = program.b.size();
+  double left = patience.seconds;
   Measurement out;
   for (;; tolerance /= 10) {
-    Measurement next = run_apart(solver, unknowns, tolerance, patience.seconds);
+    Measurement next = run_apart(solver, unknowns, tolerance, left);
+    left = std::max(left - next.attempt.seconds, 1.0);
     // A tighter tolerance that cannot be reached leaves the last answer as the solver's best.
     const bool gave_nothing = next.attempt.x.empty() && !next.too_slow && !out.attempt.x.empty();
     if (gave_nothing) return out;
@@ -123,6 +126,7 @@ Measurement measure(const Solver& solver, const QuadraticProgram& program, const
     judge(out, residual, program.A, reference);
     if (out.solved() || out.attempt.x.empty() || tolerance <= 1.5 * least) break;
   }
+  if (out.too_slow) out.failure = fmt::format("> {:.0f} s", patience.seconds);
   for (int run = 1; run < patience.repeats && out.solved() && out.attempt.seconds < patience.is_short; ++run) {
     Measurement again = run_apart(solver, unknowns, tolerance, patience.seconds);
     if (again.solved() && again.attempt.seconds < out.attempt.seconds) out.attempt = std::move(again.attempt);

@@ -3,7 +3,7 @@
 
 namespace signorini::bench {
 
-/// When a run is given up, and how often a short one is repeated.
+/// When a solver is given up, all its tolerances together, and how often a short one is repeated.
 struct Patience {
   double seconds = 60;  ///< of processor time
   int repeats = 3;
