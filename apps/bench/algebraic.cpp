@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "amg/black_box.hpp"
-#include "amg/block_rows.hpp"
-#include "amg/hierarchy.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/matrices.hpp"
 #include "apps/bench/problems.hpp"
@@ -35,23 +33,12 @@ Timed black_box(const MatrixProblem& problem) {
   return result;
 }
 
-/// Conjugate gradients with a symmetric V(1,1) cycle on the levels that the matrix gives, from zero.
+/// Conjugate gradients on the levels that the matrix gives, from zero.
 template <int B>
-LinearSolve linear(const MatrixProblem& matrix, double body_load, const Registry& registry) {
-  Stopwatch watch;
-  DiscreteProblem<B> problem;
-  problem.A = block_matrix<B>(matrix.A);
-  problem.b = matrix.b;
-  for (double& b : problem.b) b += body_load;
-  problem.fixed.assign(problem.b.size() / B, 0);
-  problem.start.assign(problem.b.size(), 0.0);
-  const auto levels =
-      algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
-  const double hierarchy = watch.elapsed();
-  problem.galerkin = levels.matrices;
-  LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, 1e-8);
-  result.setup += hierarchy;
-  return result;
+LinearSolve linear(const MatrixProblem& matrix, double body_load) {
+  std::vector<double> load = matrix.b;
+  for (double& b : load) b += body_load;
+  return algebraic_cg<B>(matrix.A, load, 1e-8);
 }
 
 template <int D, int B>
@@ -64,7 +51,7 @@ void compare(const Case& c, int uniform) {
   const auto discretization = discretize<D, B>(hierarchy.finest(), model);
   const double geometric_time = geometric.whole() - watch.elapsed();
   const MatrixProblem matrix = matrix_problem(discretization.problem);
-  const LinearSolve cg = linear<B>(matrix, c.body_load, problem.registry);
+  const LinearSolve cg = linear<B>(matrix, c.body_load);
   const Timed box = black_box<B>(matrix);
   const double whole = box.setup + box.solve;
   fmt::print("| {} | {} | {}{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", c.name, matrix.A.rows,

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "amg/block_rows.hpp"
+#include "amg/hierarchy.hpp"
+#include "amg/registration.hpp"
 #include "apps/signorini/progress.hpp"
 #include "core/algebra/products.hpp"
 #include "core/solver/convergence.hpp"
@@ -75,11 +78,32 @@ LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prol
     rz = next;
   }
   result.solve = watch.lap();
+  result.x = std::move(x);
+  return result;
+}
+
+template <int B>
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance) {
+  const Registry registry = solver_components();
+  Stopwatch watch;
+  DiscreteProblem<B> problem;
+  problem.A = block_matrix<B>(A);
+  problem.b.assign(b.begin(), b.end());
+  problem.fixed.assign(b.size() / B, 0);
+  problem.start.assign(b.size(), 0.0);
+  const auto levels =
+      algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
+  const double hierarchy = watch.elapsed();
+  problem.galerkin = levels.matrices;
+  LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, tolerance);
+  result.setup += hierarchy;
   return result;
 }
 
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
+template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double);
+template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double);
 
 }  // namespace signorini::bench

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/multigrid.hpp"
@@ -11,6 +12,7 @@ struct LinearSolve {
   double setup = 0, solve = 0;
   int iterations = 0;
   double residual = 0, algebraic_error = 0;
+  std::vector<double> x;  ///< local coordinates
 };
 
 /// Solves a problem without obstacles from zero until the natural residual and the estimated relative algebraic error
@@ -18,5 +20,9 @@ struct LinearSolve {
 template <int B>
 LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                          const Registry& registry, double tolerance);
+
+/// The same on levels that the matrix gives, B rows to a vector.
+template <int B>
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance);
 
 }  // namespace signorini::bench

@@ -1,6 +1,8 @@
 #include "apps/bench/matrices.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -11,12 +13,14 @@ namespace {
 
 constexpr Index left_out = -1;
 
+/// Places of the blocks of a row by ascending columns; the matrix has the diagonal first.
 template <int B>
-std::vector<Index> numbers_of_free_vectors(const DiscreteProblem<B>& problem) {
-  std::vector<Index> number;
-  Index next = 0;
-  for (const Flags fixed : problem.fixed) number.push_back(fixed == (1u << B) - 1 ? left_out : next++);
-  return number;
+std::vector<Offset> ascending(const BlockMatrix<B>& A, Index p) {
+  std::vector<Offset> places(static_cast<std::size_t>(A.row[p + 1] - A.row[p]));
+  std::iota(places.begin(), places.end(), A.row[p]);
+  const auto after = std::find_if(places.begin() + 1, places.end(), [&](Offset k) { return A.column[k] > p; });
+  std::rotate(places.begin(), places.begin() + 1, after);
+  return places;
 }
 
 /// M = N_p A N_r' for the block number k, between p and r.
@@ -38,8 +42,9 @@ void global_block(const DiscreteProblem<B>& problem, Index p, Offset k, double* 
 template <int B>
 void add_rows(const DiscreteProblem<B>& problem, Index p, const std::vector<Index>& number, SparseRows& A) {
   double M[B * B];
+  const std::vector<Offset> places = ascending(problem.A, p);
   for (int i = 0; i < B; ++i) {
-    for (Offset k = problem.A.row[p]; k < problem.A.row[p + 1]; ++k) {
+    for (const Offset k : places) {
       const Index q = number[problem.A.column[k]];
       if (q == left_out) continue;
       global_block(problem, p, k, M);
@@ -79,9 +84,17 @@ void add_bounds(const DiscreteProblem<B>& problem, Index p, std::vector<double>&
 }  // namespace
 
 template <int B>
+std::vector<Index> free_vectors(const DiscreteProblem<B>& problem) {
+  std::vector<Index> number;
+  Index next = 0;
+  for (const Flags fixed : problem.fixed) number.push_back(fixed == (1u << B) - 1 ? left_out : next++);
+  return number;
+}
+
+template <int B>
 MatrixProblem matrix_problem(const DiscreteProblem<B>& problem) {
   MatrixProblem out;
-  const std::vector<Index> number = numbers_of_free_vectors(problem);
+  const std::vector<Index> number = free_vectors(problem);
   for (Index p = 0; p < problem.A.size(); ++p) {
     if (number[p] == left_out) continue;
     add_rows(problem, p, number, out.A);
@@ -98,6 +111,8 @@ MatrixProblem matrix_problem(const DiscreteProblem<B>& problem) {
   return out;
 }
 
+template std::vector<Index> free_vectors(const DiscreteProblem<1>&);
+template std::vector<Index> free_vectors(const DiscreteProblem<3>&);
 template MatrixProblem matrix_problem(const DiscreteProblem<1>&);
 template MatrixProblem matrix_problem(const DiscreteProblem<3>&);
 

@@ -10,7 +10,12 @@ struct MatrixProblem {
   std::vector<double> b, lower, upper;
 };
 
+/// Per vector its number among those that are not prescribed altogether, else -1.
+template <int B>
+std::vector<Index> free_vectors(const DiscreteProblem<B>& problem);
+
 /// What is left of a discrete problem in global coordinates without the vectors whose components are all prescribed.
+/// The columns of a row ascend.
 /// Error(Exit::input) for bounds along directions that are no coordinate axes.
 template <int B>
 MatrixProblem matrix_problem(const DiscreteProblem<B>& problem);

@@ -18,6 +18,14 @@ struct Problem {
   Problem(std::string title, const std::string& file, std::vector<std::string> overrides);
 };
 
+/// E3w's gap, for cube_on_bump.toml: a large part of the bottom comes into contact.
+inline const std::string flat_bump = "obstacle.0.distance=\"z + 0.005 + 0.1 * ((x - 0.5)^2 + (y - 0.5)^2)\"";
+
+/// A benchmark problem with `nodes` vertices along an edge, refined as often as that allows: S2, the radial obstacle
+/// problem on a square; S3, its analogue on a cube; E3, an elastic cube on a bump; E3w, on a flat one.
+/// Error(Exit::usage) for other names and for sizes without a coarser mesh.
+Problem benchmark_problem(const std::string& name, int nodes);
+
 /// One solve of the whole nonlinear problem.
 struct Solved {
   Times times;

@@ -31,8 +31,8 @@ inline void row_product(const double* M, const Index* column, Offset count, cons
       for (int j = 0; j < B; ++j) sum[i * B + j] += M[i * B + j] * v[j];
   }
   for (int i = 0; i < B; ++i) {
-    y[i] = 0;
-    for (int j = 0; j < B; ++j) y[i] += sum[i * B + j];
+    y[i] = sum[i * B];
+    for (int j = 1; j < B; ++j) y[i] += sum[i * B + j];
   }
 }
 

@@ -71,9 +71,10 @@ inline std::pair<Index, Index> slots_between(const LevelView<B>& level, Index fi
 }
 
 /// One projected block Gauss-Seidel sweep over first <= p < last; Local::correct is the exact local minimiser. Runs of
-/// vectors without obstacle pass through the plain linear loop.
+/// vectors without obstacle pass through the plain linear loop. The view is copied: the compiler then knows that a
+/// store to the iterate changes nothing of it.
 template <int B, class Local>
-void projected_sweep(const LevelView<B>& level, Index first, Index last, Order order) {
+void projected_sweep(LevelView<B> level, Index first, Index last, Order order) {
   const auto [from, to] = slots_between(level, first, last);
   if (order == Order::forward) {
     Index p = first;

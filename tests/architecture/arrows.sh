@@ -44,6 +44,7 @@ check_gpl() {
       CGAL/*:core/geometry/cgal/*) ;;
       CGAL/*) echo "$file:$line:$header (GPL) belongs in core/geometry/cgal/ only" ;;
       *cholmod*:tests/* | *umfpack*:tests/* | Eigen/CholmodSupport:tests/* | Eigen/UmfPackSupport:tests/*) ;;
+      Eigen/CholmodSupport:apps/bench/peers/*) ;; # a benchmark of its own that is not installed
       *cholmod*:amg/* | *umfpack*:amg/* | Eigen/CholmodSupport:amg/* | Eigen/UmfPackSupport:amg/*) ;;
       *cholmod*:* | *umfpack*:* | Eigen/CholmodSupport:* | Eigen/UmfPackSupport:*)
         echo "$file:$line:$header (GPL) belongs in amg/ only"
@@ -92,6 +93,7 @@ selftest() {
   try good amg/a.cpp '#include "transfer/a.hpp"'
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
+  try good apps/bench/peers/a.cpp '#include <Eigen/CholmodSupport>'
   try good core/a.cpp '// frame/wo''rk/home is no path'
   for folder in transfer smoothers amg estimators obstacles apps tests; do
     try wrong core/a.cpp "#include \"$folder/a.hpp\""

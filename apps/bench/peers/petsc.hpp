@@ -1,0 +1,27 @@
+#pragma once
+#include "apps/bench/peers/active_set.hpp"
+
+namespace signorini::bench {
+
+/// A preconditioner of PETSc.
+struct PetscPreconditioner {
+  std::string options;  ///< of PETSc's data base: "-pc_type gamg"
+  bool grid = false;    ///< its multigrid with this project's interpolations and Galerkin matrices, smoothed by SOR
+  bool rigid = false;   ///< rigid body modes for aggregation; block size 3
+};
+
+// PETSc's options are global and MPI starts once: each of these may be called once per process.
+
+/// Reduced-space Newton (vinewtonrsls) until the natural residual is below the tolerance.
+/// @param nested from the coarsest level up, else on the finest level from P(0)
+Attempt petsc_newton(const Instance& instance, const PetscPreconditioner& preconditioner, bool nested,
+                     double tolerance);
+
+/// Conjugate gradients without the bounds, until the 2-norm of the residual has dropped by the tolerance.
+Attempt petsc_cg(const Instance& instance, const PetscPreconditioner& preconditioner, double tolerance);
+
+/// Active sets with PETSc's conjugate gradients; no grid.
+Attempt petsc_active_set(const Instance& instance, const PetscPreconditioner& preconditioner,
+                         const ActiveSetOptions& options, double tolerance);
+
+}  // namespace signorini::bench
