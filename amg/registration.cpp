@@ -1,6 +1,7 @@
 #include "amg/registration.hpp"
 
 #include "amg/coarse_newton.hpp"
+#include "amg/direct.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
 
@@ -23,11 +24,18 @@ void register_coarse_solvers(Registry& registry) {
       [] { return std::make_unique<CoarseGaussSeidel<3>>(); });
 }
 
+void register_direct_solvers(Registry& registry) {
+  const std::string file = file_of(reinterpret_cast<const void*>(&register_direct_solvers));
+  registry.add<DirectSolver>(
+      {"direct", "cholmod", "supernodal Cholesky factorisation, for method \"pdas\"", {}, file, {}}, cholmod_solver);
+}
+
 Registry solver_components() {
   Registry registry;
   register_smoothers(registry);
   register_transfers(registry);
   register_coarse_solvers(registry);
+  register_direct_solvers(registry);
   return registry;
 }
 

@@ -37,7 +37,7 @@ install(FILES amg/black_box.hpp amg/signorini.h DESTINATION ${CMAKE_INSTALL_INCL
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
 
-install(TARGETS signorini_geometry LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+install(TARGETS signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 if(TARGET signorini)
   file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")

@@ -3,7 +3,7 @@
 
 namespace signorini {
 
-/// Adds the components of this folder: min_merge.
+/// Adds the transfers: min_merge, mandel, kornhuber, none.
 void register_transfers(Registry& registry);
 
 }  // namespace signorini

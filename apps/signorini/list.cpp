@@ -46,11 +46,8 @@ struct Kind {
   const char* plural;
   const char* kind;
 };
-constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},
-                                {"smoothers", "smoother"},
-                                {"transfers", "transfer"},
-                                {"coarse", "coarse"},
-                                {"amg", "amg"},
+constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},  {"smoothers", "smoother"}, {"transfers", "transfer"},
+                                {"coarse", "coarse"},       {"direct", "direct"},      {"amg", "amg"},
                                 {"estimators", "estimator"}};
 
 void print_kind(const Kind& kind, const Catalogue& all) {

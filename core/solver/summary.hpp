@@ -34,6 +34,7 @@ enum class Outcome {
   iteration_limit,
   interrupted,
   unbounded,
+  stuck,    ///< the method cannot go on
   violated  ///< the problem is solved, but an obstacle that is not part of it does not hold
 };
 

@@ -30,14 +30,15 @@ std::vector<double> random_correction(Random& random, const Level<B>& coarse, bo
 }
 
 // Up to rounding of the rotations, which mix all components of a vector.
-template <int B>
-void expect_admissible(const TwoLevels<B>& t, const Eigen::MatrixXd& T, const std::vector<double>& correction) {
+template <class Levels>
+void expect_admissible(const Levels& t, const Eigen::MatrixXd& T, const std::vector<double>& correction) {
+  const int B = t.fine.constraints.lower.size() / t.fine.constraints.vector.size();
   const Eigen::VectorXd d = T * vector(correction);
   for (Index slot = 0; slot < t.fine.constraints.size(); ++slot) {
     const Index p = t.fine.constraints.vector[slot];
     double size = 0;
     for (Offset k = t.P.row[p]; k < t.P.row[p + 1]; ++k)
-      size += std::fabs(t.P.weight[k]) * block::norm<B>(correction.data() + t.P.column[k] * B);
+      for (int j = 0; j < B; ++j) size += std::fabs(t.P.weight[k] * correction[t.P.column[k] * B + j]);
     for (int k = 0; k < B; ++k) {
       ASSERT_GE(d[p * B + k], t.fine.lower[slot * B + k] - 1e-14 * size);
       ASSERT_LE(d[p * B + k], t.fine.upper[slot * B + k] + 1e-14 * size);
@@ -45,11 +46,11 @@ void expect_admissible(const TwoLevels<B>& t, const Eigen::MatrixXd& T, const st
   }
 }
 
-TYPED_TEST(MonotoneRestriction, KeepsEveryCoarseCorrectionAdmissible) {
-  constexpr int B = TypeParam::value;
+template <int B, template <int> class Restriction>
+void expect_every_correction_admissible() {
   Random random(11);
   for (int trial = 0; trial < 200; ++trial) {
-    TwoLevels<B> t(random, 30, trial % 2 == 0);
+    TwoLevels<B, Restriction> t(random, 30, trial % 2 == 0);
     truncate(t.fine, random_flags<B>(random, 30, 0.2 * (trial % 3)));
     t.transfer.assemble(t.fine, t.coarse);
     t.transfer.restrict_bounds(t.fine, t.coarse);
@@ -59,6 +60,12 @@ TYPED_TEST(MonotoneRestriction, KeepsEveryCoarseCorrectionAdmissible) {
     for (int point = 0; point < 20; ++point)
       expect_admissible(t, T, random_correction(random, t.coarse, point % 2 == 0));
   }
+}
+
+TYPED_TEST(MonotoneRestriction, KeepsEveryCoarseCorrectionAdmissible) {
+  expect_every_correction_admissible<TypeParam::value, MinMerge>();
+  expect_every_correction_admissible<TypeParam::value, Mandel>();
+  expect_every_correction_admissible<TypeParam::value, Kornhuber>();
 }
 
 TYPED_TEST(MonotoneRestriction, BoundsInnerCoarseVectorsThatReachConstrainedFineOnes) {
@@ -98,37 +105,101 @@ TYPED_TEST(MonotoneRestriction, DoesNotTightenBoundsByTruncatedDirections) {
   for (const double upper : t.coarse.constraints.upper) EXPECT_EQ(upper, infinity);
 }
 
-// With linear interpolation on a line the coarse bounds are those of the fine vectors, an N-th each for N weights.
-TEST(MonotoneRestrictionOnALine, SharesTheDistanceAmongTheWeights) {
+/// Fine vectors 0 and 1 are the twins of the coarse ones, the others lie between them.
+struct Line {
+  std::vector<double> lower, upper;
+  std::vector<std::array<double, 2>> weights;  ///< of the others
+};
+
+template <template <int> class Restriction>
+Constraints<1> restricted(const Line& line) {
   DiscreteProblem<1> problem;
-  for (Index p = 0; p < 3; ++p) {
+  const auto n = static_cast<Index>(line.lower.size());
+  for (Index p = 0; p < n; ++p) {
     problem.A.column.push_back(p);
     problem.A.value.push_back(1);
     problem.A.row.push_back(p + 1);
     problem.constraints.slot.push_back(p);
     problem.constraints.vector.push_back(p);
   }
-  problem.b.assign(3, 0);
-  problem.fixed.assign(3, 0);
-  problem.constraints.lower = {-1, -5, -1};
-  problem.constraints.upper = {4, 3, 10};
-  problem.segments = {{0, 3, std::make_shared<Box<1>>()}};
+  problem.b.assign(line.lower.size(), 0);
+  problem.fixed.assign(line.lower.size(), 0);
+  problem.constraints.lower = line.lower;
+  problem.constraints.upper = line.upper;
+  problem.segments = {{0, n, std::make_shared<Box<1>>()}};
   Prolongation P;
   P.coarse = 2;
-  P.row = {0, 1, 2, 4};
-  P.column = {0, 1, 0, 1};
-  P.weight = {1, 1, 0.5, -0.25};
+  P.row = {0, 1, 2};
+  P.column = {0, 1};
+  P.weight = {1, 1};
+  for (const auto& [first, second] : line.weights) {
+    P.column.insert(P.column.end(), {0, 1});
+    P.weight.insert(P.weight.end(), {first, second});
+    P.row.push_back(static_cast<Offset>(P.column.size()));
+  }
   Level<1> fine = finest_level(problem), coarse;
   fine.clear_phases();
   fine.lower = problem.constraints.lower;
   fine.upper = problem.constraints.upper;
-  MinMerge<1> transfer;
+  Restriction<1> transfer;
   transfer.prepare(fine, P, true, coarse);
   coarse.clear_phases();
   transfer.assemble(fine, coarse);
   transfer.restrict_bounds(fine, coarse);
-  EXPECT_EQ(coarse.constraints.lower, (std::vector<double>{-1, -5}));  // -1 / (2 * 0.5) meets -1; 10 / -0.5 < -5
-  EXPECT_EQ(coarse.constraints.upper, (std::vector<double>{4, 2}));    // -1 / (2 * -0.25) = 2 < 3
+  return coarse.constraints;
+}
+
+using Bounds = std::vector<double>;
+
+// The coarse bounds are those of the fine vectors, an N-th each for N weights.
+TEST(MonotoneRestrictionOnALine, MinMergeSharesTheDistanceAmongTheWeights) {
+  const auto c = restricted<MinMerge>({{-1, -5, -1}, {4, 3, 10}, {{0.5, -0.25}}});
+  EXPECT_EQ(c.lower, (Bounds{-1, -5}));  // -1 / (2 * 0.5) meets -1; 10 / -0.5 < -5
+  EXPECT_EQ(c.upper, (Bounds{4, 2}));    // -1 / (2 * -0.25) = 2 < 3
+}
+
+TEST(MonotoneRestrictionOnALine, MandelTakesTheLeastDistanceInTheSupport) {
+  const auto c = restricted<Mandel>({{-9, -5, -2, -3}, {4, 3, 10, 1}, {{0.75, 0.25}, {0.25, 0.75}}});
+  EXPECT_EQ(c.lower, (Bounds{-2, -2}));
+  EXPECT_EQ(c.upper, (Bounds{1, 1}));
+  const auto negative = restricted<Mandel>({{-1, -5, -1}, {4, 3, 10}, {{0.5, -0.25}}});
+  EXPECT_EQ(negative.upper, (Bounds{4, 2})) << "as min_merge";
+}
+
+// The four cases of Kornhuber's formula for the middle of an edge.
+TEST(MonotoneRestrictionOnALine, KornhuberLeavesTheSmallerEndAsItIs) {
+  const auto upper = [](double a, double b, double middle) {
+    const double none = infinity;
+    return restricted<Kornhuber>({{-none, -none, -none}, {a, b, middle}, {{0.5, 0.5}}}).upper;
+  };
+  EXPECT_EQ(upper(1, 3, 2), (Bounds{1, 3}));
+  EXPECT_EQ(upper(1, 5, 2), (Bounds{1, 3}));
+  EXPECT_EQ(upper(5, 1, 2), (Bounds{3, 1}));
+  EXPECT_EQ(upper(4, 5, 2), (Bounds{2, 2}));
+  EXPECT_EQ(upper(infinity, 0, 2), (Bounds{4, 0}));
+  EXPECT_EQ(upper(infinity, infinity, 2), (Bounds{2, 2}));
+  const auto lower = restricted<Kornhuber>({{-1, -5, -2}, {9, 9, 9}, {{0.5, 0.5}}}).lower;
+  EXPECT_EQ(lower, (Bounds{-1, -3}));
+}
+
+TYPED_TEST(MonotoneRestriction, KornhuberIsNowhereTighterThanMinMerge) {
+  constexpr int B = TypeParam::value;
+  int looser = 0;
+  for (int seed = 0; seed < 50; ++seed) {
+    Random one(seed), other(seed);
+    TwoLevels<B, MinMerge> equal(one, 30, seed % 2 == 0);
+    TwoLevels<B, Kornhuber> sharp(other, 30, seed % 2 == 0);
+    equal.transfer.assemble(equal.fine, equal.coarse);
+    sharp.transfer.assemble(sharp.fine, sharp.coarse);
+    equal.transfer.restrict_bounds(equal.fine, equal.coarse);
+    sharp.transfer.restrict_bounds(sharp.fine, sharp.coarse);
+    for (std::size_t i = 0; i < equal.coarse.constraints.lower.size(); ++i) {
+      ASSERT_LE(sharp.coarse.constraints.lower[i], equal.coarse.constraints.lower[i] * (1 - 1e-14));
+      ASSERT_GE(sharp.coarse.constraints.upper[i], equal.coarse.constraints.upper[i] * (1 - 1e-14));
+      looser += sharp.coarse.constraints.upper[i] > equal.coarse.constraints.upper[i] * (1 + 1e-10);
+    }
+  }
+  EXPECT_GT(looser, 50);
 }
 
 TYPED_TEST(MonotoneRestriction, ProlongatesWhatTheDefinitionSays) {

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/solver/multigrid.hpp"
 #include "tests/support/random_problem.hpp"
-#include "transfer/min_merge.hpp"
+#include "transfer/merge.hpp"
 
 namespace signorini::test {
 
@@ -54,12 +54,12 @@ std::vector<Flags> random_flags(Random& random, Index n, double probability) {
 }
 
 /// A fine level with random matrix, frames and remaining distances, and the coarse one below it.
-template <int B>
+template <int B, template <int> class Restriction = MinMerge>
 struct TwoLevels {
   DiscreteProblem<B> problem;
   Prolongation P;
   Level<B> fine, coarse;
-  MinMerge<B> transfer;
+  Restriction<B> transfer;
   std::vector<double> x;
 
   TwoLevels(Random& random, Index n, bool rotate) {

@@ -40,6 +40,10 @@ std::vector<Setting> settings() {
   add("no post", [](O& o) { o.post = 0; });
   add("not truncated", [](O& o) { o.truncate = "none"; });
   add("not truncated W", [](O& o) { o.truncate = "none", o.cycle = "W"; });
+  for (const char* transfer : {"mandel", "kornhuber"}) {
+    add(transfer, [=](O& o) { o.transfer = transfer; });
+    add(fmt::format("{}, not truncated", transfer), [=](O& o) { o.transfer = transfer, o.truncate = "none"; });
+  }
   add("coarse pgs", [](O& o) { o.coarse = "pgs"; });
   for (const char* rotate : {"none", "not_coarsest"}) {
     add(std::string("rotate ") + rotate, [=](O& o) { o.rotate = rotate; });

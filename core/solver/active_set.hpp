@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <unordered_map>
+
+#include "core/algebra/direct_solver.hpp"
+#include "core/component/registry.hpp"
+#include "core/solver/iteration.hpp"
+
+namespace signorini {
+
+/// Primal-dual active sets (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 2003) with a direct solver: a reference
+/// to compare the other methods with. In each step the components that the multiplier and the distance call active are
+/// put onto their bounds, and the energy is minimised over the others. Such an iterate may leave the bounds; what is
+/// measured and returned is the admissible vector next to it, whose energy may grow from step to step. The method may
+/// return to sets that it has left (it then cycles) and needs a regular matrix on the free components: in both cases it
+/// is stuck.
+template <int B>
+class ActiveSetIteration final : public Iteration<B> {
+ public:
+  ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
+                     const Registry& registry);
+
+ private:
+  using typename Iteration<B>::Step;
+
+  const Level<B>& finest() const override { return level_; }
+  std::vector<Index> unknowns() const override { return {this->free_unknowns(level_)}; }
+  Step advance() override;
+
+  void find_pattern();
+  std::vector<signed char> predicted() const;
+  std::vector<signed char> all_bounded() const;
+  bool factorise();
+  void solve_free();
+  template <class Visit>
+  void visit_bounds(const Visit& visit) const;
+  LevelReport report(const std::vector<signed char>& last) const;
+
+  Level<B> level_;
+  std::unique_ptr<DirectSolver> direct_;
+  std::vector<Offset> start_;  // the lower triangle of A in compressed columns
+  std::vector<Index> row_;
+  std::vector<double> value_, scale_;
+  std::vector<double> y_, r_y_;      // the iterate, which may leave the bounds, and its residual
+  std::vector<signed char> active_;  // per slot and direction: -1 at the lower bound, 1 at the upper one, 0 free
+  std::unordered_map<std::size_t, int> seen_;  // fingerprints of the sets of each step
+  int steps_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,88 @@
+#include "core/solver/configuration.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+
+namespace {
+
+void require(bool holds, const char* key, const std::string& found, const char* expected) {
+  if (!holds) input_error(fmt::format("solver.{}", key), fmt::format("found '{}', expected {}", found, expected));
+}
+
+// The value that a name stands for.
+template <class T>
+T choice(const char* key, const std::string& found, std::initializer_list<std::pair<const char*, T>> known) {
+  std::string names;
+  for (const auto& [name, value] : known) {
+    if (found == name) return value;
+    names += fmt::format("{}'{}'", names.empty() ? "" : " or ", name);
+  }
+  require(false, key, found, names.c_str());
+  return {};
+}
+
+Truncation truncation_of(const SolverOptions& o) {
+  return choice<Truncation>(
+      "truncate", o.truncate,
+      {{"none", Truncation::none}, {"normal", Truncation::normal}, {"tangential", Truncation::tangential}});
+}
+
+}  // namespace
+
+Method check_options(const SolverOptions& o) {
+  require(o.pre >= 0 && o.post >= 0 && o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post),
+          "pre, post >= 0 and at least one smoothing step");
+  require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
+  require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
+  require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
+  require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
+  require(o.threads >= 1 && o.threads <= 4096, "threads", fmt::format("{}", o.threads), "a number from 1 to 4096");
+  const auto method = choice<Method>(
+      "method", o.method,
+      {{"monotone", Method::monotone}, {"tnnmg", Method::tnnmg}, {"pgs", Method::pgs}, {"pdas", Method::pdas}});
+  require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
+          "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
+  require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
+          "a monotone restriction, or method 'tnnmg', whose coarse corrections have no bounds");
+  return method;
+}
+
+template <int B>
+typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
+  const Method method = check_options(o);
+  return {o.pre,
+          o.post,
+          choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
+          truncation_of(o),
+          choice<Rotate>("rotate", o.rotate,
+                         {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
+          method == Method::tnnmg,
+          o.relaxation,
+          o.threads};
+}
+
+template <int B>
+Components<B> components_of(const SolverOptions& o, const Registry& registry) {
+  const std::string transfer = o.method == "tnnmg" ? "none" : o.transfer;
+  registry.create<Transfer<B>>("transfer", transfer);  // an unknown name shows here
+  return {registry.create<Smoother<B>>("smoother", o.smoother),
+          [&registry, transfer] { return registry.create<Transfer<B>>("transfer", transfer); },
+          registry.create<CoarseSolver<B>>("coarse", o.method == "pgs" ? "pgs" : o.coarse)};
+}
+
+// Projected Gauss-Seidel alone is what is left without coarser levels.
+std::span<const Prolongation> hierarchy_of(const SolverOptions& o, std::span<const Prolongation> prolongations) {
+  return o.method == "pgs" ? std::span<const Prolongation>{} : prolongations;
+}
+
+template MonotoneMultigrid<1>::Settings settings_of<1>(const SolverOptions&);
+template MonotoneMultigrid<2>::Settings settings_of<2>(const SolverOptions&);
+template MonotoneMultigrid<3>::Settings settings_of<3>(const SolverOptions&);
+template Components<1> components_of(const SolverOptions&, const Registry&);
+template Components<2> components_of(const SolverOptions&, const Registry&);
+template Components<3> components_of(const SolverOptions&, const Registry&);
+
+}  // namespace signorini

@@ -1,0 +1,25 @@
+#pragma once
+#include <span>
+
+#include "core/component/registry.hpp"
+#include "core/solver/multigrid.hpp"
+#include "core/solver/options.hpp"
+
+namespace signorini {
+
+enum class Method { monotone, tnnmg, pgs, pdas };
+
+/// Error(Exit::input) naming the option, what was found and what was expected where options are out of range or
+/// contradict each other.
+Method check_options(const SolverOptions& options);
+
+/// What the options say about the cycles. Error(Exit::input) as above, also for components that do not exist.
+template <int B>
+typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& options);
+template <int B>
+Components<B> components_of(const SolverOptions& options, const Registry& registry);
+
+/// The levels that the method uses: all, or the finest alone.
+std::span<const Prolongation> hierarchy_of(const SolverOptions& options, std::span<const Prolongation> prolongations);
+
+}  // namespace signorini

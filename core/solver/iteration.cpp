@@ -1,0 +1,219 @@
+#include "core/solver/iteration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/algebra/products.hpp"
+#include "core/base/error.hpp"
+
+namespace signorini {
+
+template <int B>
+Summary Iteration<B>::run(const Monitor& monitor) {
+  summary_.level_unknowns = unknowns();
+  for (Index p = 0; p < problem_.A.size(); ++p)
+    for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
+  reference_ = residual_at_projected_zero();
+  make_admissible(x_);
+  x_before_ = x_;
+  refuse_nan(evaluate(x_, r_).natural_residual);
+  while (!step(monitor)) {
+  }
+  finish_phases();
+  return std::move(summary_);
+}
+
+template <int B>
+bool Iteration<B>::step(const Monitor& monitor) {
+  r_before_.swap(r_);
+  Step step = advance();
+  const bool bounded = step.bounded;
+  const std::string stuck = step.stuck;
+  measure(step.error);
+  if (step.carried && within_tolerance()) {  // claimed for a residual that was not computed from the iterate alone
+    sums_ = evaluate(x_, r_);
+    measure(step.error);
+  }
+  record(std::move(step));
+  const bool go_on = !monitor || monitor(summary_.history.back());
+  if (finished()) return true;
+  if (!bounded && !rests_at_rounding())
+    return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
+  if (!go_on) return end(Outcome::interrupted, "interrupted");
+  if (!stuck.empty()) return end(Outcome::stuck, stuck);
+  if (summary_.iterations >= options_.max_iterations)
+    return end(Outcome::iteration_limit,
+               fmt::format("iteration limit {}: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
+                           options_.max_iterations, summary_.residual, summary_.algebraic_error, options_.tolerance));
+  return false;
+}
+
+template <int B>
+void Iteration<B>::make_admissible(std::vector<double>& x) const {
+  for (Index p = 0; p < problem_.A.size(); ++p)
+    for (int k = 0; k < B; ++k)
+      if (problem_.fixed[p] >> k & 1u) x[Offset{p} * B + k] = problem_.start[Offset{p} * B + k];
+  const Constraints<B>& c = problem_.constraints;
+  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const std::size_t at = slot * B + static_cast<std::size_t>(k);
+      double& v = x[Offset{c.vector[slot]} * B + k];
+      v = v < c.lower[at] ? c.lower[at] : v > c.upper[at] ? c.upper[at] : v;  // NaN stays visible
+    }
+}
+
+template <int B>
+typename Iteration<B>::Sums Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r) const {
+  Sums sums;
+  evaluate(x, r, 0, problem_.A.size(), sums);
+  return sums;
+}
+
+template <int B>
+void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const {
+  residual<B>(problem_.A, x.data(), problem_.b.data(), first, last, r.data() + Offset{first} * B);
+  add_sums(x, r, first, last, sums);
+}
+
+template <int B>
+void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last,
+                            Sums& sums) const {
+  add_natural_residual(x, first, last, r, sums.natural_residual);
+  // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
+  double gain = 0, correction = 0, size = 0, largest = sums.largest, moved = sums.moved;
+  const double *before = x_before_.data(), *r_before = r_before_.data(), *now = x.data(), *r_now = r.data();
+#pragma omp simd reduction(+ : gain, correction, size) reduction(max : largest, moved)
+  for (Offset i = Offset{first} * B; i < Offset{last} * B; ++i) {
+    const double d = now[i] - before[i];
+    gain += 0.5 * d * (r_before[i] + r_now[i]);
+    correction += d * (r_before[i] - r_now[i]);
+    size += std::abs(d * r_before[i]) + std::abs(d * r_now[i]);
+    largest = std::max(largest, std::abs(now[i]));
+    moved = std::max(moved, std::abs(d));
+  }
+  sums.gain += gain;
+  sums.correction += correction;
+  sums.size += size;
+  sums.largest = largest;
+  sums.moved = moved;
+  sums.products += free_products(problem_, x, r, first, last);
+}
+
+template <int B>
+void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
+                                        double& largest) const {
+  const Level<B>& level = finest();
+  LevelView<B> view = level.view();
+  view.x = x.data();
+  level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
+    const double found = s.obstacle->natural_residual(view, begin, end, r.data());
+    if (!(found <= largest)) largest = found;  // NaN stays visible
+  });
+}
+
+template <int B>
+void Iteration<B>::measure(double error) {
+  Summary& s = summary_;
+  s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : sums_.natural_residual;
+  double squared = energy_norm_squared(problem_, x_, sums_.products);
+  if (squared <= trace_ * sums_.largest * sums_.largest * 1e-14) squared = std::max(squared, rounding_energy());
+  const double size = std::sqrt(squared);
+  s.algebraic_error = error == 0 ? 0 : size > 0 ? error / size : 1;
+  s.energy = energy(problem_, sums_.products);
+}
+
+template <int B>
+void Iteration<B>::record(Step step) {
+  Summary& s = summary_;
+  ++s.iterations;
+  s.rate = step.rate;
+  const Index contact = step.levels.back().critical, changed = step.levels.back().changed;
+  s.history.push_back(
+      {s.iterations, s.residual, s.algebraic_error, s.energy, contact, changed, std::move(step.levels)});
+}
+
+// What rounding leaves of x'Ax for a rigid motion, which has no energy.
+template <int B>
+double Iteration<B>::rounding_energy() const {
+  double sum = 0;
+  for (Index p = 0; p < problem_.A.size(); ++p)
+    for (int k = 0; k < B; ++k)
+      if (const double v = x_[Offset{p} * B + k]; !(problem_.fixed[p] >> k & 1u))
+        sum += problem_.A.diagonal(p)[k * B + k] * v * v;
+  return 16 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+template <int B>
+bool Iteration<B>::within_tolerance() const {
+  return summary_.residual <= options_.tolerance && summary_.algebraic_error <= options_.tolerance;
+}
+
+template <int B>
+bool Iteration<B>::finished() {
+  Summary& s = summary_;
+  const double absolute = sums_.natural_residual;
+  if (within_tolerance())
+    return end(Outcome::converged, fmt::format("residual {:.3e} and algebraic error {:.3e} are at most {:.3e}",
+                                               s.residual, s.algebraic_error, options_.tolerance));
+  stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
+  least_ = std::min(least_, absolute);
+  if (stalled_ >= 3 && rests_at_rounding() && s.algebraic_error <= 1e-4)
+    return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
+  return false;
+}
+
+// Natural residuals below a small multiple of machine precision times the largest unknown say nothing, unless it is
+// the iteration that carried the unknowns away.
+template <int B>
+bool Iteration<B>::rests_at_rounding() const {
+  return sums_.natural_residual <= 1000 * std::numeric_limits<double>::epsilon() * sums_.largest &&
+         summary_.residual <= 1e-3;
+}
+
+template <int B>
+bool Iteration<B>::end(Outcome outcome, std::string reason) {
+  summary_.outcome = outcome;
+  summary_.reason = std::move(reason);
+  return true;
+}
+
+template <int B>
+void Iteration<B>::finish_phases() {
+  const auto& history = summary_.history;
+  int from = 0;
+  for (auto it = history.rbegin(); it != history.rend() && it->changed == 0; ++it) from = it->iteration;
+  summary_.linear_phase_from = from;
+}
+
+// Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.
+template <int B>
+double Iteration<B>::residual_at_projected_zero() {
+  make_admissible(x_before_);
+  const double found = evaluate(x_before_, r_).natural_residual;
+  if (found == 0) x_ = x_before_;
+  return found;
+}
+
+template <int B>
+Index Iteration<B>::free_unknowns(const Level<B>& level) const {
+  Index free = 0;
+  for (const Flags off : level.off)
+    for (int k = 0; k < B; ++k) free += !(off >> k & 1u);
+  return free;
+}
+
+template <int B>
+void Iteration<B>::refuse_nan(double residual) {
+  if (!std::isfinite(residual))
+    throw Error(Exit::input,
+                "solver: the residual is not finite; the matrix, the loads or the start hold values that "
+                "are infinite, NaN or too large to square");
+}
+
+template class Iteration<1>;
+template class Iteration<2>;
+template class Iteration<3>;
+
+}  // namespace signorini

@@ -1,0 +1,88 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/solver/convergence.hpp"
+#include "core/solver/level.hpp"
+#include "core/solver/options.hpp"
+#include "core/solver/solve.hpp"
+
+namespace signorini {
+
+/// The loop around the steps of a method: what is recomputed from the iterate after each of them, and when to stop.
+template <int B>
+class Iteration {
+ public:
+  virtual ~Iteration() = default;
+  /// Iterates until the problem is solved, or there is another reason to stop.
+  Summary run(const Monitor& monitor);
+
+ protected:
+  /// What a method says about its step.
+  struct Step {
+    std::vector<LevelReport> levels;  ///< coarsest first
+    double error = 0;                 ///< estimate of ||x - x*||_A
+    double rate = 0;                  ///< Summary::rate
+    bool carried = false;             ///< the residual was carried along, not computed from the iterate alone
+    bool bounded = true;              ///< false: the energy has no minimum
+    std::string stuck;                ///< why the method cannot go on, if so
+  };
+
+  /// Everything that is recomputed from an iterate, and what was gained since x_before_.
+  struct Sums {
+    double natural_residual = 0;
+    double gain = 0, correction = 0, size = 0;  // J(before) - J, squared energy norm of the step, and their terms
+    FreeProducts products;
+    double largest = 0;  // |x|
+    double moved = 0;    // the largest |step|
+  };
+
+  /// Keeps references to all of them.
+  Iteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options)
+      : problem_(problem), options_(options), x_(x), r_(x.size()), x_before_(x.size()), r_before_(x.size()) {}
+
+  virtual const Level<B>& finest() const = 0;
+  virtual std::vector<Index> unknowns() const = 0;
+  /// One step: from x_ to the next iterate, with x_before_, r_ and sums_; r_before_ is the residual of x_.
+  virtual Step advance() = 0;
+
+  /// The admissible vector next to x: prescribed values and bounds.
+  void make_admissible(std::vector<double>& x) const;
+  /// r = b - A x and what follows from it.
+  Sums evaluate(std::vector<double>& x, std::vector<double>& r) const;
+  /// The same at the vectors first <= p < last.
+  void evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const;
+  /// Adds what follows from a residual at the vectors first <= p < last.
+  void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) const;
+  /// Error(Exit::input) where a residual is not finite.
+  static void refuse_nan(double residual);
+  Index free_unknowns(const Level<B>& level) const;
+
+  const DiscreteProblem<B>& problem_;
+  const SolverOptions& options_;
+  std::vector<double>& x_;
+  std::vector<double> r_, x_before_, r_before_;
+  Sums sums_;
+
+ private:
+  bool step(const Monitor& monitor);
+  void add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
+                            double& largest) const;
+  void measure(double error);
+  void record(Step step);
+  double rounding_energy() const;
+  bool within_tolerance() const;
+  bool finished();
+  bool rests_at_rounding() const;
+  bool end(Outcome outcome, std::string reason);
+  void finish_phases();
+  double residual_at_projected_zero();
+
+  double trace_ = 0;  // of A
+  Summary summary_;
+  double reference_ = 0;
+  double least_ = infinity;
+  int stalled_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,114 @@
+#include "core/solver/multigrid_iteration.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/solver/configuration.hpp"
+
+namespace signorini {
+
+namespace {
+
+// Part of the bound of rounding errors above which a gain counts: most of them cancel.
+constexpr double noise = 0.1;
+
+}  // namespace
+
+template <int B>
+MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
+                                          std::span<const Prolongation> prolongations, std::vector<double>& x,
+                                          const SolverOptions& options, const Registry& registry)
+    : Iteration<B>(problem, x, options),
+      multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
+                 settings_of<B>(options)),
+      recombination_(problem.constraints) {}
+
+template <int B>
+std::vector<Index> MultigridIteration<B>::unknowns() const {
+  std::vector<Index> count;
+  for (const Level<B>& level : multigrid_.levels()) count.push_back(this->free_unknowns(level));
+  return count;
+}
+
+template <int B>
+typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
+  Sums& sums = this->sums_;
+  multigrid_.cut_below(this->options_.cut * sums.moved);
+  sums = {};
+  const CycleReport cycle = multigrid_.cycle(
+      this->x_.data(),
+      [this](Index first, Index last) {
+        std::copy(this->x_.begin() + Offset{first} * B, this->x_.begin() + Offset{last} * B,
+                  this->x_before_.begin() + Offset{first} * B);
+      },
+      [this](Index first, Index last) { this->evaluate(this->x_, this->r_, first, last, this->sums_); });
+  const bool combined = this->options_.krylov && this->options_.method != "pgs" && accelerate(cycle);
+  this->refuse_nan(sums.natural_residual);
+  add_gain();
+  return {cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded, {}};
+}
+
+// Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
+// in. Returns whether the iterate is no longer the cycle's own.
+template <int B>
+bool MultigridIteration<B>::accelerate(const CycleReport& cycle) {
+  if (100 * cycle.finest().changed > cycle.finest().critical ||
+      !(this->sums_.gain > noise * this->sums_.moved * cycle.rounding)) {
+    recombination_.reset();
+    return false;
+  }
+  return recombination_.propose(this->x_before_, this->r_before_, this->x_, this->r_) && take_combination();
+}
+
+// If it has the lower energy.
+template <int B>
+bool MultigridIteration<B>::take_combination() {
+  x_trial_.resize(this->x_.size());
+  r_trial_.resize(this->x_.size());
+  Sums sums;
+  const Chunks& chunks = multigrid_.finest().chunks;
+  for (Index first = 0; first < chunks.vectors; first += chunks.size) {
+    const Index last = std::min(chunks.vectors, first + chunks.size);
+    recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
+    this->add_sums(x_trial_, r_trial_, first, last, sums);
+  }
+  if (!(sums.gain >= this->sums_.gain)) {
+    recombination_.reset();
+    return false;
+  }
+  this->x_.swap(x_trial_);
+  this->r_.swap(r_trial_);
+  this->sums_ = sums;
+  return true;
+}
+
+template <int B>
+void MultigridIteration<B>::add_gain() {
+  const Sums& sums = this->sums_;
+  this->refuse_nan(sums.size);
+#ifdef SIGNORINI_CHECKS
+  assert(sums.gain >= -1e-8 * sums.size - rounding_of_gain() && "the energy must never grow");
+#endif
+  estimate_.add(sums.gain, std::sqrt(std::max(sums.correction, 0.0)));
+}
+
+// The residuals are exact to rounding of the forces in them.
+template <int B>
+double MultigridIteration<B>::rounding_of_gain() const {
+  const DiscreteProblem<B>& problem = this->problem_;
+  double moved = 0, force = 0;
+  for (std::size_t i = 0; i < this->x_.size(); ++i) {
+    if (problem.fixed[i / B] >> (i % B) & 1u) continue;
+    moved += std::abs(this->x_[i] - this->x_before_[i]);
+    const double stiffness = problem.A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)];
+    force = std::max(force, std::abs(problem.b[i]) + stiffness * std::abs(this->x_[i]));
+  }
+  return 1e-13 * moved * force;
+}
+
+template class MultigridIteration<1>;
+template class MultigridIteration<2>;
+template class MultigridIteration<3>;
+
+}  // namespace signorini

@@ -1,0 +1,33 @@
+#pragma once
+#include "core/solver/iteration.hpp"
+#include "core/solver/multigrid.hpp"
+#include "core/solver/recombination.hpp"
+
+namespace signorini {
+
+/// Cycles of multigrid as steps, accelerated while the phases rest.
+template <int B>
+class MultigridIteration final : public Iteration<B> {
+ public:
+  MultigridIteration(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                     std::vector<double>& x, const SolverOptions& options, const Registry& registry);
+
+ private:
+  using typename Iteration<B>::Step;
+  using typename Iteration<B>::Sums;
+
+  const Level<B>& finest() const override { return multigrid_.finest(); }
+  std::vector<Index> unknowns() const override;
+  Step advance() override;
+  bool accelerate(const CycleReport& cycle);
+  bool take_combination();
+  void add_gain();
+  double rounding_of_gain() const;
+
+  MonotoneMultigrid<B> multigrid_;
+  Recombination<B> recombination_;
+  ErrorEstimate estimate_;
+  std::vector<double> x_trial_, r_trial_;  // empty without acceleration
+};
+
+}  // namespace signorini

@@ -1,0 +1,145 @@
+#include "transfer/merge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+
+namespace {
+
+// Products of rotations that would vanish in exact arithmetic.
+constexpr double negligible = 1e-14;
+
+// d(fine direction) / d(coarse component j), for weight one
+template <int B>
+void coupling(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, Index q, double* M) {
+  const double *Np = fine.frames.dual_at(p), *Qq = coarse.frames.at(q);
+  for (int j = 0; j < B; ++j) {
+    M[j] = 0;
+    for (int i = 0; i < B; ++i)
+      M[j] += (Np ? Np[i * B + direction] : double(i == direction)) * (Qq ? Qq[i * B + j] : double(i == j));
+    if ((coarse.off[q] >> j & 1u) || std::fabs(M[j]) <= negligible) M[j] = 0;
+  }
+}
+
+// One side of a row: sum side M_j c_j <= distance, with side = 1 for the upper bound and -1 for the lower one.
+template <int B>
+struct Row {
+  std::span<const Term> terms;
+  double side, distance;
+  Constraints<B>& coarse;
+
+  // How far the term may go at most by the bounds found so far.
+  double reach(const Term& t) const {
+    return side * t.weight > 0 ? t.weight * side * coarse.upper[t.at] : t.weight * side * coarse.lower[t.at];
+  }
+  void limit(const Term& t, double room) const {
+    if (side * t.weight > 0)
+      coarse.upper[t.at] = std::min(coarse.upper[t.at], room);
+    else
+      coarse.lower[t.at] = std::max(coarse.lower[t.at], -room);
+  }
+
+  void share_equally() const {
+    const double each = distance / static_cast<double>(terms.size());
+    for (const Term& t : terms) limit(t, each / std::fabs(t.weight));
+  }
+
+  void share_in_common() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const bool same_vector = k > 0 && terms[k].at / B == terms[k - 1].at / B;
+      if (same_vector || terms[k].weight < 0) return share_equally();
+      sum += terms[k].weight;
+    }
+    for (const Term& t : terms) limit(t, distance / sum);
+  }
+
+  void share_sharply() const {
+    double largest = distance / static_cast<double>(terms.size());  // that a term may go
+    for (;;) {
+      double used = 0;
+      int beyond = 0;
+      for (const Term& t : terms)
+        if (const double r = reach(t); r <= largest)
+          used += r;
+        else
+          ++beyond;
+      if (beyond == 0) return;
+      const double next = (distance - used) / beyond;
+      if (!(next > largest)) break;
+      largest = next;
+    }
+    for (const Term& t : terms)
+      if (reach(t) > largest) limit(t, largest / std::fabs(t.weight));
+  }
+};
+
+}  // namespace
+
+template <int B, Share share>
+void Merge<B, share>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) const {
+  std::fill(coarse.constraints.lower.begin(), coarse.constraints.lower.end(), -infinity);
+  std::fill(coarse.constraints.upper.begin(), coarse.constraints.upper.end(), infinity);
+  if (share == Share::sharpest) {
+    restrict_rows(fine, coarse, true, false);
+    restrict_rows(fine, coarse, false, true);
+  } else {
+    restrict_rows(fine, coarse, true, true);
+  }
+}
+
+// The rows of a single weight, the others, or all. Truncated directions do not count.
+template <int B, Share share>
+void Merge<B, share>::restrict_rows(const Level<B>& fine, Level<B>& coarse, bool single, bool others) const {
+  const Prolongation& P = this->weights();
+  std::vector<Term> terms;
+  for (Index slot = 0; slot < fine.constraints.size(); ++slot) {
+    const Index p = fine.constraints.vector[slot];
+    if (!(P.row[p + 1] == P.row[p] + 1 ? single : others)) continue;
+    for (int k = 0; k < B; ++k) {
+      const double lower = fine.lower[Offset{slot} * B + k], upper = fine.upper[Offset{slot} * B + k];
+      if ((fine.removed[p] >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
+      collect(fine, p, k, coarse, terms);
+      for (const auto& [side, distance] : {std::pair(1.0, upper), std::pair(-1.0, -lower)}) {
+        if (distance == infinity) continue;
+        const Row<B> row{terms, side, distance, coarse.constraints};
+        if constexpr (share == Share::equal) row.share_equally();
+        if constexpr (share == Share::common) row.share_in_common();
+        if constexpr (share == Share::sharpest) row.share_sharply();
+      }
+    }
+  }
+}
+
+template <int B, Share share>
+void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse,
+                              std::vector<Term>& terms) const {
+  terms.clear();
+  const bool plain = fine.frames.slot.empty() && coarse.frames.slot.empty();  // every direction couples to itself alone
+  const Prolongation& P = this->weights();
+  for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
+    const Index q = P.column[k];
+    const Offset at = Offset{coarse.constraints.slot[q]} * B;
+    if (plain) {
+      if (P.weight[k] != 0 && !(coarse.off[q] >> direction & 1u)) terms.push_back({at + direction, P.weight[k]});
+      continue;
+    }
+    double M[B];
+    coupling<B>(fine, p, direction, coarse, q, M);
+    for (int j = 0; j < B; ++j)
+      if (const double weight = P.weight[k] * M[j]; weight != 0) terms.push_back({at + j, weight});
+  }
+}
+
+template class Merge<1, Share::equal>;
+template class Merge<2, Share::equal>;
+template class Merge<3, Share::equal>;
+template class Merge<1, Share::common>;
+template class Merge<2, Share::common>;
+template class Merge<3, Share::common>;
+template class Merge<1, Share::sharpest>;
+template class Merge<2, Share::sharpest>;
+template class Merge<3, Share::sharpest>;
+
+}  // namespace signorini
