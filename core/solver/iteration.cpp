@@ -22,6 +22,7 @@ Summary Iteration<B>::run(const Monitor& monitor) {
   while (!step(monitor)) {
   }
   finish_phases();
+  finish_energies();
   return std::move(summary_);
 }
 
@@ -29,7 +30,7 @@ template <int B>
 bool Iteration<B>::step(const Monitor& monitor) {
   r_before_.swap(r_);
   Step step = advance();
-  const bool bounded = step.bounded;
+  const bool bounded = step.bounded, gaining = step.gaining;
   const std::string stuck = step.stuck;
   measure(step.error);
   if (step.carried && within_tolerance()) {  // claimed for a residual that was not computed from the iterate alone
@@ -38,7 +39,7 @@ bool Iteration<B>::step(const Monitor& monitor) {
   }
   record(std::move(step));
   const bool go_on = !monitor || monitor(summary_.history.back());
-  if (finished()) return true;
+  if (finished(gaining)) return true;
   if (!bounded && !rests_at_rounding())
     return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
   if (!go_on) return end(Outcome::interrupted, "interrupted");
@@ -129,6 +130,7 @@ void Iteration<B>::record(Step step) {
   Summary& s = summary_;
   ++s.iterations;
   s.rate = step.rate;
+  gains_.push_back(sums_.gain);
   const Index contact = step.levels.back().critical, changed = step.levels.back().changed;
   s.history.push_back(
       {s.iterations, s.residual, s.algebraic_error, s.energy, contact, changed, std::move(step.levels)});
@@ -151,7 +153,7 @@ bool Iteration<B>::within_tolerance() const {
 }
 
 template <int B>
-bool Iteration<B>::finished() {
+bool Iteration<B>::finished(bool gaining) {
   Summary& s = summary_;
   const double absolute = sums_.natural_residual;
   if (within_tolerance())
@@ -159,7 +161,7 @@ bool Iteration<B>::finished() {
                                                s.residual, s.algebraic_error, options_.tolerance));
   stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
   least_ = std::min(least_, absolute);
-  if (stalled_ >= 3 && rests_at_rounding() && s.algebraic_error <= 1e-4)
+  if (stalled_ >= 3 && !gaining && rests_at_rounding() && s.algebraic_error <= 1e-4)
     return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
   return false;
 }
@@ -185,6 +187,13 @@ void Iteration<B>::finish_phases() {
   int from = 0;
   for (auto it = history.rbegin(); it != history.rend() && it->changed == 0; ++it) from = it->iteration;
   summary_.linear_phase_from = from;
+}
+
+// The energies themselves are differences of what may be far larger, the gains are not.
+template <int B>
+void Iteration<B>::finish_energies() {
+  auto& history = summary_.history;
+  for (std::size_t k = history.size(); k-- > 1;) history[k - 1].energy = history[k].energy + gains_[k];
 }
 
 // Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.

@@ -25,6 +25,7 @@ class Iteration {
     double rate = 0;                  ///< Summary::rate
     bool carried = false;             ///< the residual was carried along, not computed from the iterate alone
     bool bounded = true;              ///< false: the energy has no minimum
+    bool gaining = false;             ///< more energy than rounding explains was gained
     std::string stuck;                ///< why the method cannot go on, if so
   };
 
@@ -72,14 +73,16 @@ class Iteration {
   void record(Step step);
   double rounding_energy() const;
   bool within_tolerance() const;
-  bool finished();
+  bool finished(bool gaining);
   bool rests_at_rounding() const;
   bool end(Outcome outcome, std::string reason);
   void finish_phases();
+  void finish_energies();
   double residual_at_projected_zero();
 
   double trace_ = 0;  // of A
   Summary summary_;
+  std::vector<double> gains_;  // one for each step
   double reference_ = 0;
   double least_ = infinity;
   int stalled_ = 0;

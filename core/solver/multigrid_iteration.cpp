@@ -43,18 +43,18 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
                   this->x_before_.begin() + Offset{first} * B);
       },
       [this](Index first, Index last) { this->evaluate(this->x_, this->r_, first, last, this->sums_); });
-  const bool combined = this->options_.krylov && this->options_.method != "pgs" && accelerate(cycle);
+  const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
+  const bool combined = this->options_.krylov && this->options_.method != "pgs" && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
-  return {cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded, {}};
+  return {cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded, gaining, {}};
 }
 
 // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
 // in. Returns whether the iterate is no longer the cycle's own.
 template <int B>
-bool MultigridIteration<B>::accelerate(const CycleReport& cycle) {
-  if (100 * cycle.finest().changed > cycle.finest().critical ||
-      !(this->sums_.gain > noise * this->sums_.moved * cycle.rounding)) {
+bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
+  if (100 * cycle.finest().changed > cycle.finest().critical || !gaining) {
     recombination_.reset();
     return false;
   }

@@ -19,7 +19,7 @@ class MultigridIteration final : public Iteration<B> {
   const Level<B>& finest() const override { return multigrid_.finest(); }
   std::vector<Index> unknowns() const override;
   Step advance() override;
-  bool accelerate(const CycleReport& cycle);
+  bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
   void add_gain();
   double rounding_of_gain() const;
