@@ -35,9 +35,23 @@ Timed black_box(const MatrixProblem& problem) {
   return result;
 }
 
+/// Entries of the matrices of all levels over those of the finest.
+template <int B>
+double complexity(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
+  const auto finest = static_cast<double>(A.column.size());
+  double all = finest;
+  for (const GalerkinMatrix<B>& coarse : levels.matrices) all += static_cast<double>(coarse.A.column.size());
+  return all / finest;
+}
+
+struct Linear {
+  LinearSolve solve;
+  double complexity = 0;
+};
+
 /// Conjugate gradients with a symmetric V(1,1) cycle on the levels that the matrix gives, from zero.
 template <int B>
-LinearSolve linear(const MatrixProblem& matrix, double body_load, const Registry& registry) {
+Linear linear(const MatrixProblem& matrix, double body_load, const Registry& registry) {
   Stopwatch watch;
   DiscreteProblem<B> problem;
   problem.A = block_matrix<B>(matrix.A);
@@ -51,7 +65,7 @@ LinearSolve linear(const MatrixProblem& matrix, double body_load, const Registry
   problem.galerkin = levels.matrices;
   LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, 1e-8);
   result.setup += hierarchy;
-  return result;
+  return {result, complexity(problem.A, levels)};
 }
 
 template <int D, int B>
@@ -64,13 +78,13 @@ void compare(const Case& c, int uniform) {
   const auto discretization = discretize<D, B>(hierarchy.finest(), model);
   const double geometric_time = geometric.whole() - watch.elapsed();
   const MatrixProblem matrix = matrix_problem(discretization.problem);
-  const LinearSolve cg = linear<B>(matrix, c.body_load, problem.registry);
+  const auto [cg, complexity] = linear<B>(matrix, c.body_load, problem.registry);
   const Timed box = black_box<B>(matrix);
   const double whole = box.setup + box.solve;
-  fmt::print("| {} | {} | {}{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", c.name, matrix.A.rows,
-             box.summary.iterations, box.summary.converged() ? "" : " (limit)", cg.iterations,
-             geometric.summary.iterations, box.setup, box.solve, box.solve / cg.solve, whole / (cg.setup + cg.solve),
-             whole / geometric_time);
+  fmt::print("| {} | {} | {:.2f} | {}{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", c.name,
+             matrix.A.rows, complexity, box.summary.iterations, box.summary.converged() ? "" : " (limit)",
+             cg.iterations, geometric.summary.iterations, box.setup, box.solve, box.solve / cg.solve,
+             whole / (cg.setup + cg.solve), whole / geometric_time);
   std::fflush(stdout);
 }
 
@@ -78,10 +92,10 @@ void compare(const Case& c, int uniform) {
 
 void print_algebraic(bool quick) {
   fmt::print(
-      "\n## Matrices and bounds alone\n\n| problem | unknowns | cycles | CG iterations | geometric cycles | set-up, s "
+      "\n## Matrices and bounds alone\n\n| problem | unknowns | complexity | cycles | CG iterations | geometric cycles "
       "| "
-      "solve, s | solve over linear | set-up and solve over linear | over geometric |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "set-up, s | solve, s | solve over linear | set-up and solve over linear | over geometric |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   const Case s2{"S2", "obstacle_radial_2d.toml", 5, 7, 0}, s3{"S3", "obstacle_cube_3d.toml", 3, 4, 0},
       e3{"E3", "cube_on_bump.toml", 2, 3, 1e-4};
   const int less = quick ? 1 : 0;
