@@ -13,6 +13,11 @@ constexpr double many = 0.35;            // coarse over fine vectors above which
 constexpr double negligible = 0.2;       // part of the largest weight of a row
 constexpr std::size_t most_weights = 8;  // of a row
 
+struct Weight {
+  Index to;
+  double value;
+};
+
 /// One row of weights at a time. What is left of them when the small ones are dropped keeps their sum.
 class Row {
  public:
@@ -28,10 +33,10 @@ class Row {
     const double all = collect();
     keep_the_largest();
     double kept = 0;
-    for (const Coupling& c : found_) kept += c.strength;
-    for (const Coupling& c : found_) {
+    for (const Weight& c : found_) kept += c.value;
+    for (const Weight& c : found_) {
       P.column.push_back(c.to);
-      P.weight.push_back(c.strength * (all / kept));
+      P.weight.push_back(c.value * (all / kept));
     }
     P.row.push_back(static_cast<Offset>(P.column.size()));
     found_.clear();
@@ -40,27 +45,27 @@ class Row {
  private:
   double collect() {
     double largest = 0, sum = 0;
-    for (Coupling& c : found_) {
-      c.strength = sum_[c.to];
+    for (Weight& c : found_) {
+      c.value = sum_[c.to];
       sum_[c.to] = 0;
-      largest = std::max(largest, c.strength);
-      sum += c.strength;
+      largest = std::max(largest, c.value);
+      sum += c.value;
     }
-    std::erase_if(found_, [=](const Coupling& c) { return c.strength < negligible * largest; });
+    std::erase_if(found_, [=](const Weight& c) { return c.value < negligible * largest; });
     return sum;
   }
 
   void keep_the_largest() {
     if (found_.size() > most_weights) {
       std::ranges::nth_element(found_, found_.begin() + most_weights, {},
-                               [](const Coupling& c) { return std::pair(-c.strength, c.to); });
+                               [](const Weight& c) { return std::pair(-c.value, c.to); });
       found_.resize(most_weights);
     }
-    std::ranges::sort(found_, {}, &Coupling::to);
+    std::ranges::sort(found_, {}, &Weight::to);
   }
 
   std::vector<double> sum_;  // zero between the rows
-  std::vector<Coupling> found_;
+  std::vector<Weight> found_;
 };
 
 /// From coarse neighbours, and through fine ones: from those of their coarse neighbours that are neighbours already,

@@ -1,7 +1,6 @@
 #include "amg/splitting.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace signorini {
 
@@ -9,17 +8,29 @@ namespace {
 
 constexpr double by_several_paths = 0.6;  // part of the largest coupling of a row
 
-StrengthGraph transposed(const StrengthGraph& graph) {
-  StrengthGraph out;
-  out.row.assign(graph.row.size(), 0);
-  out.edge.resize(graph.edge.size());
-  for (const Coupling& c : graph.edge) ++out.row[c.to + 1];
-  for (std::size_t p = 1; p < out.row.size(); ++p) out.row[p] += out.row[p - 1];
-  std::vector<Offset> next(out.row.begin(), out.row.end() - 1);
-  for (Index p = 0; p < graph.size(); ++p)
-    for (const Coupling& c : graph.of(p)) out.edge[next[c.to]++] = {p, c.strength};
-  return out;
-}
+/// Per vector those that are coupled to it.
+class Served {
+ public:
+  explicit Served(const StrengthGraph& graph) : row_(graph.row.size(), 0), vector_(graph.edge.size()) {
+    for (const Coupling& c : graph.edge) ++row_[static_cast<std::size_t>(c.to) + 1];
+    for (std::size_t p = 1; p < row_.size(); ++p) row_[p] += row_[p - 1];
+    std::vector<Offset> next(row_.begin(), row_.end() - 1);
+    for (Index p = 0; p < graph.size(); ++p)
+      for (const Coupling& c : graph.of(p)) vector_[next[c.to]++] = p;
+  }
+
+  std::span<const Index> by(Index p) const { return {vector_.data() + row_[p], vector_.data() + row_[p + 1]}; }
+
+  Offset most() const {
+    Offset out = 0;
+    for (std::size_t p = 1; p < row_.size(); ++p) out = std::max(out, row_[p] - row_[p - 1]);
+    return out;
+  }
+
+ private:
+  std::vector<Offset> row_;
+  std::vector<Index> vector_;
+};
 
 /// Vectors in buckets by their worth, each a doubly linked list; of equals the last one put in leads.
 class Buckets {
@@ -51,23 +62,17 @@ class Buckets {
   Index top_ = 0;
 };
 
-/// No vector can be worth more than by all that it serves turning fine.
-std::size_t largest_worth(const StrengthGraph& serves) {
-  Offset most = 0;
-  for (Index p = 0; p < serves.size(); ++p) most = std::max<Offset>(most, std::ssize(serves.of(p)));
-  return 2 * static_cast<std::size_t>(most);
-}
-
 }  // namespace
 
 std::vector<Part> split(const StrengthGraph& depends, Part alone) {
-  const StrengthGraph serves = transposed(depends);
+  const Served served(depends);
   const Index n = depends.size();
   std::vector<Part> part(static_cast<std::size_t>(n), Part::open);
   std::vector<Index> worth(part.size());
-  Buckets open(part.size(), largest_worth(serves));
+  // No vector can be worth more than by all that it serves turning fine.
+  Buckets open(part.size(), 2 * static_cast<std::size_t>(served.most()));
   for (Index p = n - 1; p >= 0; --p) {
-    worth[p] = static_cast<Index>(serves.of(p).size());
+    worth[p] = static_cast<Index>(served.by(p).size());
     if (depends.of(p).empty() && worth[p] == 0)
       part[p] = alone;
     else
@@ -76,8 +81,7 @@ std::vector<Part> split(const StrengthGraph& depends, Part alone) {
   for (Index p = open.best(); p >= 0; p = open.best()) {
     part[p] = Part::coarse;
     open.remove(p, worth[p]);
-    for (const Coupling& served : serves.of(p)) {
-      const Index q = served.to;
+    for (const Index q : served.by(p)) {
       if (part[q] != Part::open) continue;
       part[q] = Part::fine;
       open.remove(q, worth[q]);
@@ -122,7 +126,7 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     double largest = 0;
     for (const Index q : found) largest = std::max(largest, sum[q]);
     for (const Index q : found) {
-      if (sum[q] >= by_several_paths * largest) out.edge.push_back({q, sum[q]});
+      if (sum[q] >= by_several_paths * largest) out.edge.push_back({q, static_cast<float>(sum[q] / largest)});
       sum[q] = 0;
     }
     out.row.push_back(static_cast<Offset>(out.edge.size()));

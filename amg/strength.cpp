@@ -35,17 +35,18 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
   graph.row.reserve(static_cast<std::size_t>(A.size()) + 1);
   graph.edge.reserve(A.column.size());
   for (Index p = 0; p < A.size(); ++p) graph.balanced.push_back(balanced(A, p));
+  std::vector<double> found;
   for (Index p = 0; p < A.size(); ++p) {
-    const std::size_t begin = graph.edge.size();
+    found.clear();
     double largest = 0;
-    for (Offset k = A.row[p]; k < A.row[p + 1] && off[p] != all; ++k)
-      if (const Index q = A.column[k]; q != p && off[q] != all) {
-        graph.edge.push_back({q, strength<B>(A.at(k))});
-        largest = std::max(largest, graph.edge.back().strength);
-      }
-    const auto weak = [&](const Coupling& c) { return !(c.strength >= strong<B> * largest) || c.strength == 0; };
-    graph.edge.erase(std::remove_if(graph.edge.begin() + static_cast<std::ptrdiff_t>(begin), graph.edge.end(), weak),
-                     graph.edge.end());
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+      const Index q = A.column[k];
+      found.push_back(q == p || off[p] == all || off[q] == all ? 0 : strength<B>(A.at(k)));
+      largest = std::max(largest, found.back());
+    }
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found[k] > 0 && found[k] >= strong<B> * largest)
+        graph.edge.push_back({A.column[A.row[p] + static_cast<Offset>(k)], static_cast<float>(found[k] / largest)});
     graph.row.push_back(static_cast<Offset>(graph.edge.size()));
   }
   return graph;

@@ -6,10 +6,10 @@
 
 namespace signorini {
 
-/// How strongly a vector is coupled to another one.
+/// How strongly a vector is coupled to another one, relative to the strongest coupling it has.
 struct Coupling {
   Index to;
-  double strength;
+  float strength;
 };
 
 /// The strong couplings of each vector, in compressed rows.

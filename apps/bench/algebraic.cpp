@@ -54,10 +54,10 @@ void compare(const Case& c, int uniform) {
   const LinearSolve cg = linear<B>(matrix, c.body_load);
   const Timed box = black_box<B>(matrix);
   const double whole = box.setup + box.solve;
-  fmt::print("| {} | {} | {}{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", c.name, matrix.A.rows,
-             box.summary.iterations, box.summary.converged() ? "" : " (limit)", cg.iterations,
-             geometric.summary.iterations, box.setup, box.solve, box.solve / cg.solve, whole / (cg.setup + cg.solve),
-             whole / geometric_time);
+  fmt::print("| {} | {} | {:.2f} | {}{} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", c.name,
+             matrix.A.rows, cg.complexity, box.summary.iterations, box.summary.converged() ? "" : " (limit)",
+             cg.iterations, geometric.summary.iterations, box.setup, box.solve, box.solve / cg.solve,
+             whole / (cg.setup + cg.solve), whole / geometric_time);
   std::fflush(stdout);
 }
 
@@ -65,10 +65,10 @@ void compare(const Case& c, int uniform) {
 
 void print_algebraic(bool quick) {
   fmt::print(
-      "\n## Matrices and bounds alone\n\n| problem | unknowns | cycles | CG iterations | geometric cycles | set-up, s "
+      "\n## Matrices and bounds alone\n\n| problem | unknowns | complexity | cycles | CG iterations | geometric cycles "
       "| "
-      "solve, s | solve over linear | set-up and solve over linear | over geometric |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "set-up, s | solve, s | solve over linear | set-up and solve over linear | over geometric |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   const Case s2{"S2", "obstacle_radial_2d.toml", 5, 7, 0}, s3{"S3", "obstacle_cube_3d.toml", 3, 4, 0},
       e3{"E3", "cube_on_bump.toml", 2, 3, 1e-4};
   const int less = quick ? 1 : 0;

@@ -82,6 +82,18 @@ LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prol
   return result;
 }
 
+namespace {
+
+template <int B>
+double complexity(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
+  const auto finest = static_cast<double>(A.column.size());
+  double all = finest;
+  for (const GalerkinMatrix<B>& coarse : levels.matrices) all += static_cast<double>(coarse.A.column.size());
+  return all / finest;
+}
+
+}  // namespace
+
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance) {
   const Registry registry = solver_components();
@@ -97,6 +109,7 @@ LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double 
   problem.galerkin = levels.matrices;
   LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, tolerance);
   result.setup += hierarchy;
+  result.complexity = complexity(problem.A, levels);
   return result;
 }
 

@@ -12,6 +12,7 @@ struct LinearSolve {
   double setup = 0, solve = 0;
   int iterations = 0;
   double residual = 0, algebraic_error = 0;
+  double complexity = 0;  ///< of algebraic levels: entries of all their matrices over those of the finest
   std::vector<double> x;  ///< local coordinates
 };
 

@@ -59,17 +59,18 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
 }
 
 template <int D, int B>
-void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarsest) {
+void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   if (continued_) return;
   continued_ = true;
   if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
   Stopwatch watch;
-  auto below = algebraic_hierarchy<B>(coarsest, [this] {
-                 return registry_.create<Transfer<B>>("transfer", options_.transfer);
-               }).prolongations;
-  algebraic_ = below.size();
-  prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.begin()),
-                        std::make_move_iterator(below.end()));
+  auto below =
+      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  algebraic_ = below.prolongations.size();
+  prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
+                        std::make_move_iterator(below.prolongations.end()));
+  galerkin_ = std::move(below.matrices);
+  coarsest.galerkin = galerkin_;
   times_.setup += watch.elapsed();
 }
 
@@ -77,7 +78,7 @@ void NestedSolver<D, B>::continue_algebraically(const DiscreteProblem<B>& coarse
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
   Solution<B> solution = discretize_level(model, level);
-  const DiscreteProblem<B>& problem = solution.discretization.problem;
+  DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
     solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
   } else if (level == 0 && options_.start == "nested") {
@@ -98,6 +99,10 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
   solution.summary =
       signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
                           solution.x, finest ? options_ : loose(options_), registry_, monitor_);
+  if (level == 0) {
+    solution.discretization.problem.galerkin = {};
+    galerkin_.clear();
+  }
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();

@@ -39,7 +39,7 @@ class NestedSolver {
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
-  void continue_algebraically(const DiscreteProblem<B>& coarsest);
+  void continue_algebraically(DiscreteProblem<B>& coarsest);
   void solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
@@ -51,6 +51,7 @@ class NestedSolver {
   const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
+  std::vector<GalerkinMatrix<B>> galerkin_;  // their matrices, until the problem that they were made for is solved
   bool continued_ = false;
 };
 

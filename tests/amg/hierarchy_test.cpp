@@ -8,6 +8,7 @@
 
 #include "amg/classical.hpp"
 #include "core/solver/solve.hpp"
+#include "tests/amg/matrices.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"
@@ -53,6 +54,45 @@ TEST(ClassicalInterpolation, LeavesOutWhatIsPrescribedOrCoupledToNothing) {
   const Prolongation P = classical_interpolation(A, {0, 0, 1, 0});
   EXPECT_EQ(P.coarse, 1);
   EXPECT_EQ(P.row, (std::vector<Offset>{0, 1, 2, 2, 2}));
+}
+
+TEST(ClassicalInterpolation, OfTheFivePointStencilIsBilinearFromEverySecondLine) {
+  constexpr int nodes = 31;
+  const DiscreteProblem<1> problem = problem_of(laplacian(nodes + 1));
+  const Prolongation P = classical_interpolation(problem.A, problem.fixed);
+  EXPECT_EQ(P.coarse, (nodes / 2) * (nodes / 2));
+  for (Index p = 0; p < P.fine(); ++p) {
+    const int i = p / nodes, j = p % nodes;
+    if (std::min(i, j) < 2 || std::max(i, j) > nodes - 3) continue;  // next to the boundary
+    const Offset expected = (i % 2 ? 1 : 2) * (j % 2 ? 1 : 2);
+    EXPECT_EQ(P.row[p + 1] - P.row[p], expected) << i << " " << j;
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
+      const Index twin = P.twin[P.column[k]];
+      EXPECT_LE(std::max(std::abs(twin / nodes - i), std::abs(twin % nodes - j)), 1);
+      EXPECT_NEAR(P.weight[k], 1.0 / static_cast<double>(expected), 1e-6);
+    }
+  }
+}
+
+TEST(ClassicalInterpolation, FallsOffTowardsPrescribedValues) {
+  const DiscreteProblem<1> problem = problem_of(laplacian(32));
+  const Prolongation P = classical_interpolation(problem.A, problem.fixed);
+  const auto sum = [&](Index p) {
+    return std::accumulate(P.weight.begin() + P.row[p], P.weight.begin() + P.row[p + 1], 0.0);
+  };
+  EXPECT_NEAR(sum(15 * 31 + 14), 1, 1e-6);
+  for (Index p = 0; p < 31; ++p) {
+    EXPECT_LE(sum(p), 0.75);
+    EXPECT_GE(sum(p), 0.2);
+  }
+}
+
+TEST(AlgebraicHierarchy, HasFewEntries) {
+  const DiscreteProblem<1> problem = problem_of(laplacian(128));
+  const AlgebraicLevels<1> levels = algebraic_hierarchy<1>(problem, min_merge<1>);
+  std::size_t entries = problem.A.column.size();
+  for (const GalerkinMatrix<1>& coarse : levels.matrices) entries += coarse.A.column.size();
+  EXPECT_LE(static_cast<double>(entries), 1.65 * static_cast<double>(problem.A.column.size()));
 }
 
 /// Cycles to the default tolerance on algebraic levels alone; the solution is that of the reference solver.

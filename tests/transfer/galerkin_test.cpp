@@ -57,10 +57,13 @@ struct Chain {
   std::array<Level<B>, 3> levels;
   std::array<MinMerge<B>, 2> transfer;
 
-  Chain(const DiscreteProblem<B>& on, const std::array<Prolongation, 2>& by, bool rotate) : problem(on), P(by) {
+  Chain(const DiscreteProblem<B>& on, const std::array<Prolongation, 2>& by, bool rotate,
+        std::span<const GalerkinMatrix<B>> known = {})
+      : problem(on), P(by) {
     levels[2] = finest_level(problem);
     levels[2].clear_phases();
     for (int k = 1; k >= 0; --k) {
+      if (!known.empty()) levels[k].galerkin = &known[k];
       transfer[k].prepare(levels[k + 1], P[k], rotate, levels[k]);
       levels[k].clear_phases();
     }
@@ -115,6 +118,34 @@ TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
       EXPECT_EQ(chain.assemble(finest, middle), 0) << "nothing changed";
     }
     EXPECT_LT(fewest, (n / 4 + n / 16) / 3);
+  }
+}
+
+TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
+  constexpr int B = TypeParam::value;
+  constexpr Index n = 240;
+  Random random(23);
+  for (const bool rotate : {true, false}) {
+    auto problem = random_problem<B>(random, n, 1);
+    problem.A = random_matrix<B>(random, n, 1);
+    problem.frames = random_frames<B>(random, n);
+    const std::array<Prolongation, 2> P = {random_prolongation(random, n / 16, n / 4),
+                                           random_prolongation(random, n / 4, n)};
+    const std::vector<Flags> none(n, 0);
+    Chain<B> untruncated(problem, P, rotate);
+    const Index all = untruncated.assemble(none, none);
+    std::vector<GalerkinMatrix<B>> known;
+    for (int k = 0; k < 2; ++k) known.push_back({untruncated.levels[k].own_matrix, untruncated.levels[k].off});
+    EXPECT_EQ(Chain<B>(problem, P, rotate, known).assemble(none, none), 0);
+    for (int trial = 0; trial < 5; ++trial) {
+      std::vector<Flags> finest = none, middle = none;
+      for (int flips = 0; flips < 3; ++flips) finest[random.below(n)] = static_cast<Flags>(random.below(1 << B));
+      middle[random.below(n / 4)] = 1;
+      Chain<B> fresh(problem, P, rotate), chain(problem, P, rotate, known);
+      fresh.assemble(finest, middle);
+      EXPECT_LT(chain.assemble(finest, middle), all / 2);
+      expect_same_matrices(chain, fresh);
+    }
   }
 }
 
