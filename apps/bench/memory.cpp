@@ -20,10 +20,13 @@ double status_of_memory(const std::string& wanted) {
   input_error("/proc/self/status", "has no line " + wanted);
 }
 
-/// Forgets what was freed and the peak so far.
-void begin_measuring() {
+/// Forgets what was freed and the peak so far. Bytes in use now.
+double begin_measuring() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << 5;
+  const double now = status_of_memory("VmRSS:");
+  if (status_of_memory("VmHWM:") > 1.05 * now) input_error("/proc/self/clear_refs", "does not reset the peak");
+  return now;
 }
 
 template <int B>
@@ -35,8 +38,7 @@ double bytes(const BlockMatrix<B>& A) {
 void row(int nodes) {
   const Problem problem = benchmark_problem("E3", nodes);
   const MeshHierarchy<3> hierarchy = build_hierarchy<3>(problem.scene, 3);
-  begin_measuring();
-  const double before = status_of_memory("VmRSS:");
+  const double before = begin_measuring();
   const Solved solved = solve_nonlinear<3, 3>(problem, hierarchy);
   const double peak = status_of_memory("VmHWM:");
   const auto finest = discretize<3, 3>(hierarchy.finest(), build_model<3>(problem.scene, 3, problem.registry, 1));

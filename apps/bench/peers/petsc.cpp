@@ -12,7 +12,7 @@ namespace {
 
 PetscMatrix system_matrix(const SparseRows& A, const PetscPreconditioner& preconditioner, int block,
                           const std::vector<double>& coordinates) {
-  PetscMatrix out = petsc_matrix(A, preconditioner.rigid ? block : 1);
+  PetscMatrix out = petsc_matrix(A, block);
   check(MatSetOption(out, MAT_SYMMETRIC, PETSC_TRUE));
   check(MatSetOption(out, MAT_SPD, PETSC_TRUE));
   if (preconditioner.rigid) set_rigid_modes(out, coordinates);
@@ -52,7 +52,7 @@ class PetscConjugateGradients final : public LinearSolver {
   }
 
   void change(const SparseRows& A) override {
-    PetscMatrix next = petsc_matrix(A, preconditioner_.rigid ? block_ : 1);
+    PetscMatrix next = petsc_matrix(A, block_);
     check(KSPSetReusePreconditioner(ksp_, PETSC_TRUE));
     check(KSPSetOperators(ksp_, next, next));
     A_ = std::move(next);

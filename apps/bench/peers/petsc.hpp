@@ -7,7 +7,7 @@ namespace signorini::bench {
 struct PetscPreconditioner {
   std::string options;  ///< of PETSc's data base: "-pc_type gamg"
   bool grid = false;    ///< its multigrid with this project's interpolations and Galerkin matrices, smoothed by SOR
-  bool rigid = false;   ///< rigid body modes for aggregation; block size 3
+  bool rigid = false;   ///< rigid body modes for aggregation
 };
 
 // PETSc's options are global and MPI starts once: each of these may be called once per process.
