@@ -59,10 +59,15 @@ void check(const Scene& scene, const Registry& registry) {
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B);
   locate_probes(hierarchy.finest(), scene);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
-  if (scene.steps.count > 1)
-    discretize<D, B>(hierarchy.finest(), build_model<B>(scene, D, registry, 1.0 / scene.steps.count));
-  const Model<B> model = build_model<B>(scene, D, registry, 1);
-  discretize<D, B>(hierarchy.finest(), model);
+  Model<B> model;
+  const auto discretize_at = [&](double t) {
+    at_step(scene, t, [&] {
+      model = build_model<B>(scene, D, registry, t);
+      discretize<D, B>(hierarchy.finest(), model);
+    });
+  };
+  if (scene.steps.count > 1) discretize_at(1.0 / scene.steps.count);
+  discretize_at(1);
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);

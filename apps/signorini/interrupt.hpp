@@ -2,7 +2,8 @@
 
 namespace signorini {
 
-/// From now on the first SIGINT or SIGTERM asks the program to end, a second one ends it at once.
+/// From now on the first SIGINT, SIGTERM or SIGHUP asks the program to end, a second one ends it at once. `nohup` is
+/// heeded.
 void catch_interrupts();
 
 /// Whether the user asked to end.

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/interrupt.hpp"
@@ -57,6 +59,14 @@ struct Arguments {
   QpArguments qp;
   std::string list_kinds;
 };
+
+/// Complains about other values and names the nearest one.
+auto one_of(std::vector<std::string> names) {
+  return [names = std::move(names)](const std::string& found) {
+    if (std::find(names.begin(), names.end(), found) != names.end()) return std::string();
+    return fmt::format("found '{}', expected one of {}{}", found, fmt::join(names, " | "), did_you_mean(found, names));
+  };
+}
 
 void add_scene(CLI::App& command, Arguments& arguments) {
   command.add_option("SCENE", arguments.solve.scene, "the scene, a TOML file")->required();
@@ -115,7 +125,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
       })
       ->capture_default_str();
   command->add_option("--method", qp.options.method, "see docs/solver.md")
-      ->check(CLI::IsMember({"monotone", "tnnmg", "pgs"}))
+      ->check(one_of({"monotone", "tnnmg", "pgs"}))
       ->capture_default_str();
   command->footer(std::string(solve_notes) + qp_notes);
   return command;
@@ -124,7 +134,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
 CLI::App* add_list(CLI::App& app, Arguments& arguments) {
   auto* command = app.add_subcommand("list", "show registered components, their options and the files they come from");
   command->add_option("KIND", arguments.list_kinds, "one kind of component only; default: all")
-      ->check(CLI::IsMember(listable_kinds()));
+      ->check(one_of(listable_kinds()));
   command->footer(list_exit_status);
   return command;
 }
@@ -157,6 +167,19 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   return fmt::format("there is no command '{}'{}; see 'signorini --help'", argv[1], did_you_mean(argv[1], names));
 }
 
+/// What is wrong with options that nobody knows, if that is wrong with the arguments.
+std::string unknown_option(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : (commands.empty() ? &app : commands.front())->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& found : app.remaining(true)) {
+    const std::string option = found.substr(0, found.find('='));
+    if (option.starts_with('-')) return fmt::format("there is no option '{}'{}", option, did_you_mean(option, names));
+  }
+  return {};
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Obstacle and contact problems by monotone multigrid.", "signorini");
   Arguments arguments;
@@ -175,7 +198,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return report_error(std::string(error.what()) + "; see 'signorini --help'", Exit::usage);
+    const std::string unknown = unknown_option(app);
+    return report_error((unknown.empty() ? error.what() : unknown) + "; see 'signorini --help'", Exit::usage);
   }
   if (*solve) return static_cast<int>(solve_command(arguments.solve));
   if (*check) check_command(arguments.solve.scene, arguments.solve.overrides);

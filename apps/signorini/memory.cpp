@@ -3,25 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/proc.hpp"
 
 namespace signorini {
 namespace {
-
-/// Bytes that the machine can still give, infinity if it does not say.
-double available_memory() {
-  std::ifstream info("/proc/meminfo");
-  std::string key;
-  double kilobytes;
-  while (info >> key >> kilobytes) {
-    if (key == "MemAvailable:") return kilobytes * 1024;
-    info.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
-  }
-  return infinity;
-}
 
 /// The matrices and some twenty vectors on all levels, and the meshes. By Euler's formula there are about as many edges
 /// as vertices and elements together.
@@ -37,7 +25,8 @@ std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", bytes / 1e
 
 void check_memory(const HierarchySize& size, int block, const std::string& origin) {
   constexpr double most = std::numeric_limits<Index>::max();
-  const double unknowns = size.vertices * block, bytes = bytes_needed(size, block), available = available_memory();
+  const double unknowns = size.vertices * block, bytes = bytes_needed(size, block),
+               available = proc_bytes("/proc/meminfo", "MemAvailable").value_or(infinity);
   const std::string need = fmt::format("{:.4g} unknowns need about {} of memory", unknowns, gigabytes(bytes));
   if (bytes > available) input_error(origin, fmt::format("{}, and {} are available", need, gigabytes(available)));
   if (std::max(size.elements, unknowns) > most)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "apps/signorini/show.hpp"
@@ -33,14 +35,13 @@ struct ContactFields {
 
 template <int B>
 ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices) {
-  ContactFields fields{std::vector<double>(vertices, infinity), std::vector<double>(vertices),
-                       std::vector<double>(vertices)};
+  ContactFields fields{std::vector<double>(vertices, std::numeric_limits<double>::quiet_NaN()),
+                       std::vector<double>(vertices), std::vector<double>(vertices)};
   for (const ContactNode<B>& node : state.nodes) {
-    fields.gap[node.vertex] = std::min(fields.gap[node.vertex], node.gap);
+    fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.pressure;
     if (node.contact) fields.contact[node.vertex] = 1;
   }
-  std::replace(fields.gap.begin(), fields.gap.end(), infinity, 0.0);
   return fields;
 }
 
@@ -95,6 +96,7 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
     fields.push_back({"stress", 9, full_tensors(results.stress)});
     fields.push_back({"von_mises", 1, equivalent(results.stress)});
   }
+  if (results.contact.obstacles.empty()) return fields;
   ContactFields contact = contact_fields(results.contact, mesh.points.size());
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});

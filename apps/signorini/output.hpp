@@ -5,7 +5,8 @@
 
 namespace signorini {
 
-/// Values at the vertices as solution.vtu holds them. Contact quantities are zero off the contact boundary.
+/// Values at the vertices as solution.vtu holds them. Contact quantities are there when there are obstacles; where none
+/// can be reached, or no unknown is free to, the gap is NaN and the others are zero.
 template <int D, int B>
 std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results);
 

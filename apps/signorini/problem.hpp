@@ -1,7 +1,10 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "apps/signorini/coarse_mesh.hpp"
+#include "core/base/error.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
 
@@ -14,6 +17,17 @@ decltype(auto) dispatch(const Scene& scene, Function&& function) {
   if (dimension_of(scene) == 2)
     return scalar ? function.template operator()<2, 1>() : function.template operator()<2, 2>();
   return scalar ? function.template operator()<3, 1>() : function.template operator()<3, 3>();
+}
+
+/// Calls work(); where the scene has several steps its errors tell the one they belong to.
+template <class Work>
+void at_step(const Scene& scene, double t, const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    if (scene.steps.count == 1 || error.status() == Exit::interrupted) throw;
+    throw Error(error.status(), fmt::format("{}, at t = {}", error.what(), t));
+  }
 }
 
 /// The scene's meshes, after making sure that a problem with B unknowns per vertex on them fits into memory.

@@ -4,15 +4,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
+#include <system_error>
 
+#include "core/base/clock.hpp"
+#include "core/base/proc.hpp"
 #include "core/io/convergence.hpp"
 
 namespace signorini {
-namespace {
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-}  // namespace
 
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
 
@@ -32,24 +31,36 @@ void print_summary(const Summary& summary, bool solved) {
              unknowns.empty() ? 0 : unknowns.back(), unknowns.size(), summary.iterations, summary.rate, summary.energy);
 }
 
+void print_of_written(const std::function<void()>& print) {
+  try {
+    print();
+  } catch (const std::system_error&) {  // of fmt, when standard output fails
+  }
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
+  print_warnings({"standard output: cannot be written: is the disk full? The results are in their files."});
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning);
 }
 
-Stopwatch::Stopwatch() : start_(now()) {}
+Stopwatch::Stopwatch() : start_(seconds()) {}
 
-double Stopwatch::elapsed() const { return now() - start_; }
+double Stopwatch::elapsed() const { return seconds() - start_; }
 
 double Stopwatch::lap() {
-  const double seconds = elapsed();
-  start_ += seconds;
-  return seconds;
+  const double passed = elapsed();
+  start_ += passed;
+  return passed;
 }
 
 double peak_memory_mb() {
-  rusage usage{};
+  constexpr double megabyte = 1024 * 1024;
+  if (const auto bytes = proc_bytes("/proc/self/status", "VmHWM")) return *bytes / megabyte;
+  rusage usage{};  // no less than what the process had that this program was started in
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // kilobytes on Linux
+  return 1024 * static_cast<double>(usage.ru_maxrss) / megabyte;
 }
 
 }  // namespace signorini

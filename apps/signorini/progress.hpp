@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ class Progress {
 /// @param solved this solve and all before it
 void print_summary(const Summary& summary, bool solved);
 
+/// Calls `print`, which prints on standard output what results are that are in their files already: where it cannot be
+/// written there is a warning, and nothing is printed from then on.
+void print_of_written(const std::function<void()>& print);
+
 /// On standard error, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 
@@ -36,7 +41,7 @@ class Stopwatch {
   double start_;
 };
 
-/// Largest memory the program has had so far.
+/// Largest memory the program has had so far, in 2^20 bytes.
 double peak_memory_mb();
 
 }  // namespace signorini

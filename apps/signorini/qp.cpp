@@ -70,7 +70,10 @@ class QpRun {
     BlackBox solver = set_up();
     solve(solver);
     write();
-    print();
+    if (wants_solution_ || !report_.empty())
+      print_of_written([this] { print(); });
+    else
+      print();
     return result_.summary.converged() ? Exit::solved : Exit::not_converged;
   }
 

@@ -30,7 +30,10 @@ class SolveRun {
   void run() {
     prepare();
     NestedSolver<D, B> solver(hierarchy_, scene_.solver, registry_, progress_, report_.time);
-    for (int step = 1; step <= scene_.steps.count; ++step) solve_step(solver, step);
+    for (int step = 1; step <= scene_.steps.count; ++step) {
+      const double t = static_cast<double>(step) / scene_.steps.count;
+      at_step(scene_, t, [&] { solve_step(solver, step, t); });
+    }
     finish();
   }
 
@@ -45,8 +48,7 @@ class SolveRun {
     report_.time.mesh = watch.elapsed();
   }
 
-  void solve_step(NestedSolver<D, B>& solver, int step) {
-    const double t = static_cast<double>(step) / scene_.steps.count;
+  void solve_step(NestedSolver<D, B>& solver, int step, double t) {
     if (scene_.steps.count > 1) progress_.phase(fmt::format("step {} of {}", step, scene_.steps.count));
     const Model<B> model = build_model<B>(scene_, D, registry_, t);
     if (step == 1)
@@ -99,7 +101,6 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
   fmt::print(
       "seconds: mesh {:.2f}, assemble {:.2f}, setup {:.2f}, solve {:.2f}, output {:.2f}, total {:.2f}; {:.0f} MB\n",
       time.mesh, time.assemble, time.setup, time.solve, time.output, time.total, report.peak_memory_mb);
-  print_warnings(report.warnings);
   for (const auto& file : written) fmt::print("wrote {}\n", file.string());
 }
 }  // namespace
@@ -121,7 +122,10 @@ Exit solve_command(const SolveArguments& arguments) {
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
   stop_if_interrupted();
   const auto written = files.commit(is_result_file);
-  if (!arguments.quiet) print_result(report, written);
+  if (!arguments.quiet) {
+    print_of_written([&] { print_result(report, written); });
+    print_warnings(report.warnings);
+  }
   return report.converged() ? Exit::solved : Exit::not_converged;
 }
 

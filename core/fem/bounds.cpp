@@ -13,9 +13,8 @@
 namespace signorini {
 namespace {
 
-constexpr double same_direction = 1e-6;  // sine of the angle below which two directions are one
-constexpr double independent = 0.02;     // separation() from which local coordinates are well conditioned
-constexpr Index batch = 4096;            // vertices per call of a plugin
+constexpr double independent = 0.02;  // separation() from which local coordinates are well conditioned
+constexpr Index batch = 4096;         // vertices per call of a plugin
 
 template <int D>
 std::string position(const Mesh<D>& mesh, Index p) {

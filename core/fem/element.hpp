@@ -1,11 +1,17 @@
 #pragma once
 #include <cmath>
+#include <numbers>
 
 #include "core/fem/field.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini {
+
+/// Sine of the angle below which two directions are one.
+inline constexpr double same_direction = 1e-6;
+/// Cosine of the angle up to which faces that meet belong to one smooth surface: 30 degrees.
+inline constexpr double smooth_cosine = std::numbers::sqrt3 / 2;
 
 /// Measure (area or volume, negative for an inverted element) of a linear element and the constant gradients of its
 /// hat functions.

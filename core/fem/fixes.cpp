@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -12,10 +11,8 @@
 namespace signorini {
 namespace {
 
-constexpr double same_direction = 1e-6;  // sine of the angle below which two directions are one
 constexpr double axis_rounding = 1e-12;
 constexpr double same_value = 1e-9;  // difference below which two values are one, relative to the largest prescribed
-const double smooth_cosine = std::cos(std::numbers::pi / 6);
 
 // Replaces a unit vector within rounding of a coordinate axis by that axis.
 template <int B>

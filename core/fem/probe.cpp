@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
@@ -13,6 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr double rounding = 1e-12;
+constexpr double boundary_rounding = 1e-6;  // of the vertices of mesh files in single precision
 
 template <int D>
 bool in_bounding_box(const Mesh<D>& mesh, const Simplex<D>& vertices, const Point<D>& x) {
@@ -87,28 +89,80 @@ Point<3> nearest_on_face(const std::array<Point<3>, 3>& corner, const Point<3>& 
   return inside ? foot : nearest;
 }
 
+template <int D>
+std::array<Point<D>, D> corners_of(const Mesh<D>& mesh, const Face<D>& face) {
+  std::array<Point<D>, D> corner;
+  for (int a = 0; a < D; ++a) corner[a] = mesh.points[face.vertices[a]];
+  return corner;
+}
+
+template <int D>
+double longest_edge_of(const std::array<Point<D>, D>& corner) {
+  double longest = 0;
+  for (int a = 0; a < D; ++a)
+    for (int b = 0; b < a; ++b) longest = std::max(longest, distance<D>(corner[a], corner[b]));
+  return longest;
+}
+
+// The largest angle at which a flat face and one beside it meet, as long as they meet smoothly.
+template <int D>
+double smooth_turn(const Mesh<D>& mesh, const Face<D>& face) {
+  const auto unit_normal = [&](const Face<D>& f) {
+    Point<D> n = area_normal(mesh, f);
+    normalise(n);
+    return n;
+  };
+  const Point<D> n = unit_normal(face);
+  double cosine = 1;
+  for (const Face<D>& other : mesh.boundary) {
+    if (other.curve >= 0) continue;
+    if (std::ranges::find_first_of(face.vertices, other.vertices) == face.vertices.end()) continue;
+    if (const double c = dot(n, unit_normal(other)); c > smooth_cosine) cosine = std::min(cosine, c);
+  }
+  return std::acos(cosine);
+}
+
+// How far outside a face the body may reach in truth.
+template <int D>
+double slack(const Mesh<D>& mesh, const Face<D>& face) {
+  const double h = longest_edge_of<D>(corners_of(mesh, face));
+  const double turn = face.curve >= 0 ? h / mesh.curves[face.curve].radius : smooth_turn(mesh, face);
+  return h * (turn / 2 + boundary_rounding);
+}
+
+template <int D>
+struct Outside {
+  Point<D> nearest{};
+  double distance = infinity;
+  Index element = -1;
+  double slack = 0;  // the largest of the faces that the nearest point lies on
+};
+
+template <int D>
+Outside<D> outside(const Mesh<D>& mesh, const Point<D>& point) {
+  std::vector<double> distances;
+  Outside<D> out;
+  for (const Face<D>& face : mesh.boundary) {
+    const Point<D> candidate = nearest_on_face(corners_of(mesh, face), point);
+    distances.push_back(distance<D>(candidate, point));
+    if (distances.back() < out.distance) out = {candidate, distances.back(), face.element, 0};
+  }
+  for (std::size_t f = 0; f < distances.size(); ++f)
+    if (distances[f] <= out.distance * (1 + boundary_rounding))
+      out.slack = std::max(out.slack, slack(mesh, mesh.boundary[f]));
+  return out;
+}
+
 }  // namespace
 
 template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin) {
   if (const auto place = containing<D>(mesh, point)) return *place;
-  Index element = -1;
-  Point<D> nearest{};
-  double least = infinity;
-  for (const Face<D>& face : mesh.boundary) {
-    std::array<Point<D>, D> corner;
-    for (int a = 0; a < D; ++a) corner[a] = mesh.points[face.vertices[a]];
-    const Point<D> candidate = nearest_on_face(corner, point);
-    if (const double d = distance<D>(candidate, point); d < least) {
-      least = d;
-      nearest = candidate;
-      element = face.element;
-    }
-  }
-  if (element < 0 || least > longest_edge<D>(corners<D>(mesh.points, mesh.elements[element])))
+  const Outside<D> found = outside<D>(mesh, point);
+  if (!(found.distance <= found.slack))
     input_error(origin, fmt::format("point ({}) lies outside the body; the nearest point of the body is ({}), {} away",
-                                    fmt::join(point, ", "), fmt::join(nearest, ", "), least));
-  return {element, barycentric<D>(mesh, mesh.elements[element], nearest)};
+                                    fmt::join(point, ", "), fmt::join(found.nearest, ", "), found.distance));
+  return {found.element, barycentric<D>(mesh, mesh.elements[found.element], found.nearest)};
 }
 
 template Place<2> locate<2>(const Mesh<2>&, const Point<2>&, std::string_view);

@@ -13,8 +13,10 @@ struct Place {
   std::array<double, D + 1> barycentric;
 };
 
-/// The element around a point. A point outside the mesh is moved to the nearest one on the boundary, unless it is
-/// farther away than the longest edge of the element there: an Error(Exit::input) that names `origin` and the position.
+/// The element around a point. A point outside the mesh is moved to the nearest one on the boundary if it may lie
+/// between a face there and the curve that the face stands for; farther away it is an Error(Exit::input) that names
+/// `origin` and the position. So far is h^2 / (2 R), four times the height of an arc over its chord, with the face's
+/// longest edge h and the curve's radius R, or that of the faces around which it meets smoothly.
 template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin);
 

@@ -55,7 +55,6 @@ std::string default_of(const KeySpec& key) {
 std::string note_of(const KeySpec& key) {
   if (key.later.empty()) return "";
   if (key.later == every_value) return " *Not yet available.*";
-  if (key.later == other_values) return " *Nothing else is available yet.*";
   return fmt::format(" *Not yet available: {}.*", escaped(key.later));
 }
 

@@ -119,7 +119,7 @@ constexpr ShapeSpec rigid_shapes[] = {
 constexpr KeySpec solver[] = {
     {"tolerance", number, "1e-8", "(0, 1)", "", "for the relative algebraic error and for the natural residual"},
     {"max_iterations", integer, "200", "[1, 1000000]", "", "limit on the number of cycles"},
-    {"method", text, "monotone", "monotone | tnnmg | pgs | pdas", other_values,
+    {"method", text, "monotone", "monotone | tnnmg | pgs | pdas", "",
      "monotone multigrid, truncated nonsmooth Newton multigrid, projected Gauss-Seidel alone, or primal-dual active "
      "sets with a direct solver"},
     {"cycle", text, "V", "V | W | F", "", "shape of the cycle"},
@@ -166,7 +166,7 @@ constexpr KeySpec plugins[] = {
      "folders searched first; then those of `SIGNORINI_PLUGIN_PATH`, then the installed folder"}};
 
 constexpr KeySpec output[] = {
-    {"vtu", boolean, "true", "", "", "write the solution for ParaView"},
+    {"vtu", boolean, "true", "", "", "write the solution for ParaView; `gap` is NaN where no obstacle can be reached"},
     {"pictures", boolean, "true", "", "", "draw the convergence history and the result"},
     {"convergence", boolean, "true", "", "", "write the convergence table"},
 };

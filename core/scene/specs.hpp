@@ -22,8 +22,7 @@ enum class KeyType {
   integers,   ///< a whole number per dimension
 };
 
-inline constexpr std::string_view every_value = "*";      ///< the key itself
-inline constexpr std::string_view other_values = "else";  ///< all texts outside the key's range
+inline constexpr std::string_view every_value = "*";  ///< the key itself
 
 /// One key of a scene. The tables of these are the only place that knows them: validation, messages and the reference
 /// come from here.
@@ -32,7 +31,7 @@ struct KeySpec {
   KeyType type;
   const char* fallback;    ///< as TOML; "" for none; null when the key is required
   const char* range;       ///< as OptionSpec::range
-  std::string_view later;  ///< what is understood, but not available in this version: a range, or one of the above
+  std::string_view later;  ///< what is understood, but not available in this version: a range, or every_value
   const char* help;
 };
 

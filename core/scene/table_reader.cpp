@@ -18,8 +18,7 @@ bool is_later(const KeySpec& spec, const RawValue& raw) {
   const std::string_view later = spec.later;
   if (later.empty() || later == every_value) return !later.empty();
   if (const auto* text = std::get_if<std::string>(&raw.value))
-    return spec.type == KeyType::text && (later == other_values ? !Range(spec.range).contains(std::string_view(*text))
-                                                                : Range(later).contains(std::string_view(*text)));
+    return spec.type == KeyType::text && Range(later).contains(std::string_view(*text));
   if (const auto* integer = std::get_if<std::int64_t>(&raw.value))
     return spec.type == KeyType::integer && Range(later).contains(static_cast<double>(*integer));
   if (const auto* flag = std::get_if<bool>(&raw.value)) return later == (*flag ? "true" : "false");

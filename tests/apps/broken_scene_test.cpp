@@ -104,6 +104,12 @@ INSTANTIATE_TEST_SUITE_P(
                "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
                "'elasticity'; expected a type for elastic bodies, such as 'contact'"},
         Broken{"Adaptive", membrane, "uniform = 3", "adaptive = true", 2, "not available in this version"},
+        Broken{"MisspeltMethod", membrane, "[refine]", "[solver]\nmethod = \"monotne\"\n[refine]", 2,
+               "solver.method: expected one of monotone | tnnmg | pgs, found 'monotne', did you mean 'monotone'?"},
+        Broken{"MisspeltShortMethod", membrane, "[refine]", "[solver]\nmethod = \"tnmg\"\n[refine]", 2,
+               "found 'tnmg', did you mean 'tnnmg'?"},
+        Broken{"ProbeLittleOutside", membrane, "at = [0, 0]", "at = [0, 1.05]", 2,
+               "probe.0.at: point (0, 1.05) lies outside the body; the nearest point of the body is (0, 1)"},
         Broken{"Quadratic", punch, "young = 1.0", "young = 1.0\norder = 2", 2, "not available in this version"}),
     [](const auto& test) { return std::string(test.param.name); });
 

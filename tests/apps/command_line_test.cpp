@@ -53,6 +53,26 @@ TEST_F(CommandLine, NamesTheNearestCommand) {
   EXPECT_THAT(signorini({"lst"}).err, HasSubstr("there is no command 'lst', did you mean 'list'?"));
 }
 
+TEST_F(CommandLine, NamesTheNearestOptionAndValue) {
+  struct {
+    std::vector<std::string> arguments;
+    const char* message;
+  } cases[] = {
+      {{"list", "obstcles"}, "found 'obstcles', expected one of obstacles | "},
+      {{"list", "obstcles"}, ", did you mean 'obstacles'?"},
+      {{"qp", "A.mtx", "b.mtx", "--method", "monotne"}, ", did you mean 'monotone'?"},
+      {{"solve", "a.toml", "--oot", "o"}, "there is no option '--oot', did you mean '--out'?"},
+      {{"solve", "--quite", "a.toml"}, "there is no option '--quite', did you mean '--quiet'?"},
+      {{"qp", "A.mtx", "b.mtx", "--uper=u.mtx"}, "there is no option '--uper', did you mean '--upper'?"},
+      {{"--versoin"}, "there is no option '--versoin', did you mean '--version'?"},
+  };
+  for (const auto& [arguments, message] : cases) {
+    const Ended ended = signorini(arguments);
+    EXPECT_EQ(ended.status, 1) << message;
+    EXPECT_THAT(ended.err, HasSubstr(message));
+  }
+}
+
 TEST_F(CommandLine, UnknownPathOfSetIsWrongUsage) {
   write("membrane.toml", membrane);
   const Ended ended = signorini({"solve", "membrane.toml", "--set", "solver.tolerence=1e-3"});
@@ -107,10 +127,26 @@ TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
 TEST_F(CommandLine, OutputThatCannotBePrintedIsAnError) {
   write("membrane.toml", membrane);
   const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
-  for (const char* arguments : {"solve membrane.toml", "check membrane.toml", "list", "--help"}) {
+  for (const char* arguments : {"check membrane.toml", "list", "--help"}) {
     const int status = std::system((program + arguments + " > /dev/full 2> .err").c_str());
     EXPECT_EQ(WEXITSTATUS(status), 2) << arguments;
-    EXPECT_THAT(read(folder_ / ".err"), HasSubstr("standard output: cannot be written")) << arguments;
+    EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: error: standard output: cannot be written"));
+  }
+}
+
+TEST_F(CommandLine, ResultsThatAreWrittenKeepTheirStatusWhereNothingCanBePrinted) {
+  write("membrane.toml", membrane);
+  const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
+  struct {
+    const char* options;
+    int status;
+  } cases[] = {{"", 0}, {" --set solver.max_iterations=1 --set solver.start=zero", 3}, {" --set refine.uniform=1", 0}};
+  for (const auto& [options, expected] : cases) {
+    const int status = std::system((program + "solve membrane.toml" + options + " > /dev/full 2> .err").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), expected) << options;
+    EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: warning: standard output: cannot be written"));
+    EXPECT_THAT(written("membrane"), testing::Contains("report.json"));
+    fs::remove_all(folder_ / "membrane");
   }
 }
 
@@ -123,7 +159,7 @@ TEST_F(CommandLine, APipeIsNoScene) {
 
 TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
   write("membrane.toml", membrane);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "a/b", "--set", "refine.uniform=8"});
     for (int k = 0; k < 1000 && !fs::exists(folder_ / "a/b"); ++k)  // made just before the meshing
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -134,6 +170,17 @@ TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
     EXPECT_THAT(ended.err, HasSubstr("interrupted"));
     EXPECT_THAT(written(), IsEmpty());
   }
+}
+
+TEST_F(CommandLine, WhatNohupStartsOutlivesItsTerminal) {
+  write("membrane.toml", membrane);
+  const auto old = std::signal(SIGHUP, SIG_IGN);
+  const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "o", "--set", "refine.uniform=6"});
+  std::signal(SIGHUP, old);
+  for (int k = 0; k < 1000 && !fs::exists(folder_ / "o"); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(child, SIGHUP);
+  EXPECT_EQ(wait_for(child).status, 0);
 }
 
 TEST_F(CommandLine, InterruptEndsTheMeshing) {

@@ -57,6 +57,16 @@ TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {
   EXPECT_TRUE(r.at("estimate").is_null());
 }
 
+TEST_F(Solve, PeakMemoryIsThatOfTheRunAndNotOfWhatStartedIt) {
+  write("membrane.toml", membrane);
+  const std::vector<char> large(std::size_t{600} << 20, 'x');
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "output.pictures=false"}).status, 0);
+  EXPECT_EQ(large.back(), 'x');
+  const double peak = report("o").at("peak_memory_mb");
+  EXPECT_GT(peak, 1);
+  EXPECT_LT(peak, 400);
+}
+
 TEST_F(Solve, PhasesOfEveryLevelAreReported) {
   write("membrane.toml", membrane);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
@@ -235,7 +245,73 @@ TEST_F(Solve, VtkReadsTheSolution) {
   for (const char* array : {"displacement 3", "stress 9", "von_mises 1", "gap 1", "contact_pressure 1",
                             "tangential_traction 3", "contact 1"})
     EXPECT_THAT(dump, HasSubstr(std::string("\npoint ") + array + " "));
-  EXPECT_THAT(dump, testing::Not(HasSubstr("nan")));
+  std::istringstream lines(dump);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind, name, components, number;
+    words >> kind >> name >> components;
+    int numbers = 0;
+    while (words >> number) numbers += number != "nan";
+    if (name == "gap")
+      EXPECT_EQ(numbers, 25) << "the vertices of the top";
+    else
+      EXPECT_THAT(line, testing::Not(HasSubstr("nan")));
+  }
+}
+
+TEST_F(Solve, ContactFieldsAreLeftOutWithoutObstacles) {
+  std::string scene = membrane;
+  scene.erase(scene.find("[[obstacle]]"), scene.find("[refine]") - scene.find("[[obstacle]]"));
+  write("membrane.toml", scene);
+  const Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  const std::string solution = read(folder_ / "o/solution.vtu");
+  EXPECT_THAT(solution, HasSubstr("Name=\"u\""));
+  for (const char* name : {"gap", "contact_pressure", "contact"})
+    EXPECT_THAT(solution, testing::Not(HasSubstr(fmt::format("Name=\"{}\"", name))));
+}
+
+TEST_F(Solve, ErrorsNameTheStep) {
+  write("membrane.toml", membrane + "[steps]\ncount = 4\n");
+  struct {
+    const char *lower, *message;
+    int status;
+  } cases[] = {{"1.5 * t - x^2 - y^2 ", "beyond the fixed boundary", 4}, {"log(0.6 - t)", "'log(0.6 - t)'", 2}};
+  for (const auto& [lower, message, status] : cases) {
+    const std::string set = fmt::format("obstacle.0.lower={}", lower);
+    const Ended ended = signorini({"solve", "membrane.toml", "--set", set}),
+                checked = signorini({"check", "membrane.toml", "--set", set});
+    EXPECT_EQ(ended.status, status);
+    EXPECT_THAT(ended.err, testing::AllOf(HasSubstr(message), testing::EndsWith(", at t = 0.75\n")));
+    EXPECT_EQ(checked.status, status);
+    EXPECT_THAT(checked.err, testing::AllOf(HasSubstr(message), testing::EndsWith(", at t = 1\n")));
+    EXPECT_THAT(signorini({"solve", "membrane.toml", "--set", set, "--set", "steps.count=1"}).err,
+                testing::Not(HasSubstr("at t =")));
+  }
+}
+
+TEST_F(Solve, ProbesOutsideABallAreRefused) {
+  write("ball.toml", R"([[body]]
+name = "b"
+shape = "ball"
+center = [0, 0, 0]
+radius = 2
+size = 1
+equation = "diffusion"
+[[fix]]
+body = "b"
+on = "boundary"
+value = [0]
+[[probe]]
+name = "p"
+body = "b"
+at = [0, 1.2, -1.6]
+)");
+  EXPECT_EQ(signorini({"check", "ball.toml"}).err, "");
+  const Ended ended = signorini({"check", "ball.toml", "--set", "probe.0.at=[0, 1.5, -2]"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("point (0, 1.5, -2) lies outside the body"));
 }
 
 }  // namespace

@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <fstream>
+
+#include "core/base/proc.hpp"
 
 namespace signorini::geometry {
 
@@ -26,9 +27,7 @@ constexpr double least_spacings = 8;
 constexpr double most_unasked = 2e5, most_stretch = 2;
 
 double available_bytes() {
-  std::ifstream info("/proc/meminfo");
-  for (std::string key; info >> key;)
-    if (double kilobytes = 0; key == "MemAvailable:" && info >> kilobytes) return 1024 * kilobytes;
+  if (const auto bytes = proc_bytes("/proc/meminfo", "MemAvailable")) return *bytes;
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 

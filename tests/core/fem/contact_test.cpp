@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
-#include "core/fem/probe.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
 
@@ -129,40 +127,6 @@ TEST(Nested, InterpolatesLinearFieldsThroughDifferentFrames) {
   const auto x = interpolate(coarse.problem, to_local(coarse.problem, exact(meshes.levels[0])), P, fine.problem);
   const auto u = to_global(fine.problem, x), expected = exact(meshes.levels[1]);
   for (std::size_t k = 0; k < u.size(); ++k) EXPECT_NEAR(u[k], expected[k], 1e-14);
-}
-
-template <int D>
-void expect_probe_of_linear_field() {
-  Mesh<D> mesh = distorted_mesh<D>(3);
-  const auto linear = [](const Point<D>& x) { return 1 + 2 * x[0] - 3 * x[1] + (D == 3 ? x[D - 1] : 0); };
-  std::vector<double> u;
-  for (const auto& x : mesh.points) u.push_back(linear(x));
-  Point<D> inside, vertex = mesh.points[mesh.vertices() / 2];
-  inside.fill(0.37);
-  inside[0] = 0.61;
-  for (const Point<D>& x : {inside, vertex})
-    EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, x, "probe.0"), u)[0]), linear(x), 1e-13);
-  Point<D> outside = inside, nearest = inside;
-  outside[1] = 1.05;
-  nearest[1] = 1;
-  EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, outside, "probe.0"), u)[0]), linear(nearest), 1e-13);
-  outside[0] = 1.1;
-  nearest[0] = 1;
-  EXPECT_NEAR((evaluate<1, D>(mesh, locate<D>(mesh, outside, "probe.0"), u)[0]), linear(nearest), 1e-13);
-  outside[1] = 3;
-  try {
-    locate<D>(mesh, outside, "scene.toml:20: probe.0");
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.status(), Exit::input);
-    EXPECT_NE(std::string(e.what()).find("scene.toml:20: probe.0"), std::string::npos);
-    EXPECT_NE(std::string(e.what()).find("1.1, 3"), std::string::npos);
-  }
-}
-
-TEST(Probe, FindsElementsInsideAndNearTheBody) {
-  expect_probe_of_linear_field<2>();
-  expect_probe_of_linear_field<3>();
 }
 
 }  // namespace
