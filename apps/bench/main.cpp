@@ -1,5 +1,6 @@
 // The figures of docs/performance.md, as ratios within one run. `signorini_bench` prints the tables in Markdown;
-// `signorini_bench --quick` leaves out the largest sizes.
+// `signorini_bench --quick` leaves out the largest sizes; `signorini_bench --variants` prints those of
+// docs/variants.md.
 #include <fmt/format.h>
 
 #include <cstring>
@@ -167,7 +168,6 @@ void run(bool quick) {
   growth<3, 3>(ball);
   growth<2, 1>(fine);
   growth<3, 3>(ball_fine);
-  print_variants();
 }
 
 }  // namespace
@@ -175,9 +175,10 @@ void run(bool quick) {
 
 int main(int argc, char** argv) {
   const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
+  const bool variants = argc > 1 && std::strcmp(argv[1], "--variants") == 0;
   signorini::keep_freed_memory();
   try {
-    signorini::bench::run(quick);
+    variants ? signorini::bench::print_variants() : signorini::bench::run(quick);
   } catch (const std::exception& error) {
     fmt::print(stderr, "signorini_bench: error: {}\n", error.what());
     return 2;

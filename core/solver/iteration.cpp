@@ -22,6 +22,8 @@ Summary Iteration<B>::run(const Monitor& monitor) {
   while (!step(monitor)) {
   }
   finish_phases();
+  summary_.options = options_;
+  summary_.options.method = method();
   return std::move(summary_);
 }
 
