@@ -13,18 +13,31 @@ class GaussSeidel final : public Smoother<B> {
  public:
   explicit GaussSeidel(SweepOrder order) : order_(order) {}
 
-  void add_passes(const Level<B>& level, int steps, Side side, Passes& passes) const override {
-    const bool forward = order_ == SweepOrder::adjoint ? side == Side::descend : order_ != SweepOrder::backward;
-    for (int step = 0; step < steps; ++step) {
-      add_sweep(level, forward ? Order::forward : Order::backward, passes);
-      if (order_ == SweepOrder::symmetric) add_sweep(level, Order::backward, passes);
-    }
+  std::unique_ptr<LevelSmoother<B>> on(const Level<B>& level) const override {
+    return std::make_unique<Sweeps>(level, order_);
   }
 
  private:
-  static void add_sweep(const Level<B>& level, Order order, Passes& passes) {
-    passes.add(order, [&level, order](Index first, Index last) { level.sweep(order, first, last); });
-  }
+  class Sweeps final : public LevelSmoother<B> {
+   public:
+    Sweeps(const Level<B>& level, SweepOrder order) : level_(level), order_(order) {}
+
+    void add_passes(int steps, Side side, Passes& passes) override {
+      const bool forward = order_ == SweepOrder::adjoint ? side == Side::descend : order_ != SweepOrder::backward;
+      for (int step = 0; step < steps; ++step) {
+        add_sweep(forward ? Order::forward : Order::backward, passes);
+        if (order_ == SweepOrder::symmetric) add_sweep(Order::backward, passes);
+      }
+    }
+
+   private:
+    void add_sweep(Order order, Passes& passes) const {
+      passes.add(order, [this, order](Index first, Index last) { level_.sweep(order, first, last); });
+    }
+
+    const Level<B>& level_;
+    SweepOrder order_;
+  };
 
   SweepOrder order_;
 };

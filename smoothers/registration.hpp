@@ -3,7 +3,7 @@
 
 namespace signorini {
 
-/// Adds the smoothers: forward, backward, symmetric, adjoint.
+/// Adds the smoothers: forward, backward, symmetric, adjoint, surface_first, patch.
 void register_smoothers(Registry& registry);
 
 }  // namespace signorini

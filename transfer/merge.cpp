@@ -79,8 +79,7 @@ struct Row {
 
 template <int B, Share share>
 void Merge<B, share>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) const {
-  std::fill(coarse.constraints.lower.begin(), coarse.constraints.lower.end(), -infinity);
-  std::fill(coarse.constraints.upper.begin(), coarse.constraints.upper.end(), infinity);
+  coarse.constraints.clear_bounds();
   if (share == Share::sharpest) {
     restrict_rows(fine, coarse, true, false);
     restrict_rows(fine, coarse, false, true);

@@ -1,6 +1,4 @@
 #pragma once
-#include <algorithm>
-
 #include "transfer/block_transfer.hpp"
 
 namespace signorini {
@@ -10,10 +8,7 @@ namespace signorini {
 template <int B>
 class Unbounded final : public BlockTransfer<B> {
  public:
-  void restrict_bounds(const Level<B>&, Level<B>& coarse) const override {
-    std::ranges::fill(coarse.constraints.lower, -infinity);
-    std::ranges::fill(coarse.constraints.upper, infinity);
-  }
+  void restrict_bounds(const Level<B>&, Level<B>& coarse) const override { coarse.constraints.clear_bounds(); }
 };
 
 }  // namespace signorini

@@ -17,46 +17,106 @@ struct Variant {
 const std::vector<Variant> variants{
     {"default", {}},
     {"without acceleration", {"solver.krylov=false"}},
-    {"not truncated", {"solver.truncate=none", "solver.krylov=false"}},
-    {"truncated, also tangentially", {"solver.truncate=tangential", "solver.krylov=false"}},
-    {"cut 0.1", {"solver.cut=0.1", "solver.krylov=false"}},
-    {"cut 1", {"solver.cut=1", "solver.krylov=false"}},
-    {"W-cycle", {"solver.cycle=W", "solver.krylov=false"}},
-    {"F-cycle", {"solver.cycle=F", "solver.krylov=false"}},
-    {"symmetric smoothing", {"solver.smoother=symmetric", "solver.krylov=false"}},
-    {"tnnmg", {"solver.method=tnnmg", "solver.krylov=false"}},
-    {"tnnmg with acceleration", {"solver.method=tnnmg"}},
+    {"monotone", {"solver.method=monotone"}},
+    {"monotone, kornhuber", {"solver.method=monotone", "solver.transfer=kornhuber"}},
+    {"V(1,1)", {"solver.pre=1", "solver.post=1"}},
+    {"V(3,3)", {"solver.pre=3", "solver.post=3"}},
+    {"W-cycle", {"solver.cycle=W"}},
+    {"F-cycle", {"solver.cycle=F"}},
+    {"symmetric smoothing", {"solver.smoother=symmetric"}},
+    {"surface first", {"solver.smoother=surface_first"}},
+    {"patches", {"solver.smoother=patch"}},
+    {"primal-dual active sets", {"solver.method=pdas"}},
 };
 
-/// Cycles, rate, and the time over that of the first variant.
+/// Every cycle on its own, until the rate has settled.
+const Overrides plain{"solver.krylov=false", "solver.tolerance=1e-10", "solver.start=zero",
+                      "solver.max_iterations=400"};
+
+const std::vector<Variant> restrictions{
+    {"min_merge", {}},
+    {"mandel", {"solver.transfer=mandel"}},
+    {"kornhuber", {"solver.transfer=kornhuber"}},
+    {"min_merge, not truncated", {"solver.truncate=none"}},
+    {"mandel, not truncated", {"solver.transfer=mandel", "solver.truncate=none"}},
+    {"kornhuber, not truncated", {"solver.transfer=kornhuber", "solver.truncate=none"}},
+    {"min_merge, truncated also tangentially", {"solver.truncate=tangential"}},
+    {"min_merge, cut 0.01", {"solver.cut=0.01"}},
+    {"min_merge, cut 0.1", {"solver.cut=0.1"}},
+    {"min_merge, cut 1", {"solver.cut=1"}},
+    {"kornhuber, cut 0.1", {"solver.transfer=kornhuber", "solver.cut=0.1"}},
+    {"tnnmg", {"solver.method=tnnmg"}},
+    {"tnnmg, cut 0.1", {"solver.method=tnnmg", "solver.cut=0.1"}},
+    {"tnnmg, truncated also tangentially", {"solver.method=tnnmg", "solver.truncate=tangential"}},
+};
+
+struct Solve {
+  Summary summary;
+  double seconds = 0;  ///< set-up and solve
+};
+
 template <int D, int B>
-std::string entry(const char* scene, Overrides overrides, const Variant& variant, double& first) {
-  overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
-  const Problem problem(variant.name, scene, overrides);
+Solve outcome(const char* scene, Overrides overrides, const Overrides& further) {
+  overrides.insert(overrides.end(), further.begin(), further.end());
+  const Problem problem(scene, scene, overrides);
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
   const Solved solved = solve_nonlinear<D, B>(problem, hierarchy);
-  const double time = solved.times.setup + solved.times.solve;
-  if (first == 0) first = time;
-  return fmt::format("{}{} | {:.2f} | {:.2f}", solved.summary.iterations, solved.summary.converged() ? "" : " (limit)",
-                     solved.summary.rate, time / first);
+  return {solved.summary, solved.times.setup + solved.times.solve};
+}
+
+std::string cycles(const Summary& summary) {
+  return fmt::format("{}{} | {:.2f}", summary.iterations, summary.converged() ? "" : " (limit)", summary.rate);
+}
+
+/// Cycles, rate, and the time over that of the first variant.
+std::string timed(const Solve& outcome, double& first) {
+  if (first == 0) first = outcome.seconds;
+  return fmt::format("{} | {:.2f}", cycles(outcome.summary), outcome.seconds / first);
+}
+
+void print_times() {
+  fmt::print(
+      "\n## Variants\n\nCycles, rate, and time of set-up and solve over the default's; spiral with 261121 unknowns, "
+      "ball with 38160, degenerate with 65025 from a zero start.\n\n"
+      "| variant | spiral | rate | time | ball | rate | time | degenerate | rate | time |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  double spiral = 0, ball = 0, degenerate = 0;
+  for (const Variant& v : variants) {
+    fmt::print("| {} | {} | {} | {} |\n", v.name,
+               timed(outcome<2, 1>("obstacle_spiral.toml", {"refine.uniform=7"}, v.overrides), spiral),
+               timed(outcome<3, 3>("ball_on_plane.toml", {"refine.uniform=2"}, v.overrides), ball),
+               timed(outcome<2, 1>("obstacle_degenerate.toml", {"refine.uniform=6", "solver.start=zero"}, v.overrides),
+                     degenerate));
+    std::fflush(stdout);
+  }
+}
+
+void print_rates() {
+  fmt::print(
+      "\n## Truncation, restriction, cut\n\nCycles from a zero start to 1e-10 and asymptotic rates, without "
+      "acceleration, method monotone unless a row says otherwise; spiral with 65025 unknowns, ball with 38160, "
+      "degenerate with 65025.\n\n"
+      "| variant | spiral | rate | ball | rate | degenerate | rate |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const Variant& v : restrictions) {
+    const auto with_plain = [](Overrides overrides) {
+      overrides.push_back("solver.method=monotone");
+      overrides.insert(overrides.end(), plain.begin(), plain.end());
+      return overrides;
+    };
+    fmt::print(
+        "| {} | {} | {} | {} |\n", v.name,
+        cycles(outcome<2, 1>("obstacle_spiral.toml", with_plain({"refine.uniform=6"}), v.overrides).summary),
+        cycles(outcome<3, 3>("ball_on_plane.toml", with_plain({"refine.uniform=2"}), v.overrides).summary),
+        cycles(outcome<2, 1>("obstacle_degenerate.toml", with_plain({"refine.uniform=6"}), v.overrides).summary));
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace
 
 void print_variants() {
-  fmt::print(
-      "\n## Variants\n\nCycles, rate, and time of set-up and solve over the default's; spiral with 261121 unknowns, "
-      "ball "
-      "with 38160, degenerate with 65025 from a zero start.\n\n"
-      "| variant | spiral | rate | time | ball | rate | time | degenerate | rate | time |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
-  double spiral = 0, ball = 0, degenerate = 0;
-  for (const Variant& v : variants) {
-    fmt::print("| {} | {} | {} | {} |\n", v.name, entry<2, 1>("obstacle_spiral.toml", {"refine.uniform=7"}, v, spiral),
-               entry<3, 3>("ball_on_plane.toml", {"refine.uniform=2"}, v, ball),
-               entry<2, 1>("obstacle_degenerate.toml", {"refine.uniform=6", "solver.start=zero"}, v, degenerate));
-    std::fflush(stdout);
-  }
+  print_times();
+  print_rates();
 }
 
 }  // namespace signorini::bench

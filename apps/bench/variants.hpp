@@ -2,7 +2,8 @@
 
 namespace signorini::bench {
 
-/// Cycles and rates of the variants of the method on the spiral, the ball and the degenerate problem, as a table.
+/// The tables of docs/variants.md: cycles, rates and times of the variants of the method, and rates of truncation,
+/// monotone restriction and cut, on the spiral, the ball and the degenerate problem.
 void print_variants();
 
 }  // namespace signorini::bench

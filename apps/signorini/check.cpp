@@ -10,6 +10,7 @@
 #include "apps/signorini/problem.hpp"
 #include "apps/signorini/results.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/solver/configuration.hpp"
 
 namespace signorini {
 namespace {
@@ -54,6 +55,15 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
                candidates[k].size());
 }
 
+void print_solver(const SolverOptions& options) {
+  const char* first = options.method != "auto" ? options.method.c_str()
+                      : first_method(options) == Method::monotone
+                          ? "auto: monotone, for nothing is truncated"
+                          : "auto: tnnmg; monotone from where corrections without bounds have no minimum";
+  fmt::print("solver: method {}\n        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n",
+             first, options.cycle, options.pre, options.post, options.smoother, options.coarse);
+}
+
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry) {
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B);
@@ -71,6 +81,7 @@ void check(const Scene& scene, const Registry& registry) {
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
+  print_solver(scene.solver);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));
   print_warnings(fix_warnings(scene, hierarchy.finest(), model));
 }

@@ -48,6 +48,12 @@ Json probe(const ProbeReport& probe) {
   return result;
 }
 
+Json solver(const SolverOptions& options) {
+  return {{"method", options.method},     {"cycle", options.cycle},       {"pre", options.pre},
+          {"post", options.post},         {"smoother", options.smoother}, {"relaxation", options.relaxation},
+          {"transfer", options.transfer}, {"coarse", options.coarse},     {"truncate", options.truncate}};
+}
+
 Json levels(const std::vector<Index>& unknowns) {
   Json result = Json::array();
   for (std::size_t k = 0; k < unknowns.size(); ++k) result.push_back({{"level", k}, {"unknowns", unknowns[k]}});
@@ -63,6 +69,7 @@ void add_summary(Json& json, const Summary& summary) {
   json["linear_phase_from"] = summary.linear_phase_from;
   json["limited_by_rounding"] = summary.outcome == Outcome::rounding;
   json["reason"] = summary.reason;
+  json["solver"] = solver(summary.options);
 }
 
 void add_results(Json& json, const StepReport& step) {

@@ -25,6 +25,7 @@ class ActiveSetIteration final : public Iteration<B> {
 
   const Level<B>& finest() const override { return level_; }
   std::vector<Index> unknowns() const override { return {this->free_unknowns(level_)}; }
+  std::string method() const override { return "pdas"; }
   Step advance() override;
 
   void find_pattern();

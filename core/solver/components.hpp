@@ -10,12 +10,21 @@ namespace signorini {
 
 enum class Side { descend, ascend };
 
+/// A smoother at work on one level.
+template <int B>
+class LevelSmoother {
+ public:
+  virtual ~LevelSmoother() = default;
+  /// Adds the passes of `steps` smoothing steps on level.x, on the way down or up. The energy never grows.
+  virtual void add_passes(int steps, Side side, Passes& passes) = 0;
+};
+
 template <int B>
 class Smoother {
  public:
   virtual ~Smoother() = default;
-  /// Adds the passes of `steps` smoothing steps on level.x, on the way down or up. The energy never grows.
-  virtual void add_passes(const Level<B>& level, int steps, Side side, Passes& passes) const = 0;
+  /// For a level whose pattern, bounds and prescribed components are known; the reference is kept.
+  virtual std::unique_ptr<LevelSmoother<B>> on(const Level<B>& level) const = 0;
 };
 
 /// Which coarse vectors take over the frame of their twin on the next finer level.

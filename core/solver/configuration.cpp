@@ -40,9 +40,12 @@ Method check_options(const SolverOptions& o) {
   require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
   require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
   require(o.threads >= 1 && o.threads <= 4096, "threads", fmt::format("{}", o.threads), "a number from 1 to 4096");
-  const auto method = choice<Method>(
-      "method", o.method,
-      {{"monotone", Method::monotone}, {"tnnmg", Method::tnnmg}, {"pgs", Method::pgs}, {"pdas", Method::pdas}});
+  const auto method = choice<Method>("method", o.method,
+                                     {{"auto", Method::automatic},
+                                      {"monotone", Method::monotone},
+                                      {"tnnmg", Method::tnnmg},
+                                      {"pgs", Method::pgs},
+                                      {"pdas", Method::pdas}});
   require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
@@ -50,23 +53,28 @@ Method check_options(const SolverOptions& o) {
   return method;
 }
 
+Method first_method(const SolverOptions& o) {
+  const Method method = check_options(o);
+  if (method != Method::automatic) return method;
+  return truncation_of(o) == Truncation::none ? Method::monotone : Method::tnnmg;
+}
+
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
-  const Method method = check_options(o);
+  check_options(o);
   return {o.pre,
           o.post,
           choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
           truncation_of(o),
           choice<Rotate>("rotate", o.rotate,
                          {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
-          method == Method::tnnmg,
           o.relaxation,
           o.threads};
 }
 
 template <int B>
 Components<B> components_of(const SolverOptions& o, const Registry& registry) {
-  const std::string transfer = o.method == "tnnmg" ? "none" : o.transfer;
+  const std::string& transfer = o.transfer;
   registry.create<Transfer<B>>("transfer", transfer);  // an unknown name shows here
   return {registry.create<Smoother<B>>("smoother", o.smoother),
           [&registry, transfer] { return registry.create<Transfer<B>>("transfer", transfer); },

@@ -7,11 +7,15 @@
 
 namespace signorini {
 
-enum class Method { monotone, tnnmg, pgs, pdas };
+enum class Method { automatic, monotone, tnnmg, pgs, pdas };
 
 /// Error(Exit::input) naming the option, what was found and what was expected where options are out of range or
 /// contradict each other.
 Method check_options(const SolverOptions& options);
+
+/// The method that the first cycle uses: for "auto" truncated nonsmooth Newton multigrid, and monotone multigrid where
+/// nothing is truncated.
+Method first_method(const SolverOptions& options);
 
 /// What the options say about the cycles. Error(Exit::input) as above, also for components that do not exist.
 template <int B>

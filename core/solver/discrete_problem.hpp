@@ -46,6 +46,11 @@ struct Constraints {
   std::vector<double> lower, upper;  ///< B per slot, infinite where there is none
 
   Index size() const { return static_cast<Index>(vector.size()); }
+  /// Takes away all bounds; the slots stay.
+  void clear_bounds() {
+    std::fill(lower.begin(), lower.end(), -infinity);
+    std::fill(upper.begin(), upper.end(), infinity);
+  }
 };
 
 /// Slots of the vectors first <= p < last: the first one, and one behind the last.

@@ -23,6 +23,8 @@ Summary Iteration<B>::run(const Monitor& monitor) {
   }
   finish_phases();
   finish_energies();
+  summary_.options = options_;
+  summary_.options.method = method();
   return std::move(summary_);
 }
 

@@ -44,6 +44,8 @@ class Iteration {
 
   virtual const Level<B>& finest() const = 0;
   virtual std::vector<Index> unknowns() const = 0;
+  /// The one that "auto" stands for.
+  virtual std::string method() const = 0;
   /// One step: from x_ to the next iterate, with x_before_, r_ and sums_; r_before_ is the residual of x_.
   virtual Step advance() = 0;
 

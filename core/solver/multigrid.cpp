@@ -26,6 +26,19 @@ std::vector<Segment<B>> one_box_segment(Index vectors) {
   return {{0, vectors, std::make_shared<const CoarseBox<B>>()}};
 }
 
+// Whether a direction that is not truncated is at a bound.
+template <int B>
+bool meets_bound(const Level<B>& level) {
+  const Constraints<B>& c = level.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const double x = level.x[Offset{c.vector[slot]} * B + k];
+      const Offset at = Offset{slot} * B + k;
+      if ((x <= c.lower[at] || x >= c.upper[at]) && !(level.removed[c.vector[slot]] >> k & 1u)) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 template <int B>
@@ -68,6 +81,8 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
     level.relaxation = settings.relaxation;
     level.clear_phases();
   }
+  smoothers_.resize(levels_.size());
+  for (std::size_t k = 1; k < levels_.size(); ++k) smoothers_[k] = components_.smoother->on(levels_[k]);
 }
 
 template <int B>
@@ -90,10 +105,10 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   if (k == 0) {
     down.run(level.chunks, crew_);
     if (finest) update_phases(level, 0, level.vectors);
-    if (!components_.coarse->solve(level)) report_.bounded = settings_.line_search;
+    if (!components_.coarse->solve(level)) report_.bounded = false;
     level.renewed.clear();
   } else {
-    components_.smoother->add_passes(level, settings_.pre, Side::descend, down);
+    smoothers_[k]->add_passes(settings_.pre, Side::descend, down);
     Level<B>& coarse = levels_[k - 1];
     transfers_[k - 1]->begin_restriction(coarse);
     coarse.inherited_rounding = level.inherited_rounding;
@@ -105,13 +120,13 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     down.run(level.chunks, crew_);
     if (finest) report_.rounding = coarse.inherited_rounding;
     elsewhere = correct(k, cycle);
-    if (finest && settings_.line_search)
+    if (finest && line_search_)
       search(level);
     else
       up.add([this, k](Index first, Index last) {
         transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last);
       });
-    components_.smoother->add_passes(level, settings_.post, Side::ascend, up);
+    smoothers_[k]->add_passes(settings_.post, Side::ascend, up);
   }
   if (after) up.add(after);
   up.run(level.chunks, crew_);
@@ -126,7 +141,10 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   Transfer<B>& transfer = *transfers_[k - 1];
   report_.levels[k - 1].renewed += transfer.assemble(fine, coarse);
   transfer.end_restriction(coarse);
-  transfer.restrict_bounds(fine, coarse);
+  if (line_search_)
+    coarse.constraints.clear_bounds();
+  else
+    transfer.restrict_bounds(fine, coarse);
   const double begin = seconds();
   descend(k - 1, cycle, {}, {});
   if (k > 1 && cycle != Cycle::V) descend(k - 1, cycle == Cycle::F ? Cycle::V : cycle, {}, {});
@@ -135,13 +153,15 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   return elsewhere;
 }
 
-// prolongate() projects onto the bounds. The energy has its minimum along the step to there where r'd vanishes; beyond
-// the full step it may go on until it meets a bound.
+// prolongate() projects onto the bounds. Where that cuts nothing off, the correction lowers the energy as it is, for it
+// is a linear one in the truncated space. Else the energy has its minimum along the step to there where r'd vanishes;
+// beyond the full step it may go on until it meets a bound.
 template <int B>
 void MonotoneMultigrid<B>::search(Level<B>& level) {
   const auto n = static_cast<std::size_t>(level.vectors) * B;
   start_.assign(level.x, level.x + n);
   transfers_.back()->prolongate(levels_[levels_.size() - 2], level, 0, level.vectors);
+  if (!meets_bound(level)) return;
   step_.resize(n);
   product_.resize(n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];

@@ -10,7 +10,7 @@ namespace signorini {
 struct CycleReport {
   std::vector<LevelReport> levels;  ///< coarsest first
   double rounding = 0;              ///< rounding_of_work() on the finest level
-  bool bounded = true;              ///< false: the energy has no minimum
+  bool bounded = true;              ///< false: what the coarsest level minimised has no minimum
 
   const LevelReport& finest() const { return levels.back(); }
   /// Coarse matrix rows recomputed, on all levels.
@@ -37,9 +37,6 @@ class MonotoneMultigrid {
     Cycle cycle = Cycle::V;
     Truncation truncate = Truncation::normal;
     Rotate rotate = Rotate::all;
-    /// The correction from the coarser levels goes as far along the projected direction as lowers the energy most
-    /// (Graeser and Kornhuber 2009, section 5). Needs no monotone restriction of the bounds.
-    bool line_search = false;
     double relaxation = 1.2;  ///< of the sweeps on all levels
     int threads = 1;          ///< results do not depend on it
   };
@@ -51,6 +48,10 @@ class MonotoneMultigrid {
   /// One cycle on x (B per vector, admissible). The energy never grows. `before` and `after` see disjoint ranges of
   /// vectors that cover all: before the cycle touches them, and when they and all that they are coupled to are final.
   CycleReport cycle(double* x, const Passes::Run& before = {}, const Passes::Run& after = {});
+
+  /// From now on the correction from the coarser levels has no bounds there, but goes as far along the projected
+  /// direction as lowers the energy most (Graeser and Kornhuber 2009, section 5); or no longer so. Needs truncation.
+  void search_lines(bool on) { line_search_ = on; }
 
   /// From now on directions with at most this distance left are truncated too.
   void cut_below(double distance) { near_ = distance; }
@@ -66,12 +67,14 @@ class MonotoneMultigrid {
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
   void restrict_residual(std::size_t k, Index first, Index last);
 
-  std::vector<Level<B>> levels_;  // coarsest first
+  std::vector<Level<B>> levels_;                              // coarsest first
+  std::vector<std::unique_ptr<LevelSmoother<B>>> smoothers_;  // per level; none on the coarsest
   std::vector<std::unique_ptr<Transfer<B>>> transfers_;
   Components<B> components_;
   Settings settings_;
   Crew crew_;
   CycleReport report_;
+  bool line_search_ = false;
   double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk
   std::vector<double> start_, step_, product_;  // of a line search

@@ -20,9 +20,11 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
                                           std::span<const Prolongation> prolongations, std::vector<double>& x,
                                           const SolverOptions& options, const Registry& registry)
     : Iteration<B>(problem, x, options),
+      method_(check_options(options)),
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
-      recombination_(problem.constraints) {}
+      recombination_(problem.constraints),
+      search_lines_(first_method(options) == Method::tnnmg) {}
 
 template <int B>
 std::vector<Index> MultigridIteration<B>::unknowns() const {
@@ -35,6 +37,7 @@ template <int B>
 typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   Sums& sums = this->sums_;
   multigrid_.cut_below(this->options_.cut * sums.moved);
+  multigrid_.search_lines(search_lines_);
   sums = {};
   const CycleReport cycle = multigrid_.cycle(
       this->x_.data(),
@@ -44,10 +47,21 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
       },
       [this](Index first, Index last) { this->evaluate(this->x_, this->r_, first, last, this->sums_); });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
-  const bool combined = this->options_.krylov && this->options_.method != "pgs" && accelerate(cycle, gaining);
+  const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
-  return {cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded, gaining, {}};
+  Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || search_lines_, gaining, {}};
+  // A correction without bounds may have no minimum where the obstacle holds the body: only those with bounds help
+  // then.
+  if (method_ == Method::automatic && !cycle.bounded) search_lines_ = false;
+  return step;
+}
+
+template <int B>
+std::string MultigridIteration<B>::method() const {
+  if (method_ != Method::automatic) return this->options_.method;
+  if (search_lines_) return "tnnmg";
+  return first_method(this->options_) == Method::tnnmg ? "tnnmg, then monotone" : "monotone";
 }
 
 // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/solver/configuration.hpp"
 #include "core/solver/iteration.hpp"
 #include "core/solver/multigrid.hpp"
 #include "core/solver/recombination.hpp"
@@ -18,14 +19,17 @@ class MultigridIteration final : public Iteration<B> {
 
   const Level<B>& finest() const override { return multigrid_.finest(); }
   std::vector<Index> unknowns() const override;
+  std::string method() const override;
   Step advance() override;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
   void add_gain();
   double rounding_of_gain() const;
 
+  Method method_;
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
+  bool search_lines_;  // in the next cycle
   ErrorEstimate estimate_;
   std::vector<double> x_trial_, r_trial_;  // empty without acceleration
 };

@@ -8,7 +8,7 @@ namespace signorini {
 struct SolverOptions {
   double tolerance = 1e-8;  ///< for the relative algebraic error and for the natural residual
   int max_iterations = 200;
-  std::string method = "monotone";     ///< monotone, tnnmg or pgs
+  std::string method = "auto";         ///< auto, monotone, tnnmg, pgs or pdas
   std::string cycle = "V";             ///< V, W or F
   int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
   std::string smoother = "forward";    ///< a registered smoother

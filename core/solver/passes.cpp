@@ -122,7 +122,12 @@ void Passes::run(const Chunks& chunks, Crew& crew) const {
   for (std::size_t begin = 0, end; begin < passes_.size(); begin = end) {
     // One train of passes that agree in their direction.
     bool forward = true, decided = false;
-    for (end = begin; end < passes_.size(); ++end) {
+    if (passes_[begin].whole) {
+      passes_[begin].run(0, chunks.vectors);
+      end = begin + 1;
+      continue;
+    }
+    for (end = begin; end < passes_.size() && !passes_[end].whole; ++end) {
       if (!passes_[end].ordered) continue;
       const bool wanted = passes_[end].order == Order::forward;
       if (decided && wanted != forward) break;

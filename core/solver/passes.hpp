@@ -34,6 +34,10 @@ class Passes {
   void add(Order order, Run run) { passes_.push_back({order, true, std::move(run)}); }
   /// A pass of which any order of chunks is fine.
   void add(Run run) { passes_.push_back({Order::forward, false, std::move(run)}); }
+  /// A pass over all vectors at once, which may reach further than the matrix couples: nothing overtakes it.
+  void add_whole(std::function<void()> run) {
+    passes_.push_back({Order::forward, false, [run = std::move(run)](Index, Index) { run(); }, true});
+  }
   /// With a crew of several threads different passes go on at the same time, each where it would be without them: the
   /// result is bitwise the same. More threads than passes gain nothing; where the chunks are few, none is started.
   void run(const Chunks& chunks, Crew& crew) const;
@@ -43,6 +47,7 @@ class Passes {
     Order order;
     bool ordered;
     Run run;
+    bool whole = false;
   };
   std::vector<Pass> passes_;
 };

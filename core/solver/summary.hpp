@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/solver/options.hpp"
 
 namespace signorini {
 
@@ -48,6 +49,7 @@ struct Summary {
   int linear_phase_from = 0;  ///< first cycle from which no phase changed, 0 if there was none
   std::vector<IterationRecord> history;
   std::vector<Index> level_unknowns;  ///< free unknowns, coarsest level first
+  SolverOptions options;              ///< with the method that "auto" stood for
   double setup_seconds = 0, solve_seconds = 0;
 
   /// Solved as far as the machine's precision allows.

@@ -176,7 +176,7 @@ TEST(GaussSeidelOrder, IsWhatTheNameSays) {
     Level<2> level = finest_level(problem);
     level.x = x.data();
     Passes passes;
-    GaussSeidel<2>(order).add_passes(level, steps, side, passes);
+    GaussSeidel<2>(order).on(level)->add_passes(steps, side, passes);
     Crew alone(1);
     passes.run(level.chunks, alone);
     return x;

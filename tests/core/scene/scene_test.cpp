@@ -60,7 +60,7 @@ TEST(Scene, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(scene.fixes[0].frame, Frame::global);
   EXPECT_EQ(scene.solver.tolerance, 1e-8);
   EXPECT_EQ(scene.solver.max_iterations, 200);
-  EXPECT_EQ(scene.solver.method, "monotone");
+  EXPECT_EQ(scene.solver.method, "auto");
   EXPECT_EQ(scene.solver.cycle, "V");
   EXPECT_EQ(scene.solver.start, "nested");
   EXPECT_EQ(scene.refine.uniform, 0);

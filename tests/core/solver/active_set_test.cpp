@@ -25,6 +25,7 @@ void expect_solved(const Case<B>& c) {
   EXPECT_LE((vector(x) - exact.x).norm(), 1e-8 * exact.x.norm()) << c.name;
   EXPECT_EQ(summary.level_unknowns.size(), 1u);
   if (c.name.find("biactive") != std::string::npos) return;  // rounding decides what is active
+  if (summary.iterations == 1) return;                       // the start was the solution
   EXPECT_EQ(summary.history.back().changed, 0) << c.name;
   EXPECT_EQ(summary.history.back().levels.front().renewed, 0) << c.name << ": sets at rest need no factorisation";
 }

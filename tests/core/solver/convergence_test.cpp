@@ -25,6 +25,7 @@ std::vector<Setting> settings() {
   };
   using O = SolverOptions;
   add("default", [](O&) {});
+  add("monotone", [](O& o) { o.method = "monotone"; });
   for (const char* cycle : {"W", "F"}) add(cycle, [=](O& o) { o.cycle = cycle; });
   for (const char* cycle : {"V", "W"})
     add(std::string("tnnmg ") + cycle, [=](O& o) { o.method = "tnnmg", o.cycle = cycle; });
@@ -32,7 +33,8 @@ std::vector<Setting> settings() {
   add("pgs", [](O& o) { o.method = "pgs"; });
   add("tangential", [](O& o) { o.truncate = "tangential"; });
   for (const double cut : {0.1, 1.0}) add(fmt::format("cut {}", cut), [=](O& o) { o.cut = cut; });
-  for (const char* smoother : {"forward", "backward", "symmetric"}) add(smoother, [=](O& o) { o.smoother = smoother; });
+  for (const char* smoother : {"forward", "backward", "symmetric", "surface_first", "patch"})
+    add(smoother, [=](O& o) { o.smoother = smoother; });
   add("V22 symmetric", [](O& o) { o.smoother = "symmetric", o.pre = o.post = 2; });
   for (const double factor : {0.7, 1.0, 1.8})
     add(fmt::format("relaxation {}", factor), [=](O& o) { o.relaxation = factor; });

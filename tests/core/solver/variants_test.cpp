@@ -1,0 +1,93 @@
+// All combinations of method, restriction and smoother reach one solution with falling energies; what "auto" chooses.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/core/solver/cases.hpp"
+#include "tests/support/pdas.hpp"
+
+namespace signorini::test {
+namespace {
+
+using Variant = std::tuple<std::string, std::string, std::string>;  // method, transfer, smoother
+
+class Variants : public testing::TestWithParam<Variant> {};
+
+template <int B>
+void expect_solved(const std::vector<Case<B>>& cases, const std::string& name, const SolverOptions& options) {
+  const auto found = std::ranges::find(cases, name, &Case<B>::name);
+  ASSERT_NE(found, cases.end()) << name;
+  const DiscreteProblem<B>& problem = found->nested.finest();
+  const Reference exact = reference(problem);
+  double last = infinity, scale = problem.prescribed_energy;
+  std::vector<double> x;
+  const Summary summary = solve_from_zero(found->nested, x, options, [&](const IterationRecord& r) {
+    scale = std::max(scale, std::abs(r.energy));
+    EXPECT_LE(r.energy, last + 1e-13 * scale) << name << ", cycle " << r.iteration;
+    last = r.energy;
+    return true;
+  });
+  EXPECT_TRUE(summary.converged()) << name << ": " << summary.reason;
+  EXPECT_LE((vector(x) - exact.x).norm(), 1e-8 * exact.x.norm()) << name;
+}
+
+TEST_P(Variants, ReachTheReferenceSolutionWithFallingEnergies) {
+  SolverOptions options;
+  options.tolerance = 1e-9;
+  std::tie(options.method, options.transfer, options.smoother) = GetParam();
+  static const auto scalar = scalar_cases();
+  static const auto plane = plane_cases();
+  static const auto space = space_cases();
+  for (const char* name : {"two_sided", "hill", "partly_biactive"}) expect_solved(scalar, name, options);
+  for (const char* name : {"incline", "circle", "held"}) expect_solved(plane, name, options);
+  expect_solved(space, "held3", options);
+}
+
+std::string name_of(const testing::TestParamInfo<Variant>& info) {
+  const auto& [method, transfer, smoother] = info.param;
+  return method + "_" + transfer + "_" + smoother;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Combined, Variants,
+    testing::Combine(testing::Values("auto", "monotone", "tnnmg"), testing::Values("min_merge", "mandel", "kornhuber"),
+                     testing::Values("forward", "backward", "symmetric", "adjoint", "surface_first", "patch")),
+    name_of);
+
+TEST(Automatic, IsTruncatedNonsmoothNewtonMultigrid) {
+  const auto cases = scalar_cases();
+  std::vector<double> x, y;
+  SolverOptions options;
+  EXPECT_EQ(options.method, "auto");
+  EXPECT_EQ(solve_from_zero(cases.front().nested, x, options).options.method, "tnnmg");
+  options.method = "tnnmg";
+  solve_from_zero(cases.front().nested, y, options);
+  EXPECT_EQ(x, y);
+}
+
+TEST(Automatic, IsMonotoneMultigridWhereNothingIsTruncated) {
+  const auto cases = scalar_cases();
+  std::vector<double> x, y;
+  SolverOptions options;
+  options.truncate = "none";
+  EXPECT_EQ(solve_from_zero(cases.front().nested, x, options).options.method, "monotone");
+  options.method = "monotone";
+  solve_from_zero(cases.front().nested, y, options);
+  EXPECT_EQ(x, y);
+}
+
+// A block above a plane that it does not touch at first: without bounds nothing stops it.
+TEST(Automatic, TurnsMonotoneWhereOnlyTheObstacleHoldsTheBody) {
+  Model<2> model = resting_block<2>({0, -1}, {"left"});
+  model.obstacles.front() = {plane<2>({0, -0.1}, {0, 1}), on("bottom"), "test"};
+  const auto nested = discretize_all<2, 2>(cube<2>(0, 1, 2), 3, model);
+  std::vector<double> x;
+  const Summary summary = solve_from_zero(nested, x);
+  EXPECT_TRUE(summary.converged()) << summary.reason;
+  EXPECT_EQ(summary.options.method, "tnnmg, then monotone");
+  EXPECT_LE(summary.iterations, 20);
+  const Reference exact = reference(nested.finest());
+  EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
+}
+
+}  // namespace
+}  // namespace signorini::test
