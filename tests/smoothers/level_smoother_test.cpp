@@ -46,7 +46,8 @@ struct Start {
     for (const Side side : {Side::descend, Side::ascend}) {
       Passes passes;
       on_level->add_passes(steps, side, passes);
-      passes.run(level.chunks);
+      Crew alone(1);
+      passes.run(level.chunks, alone);
     }
   }
 
