@@ -28,6 +28,10 @@ struct Start {
   Start(Random& random, Index n, double constrained) : problem(random_problem<B>(random, n, constrained)) {
     problem.fixed[3] = 1;
     problem.start[3 * B] = 0.5;
+    if (const Index slot = problem.constraints.slot[3]; slot >= 0) {
+      problem.constraints.lower[slot * B] = -infinity;
+      problem.constraints.upper[slot * B] = infinity;
+    }
     eliminate(problem);
     x = problem.start;
     const Constraints<B>& c = problem.constraints;

@@ -176,7 +176,8 @@ TEST(GaussSeidelOrder, IsWhatTheNameSays) {
     Level<2> level = finest_level(problem);
     level.x = x.data();
     Passes passes;
-    GaussSeidel<2>(order).on(level)->add_passes(steps, side, passes);
+    const auto smoother = GaussSeidel<2>(order).on(level);
+    smoother->add_passes(steps, side, passes);
     Crew alone(1);
     passes.run(level.chunks, alone);
     return x;
