@@ -13,6 +13,11 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
+// Cycles after which "auto" takes to a direct solver: several times as many as it needs where multigrid does its work.
+constexpr int patience = 60;
+// What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
+constexpr Index most_unknowns_for_direct = 150'000;
+
 }  // namespace
 
 template <int B>
@@ -54,6 +59,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   // A correction without bounds may have no minimum where the obstacle holds the body: only those with bounds help
   // then.
   if (method_ == Method::automatic && !cycle.bounded) search_lines_ = false;
+  if (method_ == Method::automatic && ++cycles_ == patience &&
+      this->free_unknowns(finest()) <= most_unknowns_for_direct)
+    step.stuck = "the cycles converge too slowly";
   return step;
 }
 

@@ -6,7 +6,8 @@
 
 namespace signorini {
 
-/// Cycles of multigrid as steps, accelerated while the phases rest.
+/// Cycles of multigrid as steps, accelerated while the phases rest. With method "auto" they end with Outcome::stuck
+/// where they have not solved a problem that is small enough for a direct solver.
 template <int B>
 class MultigridIteration final : public Iteration<B> {
  public:
@@ -30,6 +31,7 @@ class MultigridIteration final : public Iteration<B> {
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
   bool search_lines_;  // in the next cycle
+  int cycles_ = 0;
   ErrorEstimate estimate_;
   std::vector<double> x_trial_, r_trial_;  // empty without acceleration
 };

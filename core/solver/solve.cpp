@@ -1,6 +1,9 @@
 #include "core/solver/solve.hpp"
 
+#include <new>
+
 #include "core/base/clock.hpp"
+#include "core/base/error.hpp"
 #include "core/solver/active_set.hpp"
 #include "core/solver/configuration.hpp"
 #include "core/solver/multigrid_iteration.hpp"
@@ -18,6 +21,53 @@ std::unique_ptr<Iteration<B>> iteration(const DiscreteProblem<B>& problem, std::
   return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, registry);
 }
 
+// `after` continues `before`; levels are counted from the coarsest, and the finest ones are the same.
+void number_on(const Summary& before, IterationRecord& after) {
+  after.iteration += before.iterations;
+  const std::size_t levels = before.level_unknowns.size();
+  if (after.levels.size() < levels) after.levels.insert(after.levels.begin(), levels - after.levels.size(), {});
+}
+
+Summary joined(const Summary& before, Summary after) {
+  for (IterationRecord& record : after.history) number_on(before, record);
+  after.history.insert(after.history.begin(), before.history.begin(), before.history.end());
+  after.iterations += before.iterations;
+  if (after.linear_phase_from > 0) after.linear_phase_from += before.iterations;
+  after.options.method = before.options.method + ", then " + after.options.method;
+  after.level_unknowns = before.level_unknowns;
+  return after;
+}
+
+template <int B>
+Summary go_on(const Summary& before, const std::string& method, const DiscreteProblem<B>& problem,
+              std::span<const Prolongation> prolongations, std::vector<double>& x, SolverOptions options,
+              const Registry& registry, const Monitor& monitor) {
+  options.method = method;
+  options.max_iterations -= before.iterations;
+  const auto loop = iteration(problem, prolongations, x, options, registry);
+  return joined(before, loop->run([&](IterationRecord record) {
+    number_on(before, record);
+    return !monitor || monitor(record);
+  }));
+}
+
+// Active sets from where the cycles have come to; where they fail too, more of the cycles.
+template <int B>
+Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
+                       std::span<const Prolongation> prolongations, std::vector<double>& x,
+                       const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+  const std::vector<double> start = x;
+  try {
+    Summary direct = go_on(cycles, "pdas", problem, prolongations, x, options, registry, monitor);
+    if (direct.converged() || direct.outcome == Outcome::interrupted) return direct;
+  } catch (const Error&) {  // of a library that is not there
+  } catch (const std::bad_alloc&) {
+  }
+  x = start;
+  const std::string last = cycles.options.method.ends_with("monotone") ? "monotone" : "tnnmg";
+  return go_on(cycles, last, problem, prolongations, x, options, registry, monitor);
+}
+
 }  // namespace
 
 template <int B>
@@ -27,6 +77,8 @@ Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> p
   const auto loop = iteration(problem, prolongations, x, options, registry);
   const double ready = seconds();
   Summary summary = loop->run(monitor);
+  if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations)
+    summary = solve_directly(summary, problem, prolongations, x, options, registry, monitor);
   summary.setup_seconds = ready - begin;
   summary.solve_seconds = seconds() - ready;
   return summary;

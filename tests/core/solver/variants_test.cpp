@@ -89,5 +89,26 @@ TEST(Automatic, TurnsMonotoneWhereOnlyTheObstacleHoldsTheBody) {
   EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
 }
 
+// Cells of 25 to 1 that bend: neither smoothing nor coarse meshes do much.
+TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
+  Model<2> model = resting_block<2>({0, -1e-6}, {});
+  model.fixes = {{on("left"), {Field(0), Field(0)}}};
+  model.obstacles.front() = {plane<2>({0, -0.5}, {0, 1}), on("bottom"), "test"};
+  Mesh<2> mesh = cube<2>(0, 1, 4);
+  for (auto& point : mesh.points) point[0] *= 100;
+  const auto nested = discretize_all<2, 2>(std::move(mesh), 4, model);
+  std::vector<double> x;
+  const Summary summary = solve_from_zero(nested, x);
+  EXPECT_TRUE(summary.converged()) << summary.reason;
+  EXPECT_EQ(summary.options.method, "tnnmg, then pdas");
+  EXPECT_EQ(summary.history.size(), static_cast<std::size_t>(summary.iterations));
+  for (std::size_t k = 0; k < summary.history.size(); ++k) {
+    EXPECT_EQ(summary.history[k].iteration, static_cast<int>(k) + 1);
+    EXPECT_EQ(summary.history[k].levels.size(), summary.level_unknowns.size());
+  }
+  const Reference exact = reference(nested.finest());
+  EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
+}
+
 }  // namespace
 }  // namespace signorini::test
