@@ -205,6 +205,17 @@ TEST_F(Qp, WithoutSolutionIsStatusFour) {
   EXPECT_EQ(signorini({"qp", "A.mtx", "b.mtx", "--upper", "l.mtx"}).status, 0);
 }
 
+TEST_F(Qp, OutputThatIsLostIsAnErrorOnlyWhereNothingIsWritten) {
+  write_chain(10);
+  write_constant("b.mtx", 10, 1);
+  const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini qp A.mtx b.mtx ";
+  EXPECT_EQ(WEXITSTATUS(std::system((program + " > /dev/full 2> .err").c_str())), 2);
+  EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: error: standard output: cannot be written"));
+  EXPECT_EQ(WEXITSTATUS(std::system((program + "--out x.mtx > /dev/full 2> .err").c_str())), 0);
+  EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: warning: standard output: cannot be written"));
+  EXPECT_EQ(solution(10).size(), 10u);
+}
+
 TEST_F(Qp, InterruptEndsCleanlyAndLeavesNothing) {
   constexpr Index n = 200000;
   write_chain(n);
