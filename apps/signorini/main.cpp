@@ -125,7 +125,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
       })
       ->capture_default_str();
   command->add_option("--method", qp.options.method, "see docs/solver.md")
-      ->check(one_of({"monotone", "tnnmg", "pgs"}))
+      ->check(one_of({"auto", "monotone", "tnnmg", "pgs", "pdas"}))
       ->capture_default_str();
   command->footer(std::string(solve_notes) + qp_notes);
   return command;
