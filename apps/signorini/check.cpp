@@ -56,12 +56,11 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
 }
 
 void print_solver(const SolverOptions& options) {
-  const char* first = options.method != "auto" ? options.method.c_str()
-                      : first_method(options) == Method::monotone
-                          ? "auto: monotone, for nothing is truncated"
-                          : "auto: tnnmg; monotone from where corrections without bounds have no minimum";
+  const std::string method = options.method == "auto"
+                                 ? "auto: monotone, in turns with tnnmg and then pdas where that is slow"
+                                 : options.method;
   fmt::print("solver: method {}\n        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n",
-             first, options.cycle, options.pre, options.post, options.smoother, options.coarse);
+             method, options.cycle, options.pre, options.post, options.smoother, options.coarse);
 }
 
 template <int D, int B>

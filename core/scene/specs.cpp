@@ -120,9 +120,10 @@ constexpr KeySpec solver[] = {
     {"tolerance", number, "1e-8", "(0, 1)", "", "for the relative algebraic error and for the natural residual"},
     {"max_iterations", integer, "200", "[1, 1000000]", "", "limit on the number of cycles"},
     {"method", text, "auto", "auto | monotone | tnnmg | pgs | pdas", "",
-     "tnnmg: truncated nonsmooth Newton multigrid; monotone: monotone multigrid; auto: the former as long as "
-     "that has a minimum, then the latter; pgs: projected Gauss-Seidel alone; pdas: primal-dual active sets with a "
-     "direct solver"},
+     "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
+     "pdas: primal-dual active sets with a direct solver; auto: monotone, after 10 cycles in turns with tnnmg, after "
+     "60 "
+     "cycles pdas for up to 150000 unknowns"},
     {"cycle", text, "V", "V | W | F", "", "shape of the cycle"},
     {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
     {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},

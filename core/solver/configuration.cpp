@@ -53,12 +53,6 @@ Method check_options(const SolverOptions& o) {
   return method;
 }
 
-Method first_method(const SolverOptions& o) {
-  const Method method = check_options(o);
-  if (method != Method::automatic) return method;
-  return truncation_of(o) == Truncation::none ? Method::monotone : Method::tnnmg;
-}
-
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
   check_options(o);

@@ -13,10 +13,6 @@ enum class Method { automatic, monotone, tnnmg, pgs, pdas };
 /// contradict each other.
 Method check_options(const SolverOptions& options);
 
-/// The method that the first cycle uses: for "auto" truncated nonsmooth Newton multigrid, and monotone multigrid where
-/// nothing is truncated.
-Method first_method(const SolverOptions& options);
-
 /// What the options say about the cycles. Error(Exit::input) as above, also for components that do not exist.
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& options);

@@ -13,8 +13,10 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
-// Cycles after which "auto" takes to a direct solver: several times as many as it needs where multigrid does its work.
-constexpr int patience = 60;
+// Cycles after which "auto" lets corrections without bounds take turns while phases change: where bounds are tight, as
+// on algebraic levels, contact spreads too slowly with them alone. And after which it takes to a direct solver: more
+// than it needs where multigrid does its work.
+constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
 // What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
 constexpr Index most_unknowns_for_direct = 150'000;
 
@@ -29,7 +31,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
       recombination_(problem.constraints),
-      search_lines_(first_method(options) == Method::tnnmg) {}
+      may_turn_(method_ == Method::automatic && settings_of<B>(options).truncate != Truncation::none) {}
 
 template <int B>
 std::vector<Index> MultigridIteration<B>::unknowns() const {
@@ -42,7 +44,9 @@ template <int B>
 typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   Sums& sums = this->sums_;
   multigrid_.cut_below(this->options_.cut * sums.moved);
-  multigrid_.search_lines(search_lines_);
+  const bool free = goes_without_bounds();
+  multigrid_.search_lines(free);
+  ++cycles_;
   sums = {};
   const CycleReport cycle = multigrid_.cycle(
       this->x_.data(),
@@ -55,21 +59,26 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
-  Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || search_lines_, gaining, {}};
-  // A correction without bounds may have no minimum where the obstacle holds the body: only those with bounds help
-  // then.
-  if (method_ == Method::automatic && !cycle.bounded) search_lines_ = false;
-  if (method_ == Method::automatic && ++cycles_ == patience &&
+  Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
+  changing_ = cycle.finest().changed > 0;
+  turned_ = turned_ || free;
+  if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
+  if (method_ == Method::automatic && cycles_ == patience_with_cycles &&
       this->free_unknowns(finest()) <= most_unknowns_for_direct)
     step.stuck = "the cycles converge too slowly";
   return step;
 }
 
 template <int B>
+bool MultigridIteration<B>::goes_without_bounds() const {
+  if (method_ == Method::tnnmg) return true;
+  return may_turn_ && changing_ && cycles_ >= patience_with_bounds && cycles_ % 2 == 0;
+}
+
+template <int B>
 std::string MultigridIteration<B>::method() const {
   if (method_ != Method::automatic) return this->options_.method;
-  if (search_lines_) return "tnnmg";
-  return first_method(this->options_) == Method::tnnmg ? "tnnmg, then monotone" : "monotone";
+  return turned_ ? "monotone, then tnnmg in turns" : "monotone";
 }
 
 // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring

@@ -22,6 +22,7 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override;
   std::string method() const override;
   Step advance() override;
+  bool goes_without_bounds() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
   void add_gain();
@@ -30,7 +31,9 @@ class MultigridIteration final : public Iteration<B> {
   Method method_;
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
-  bool search_lines_;  // in the next cycle
+  bool may_turn_;         // "auto" may make corrections without bounds
+  bool turned_ = false;   // and has made some
+  bool changing_ = true;  // phases, in the last cycle
   int cycles_ = 0;
   ErrorEstimate estimate_;
   std::vector<double> x_trial_, r_trial_;  // empty without acceleration

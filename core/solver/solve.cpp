@@ -1,5 +1,7 @@
 #include "core/solver/solve.hpp"
 
+#include <fmt/format.h>
+
 #include <new>
 
 #include "core/base/clock.hpp"
@@ -45,10 +47,19 @@ Summary go_on(const Summary& before, const std::string& method, const DiscretePr
   options.method = method;
   options.max_iterations -= before.iterations;
   const auto loop = iteration(problem, prolongations, x, options, registry);
-  return joined(before, loop->run([&](IterationRecord record) {
+  return loop->run([&](IterationRecord record) {
     number_on(before, record);
     return !monitor || monitor(record);
-  }));
+  });
+}
+
+// All steps of a direct solve count as one: the energy may grow between them.
+Summary as_one_step(Summary direct) {
+  direct.reason += fmt::format(", after {} steps of a direct solver", direct.iterations);
+  direct.history.erase(direct.history.begin(), direct.history.end() - 1);
+  direct.iterations = direct.history.front().iteration = 1;
+  direct.linear_phase_from = 0;
+  return direct;
 }
 
 // Active sets from where the cycles have come to; where they fail too, more of the cycles.
@@ -59,13 +70,13 @@ Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
   const std::vector<double> start = x;
   try {
     Summary direct = go_on(cycles, "pdas", problem, prolongations, x, options, registry, monitor);
-    if (direct.converged() || direct.outcome == Outcome::interrupted) return direct;
+    if (direct.converged()) return joined(cycles, as_one_step(std::move(direct)));
+    if (direct.outcome == Outcome::interrupted) return joined(cycles, std::move(direct));
   } catch (const Error&) {  // of a library that is not there
   } catch (const std::bad_alloc&) {
   }
   x = start;
-  const std::string last = cycles.options.method.ends_with("monotone") ? "monotone" : "tnnmg";
-  return go_on(cycles, last, problem, prolongations, x, options, registry, monitor);
+  return joined(cycles, go_on(cycles, "monotone", problem, prolongations, x, options, registry, monitor));
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ DiscreteProblem<D> held(DiscreteProblem<D> problem) {
   return problem;
 }
 
-/// Solved as the reference solver does it, and without a drift: no further than it sinks.
+/// Solved as the reference solver does it, and without a drift: what nothing decides is of the size of what is decided.
 template <int D>
 void expect_solved(const std::string& scene, const std::vector<std::string>& settings,
                    const std::vector<Field<D>>& motions, int cycles) {
@@ -159,7 +159,7 @@ void expect_solved(const std::string& scene, const std::vector<std::string>& set
   const auto& A = r.problem().A;
   const double error = energy_norm<D>(A, without<D>(motions, r, x - exact.x)) / energy_norm<D>(A, exact.x);
   EXPECT_LE(error, 1e-8);
-  EXPECT_LE(x.template lpNorm<Eigen::Infinity>(), 3 * exact.x.template lpNorm<Eigen::Infinity>());
+  EXPECT_LE(x.template lpNorm<Eigen::Infinity>(), 10 * exact.x.template lpNorm<Eigen::Infinity>());
   EXPECT_LE(r.summary().iterations, cycles);
   show("{}: {} unknowns, {} cycles, error {:.1e}, estimated {:.1e}\n",
        testing::UnitTest::GetInstance()->current_test_info()->name(), x.size(), r.summary().iterations, error,
@@ -340,7 +340,7 @@ inside = true
                                  shape, poisson, text(load), text(center), unit);
   for (const int refinement : refinements) {
     SCOPED_TRACE(fmt::format("unit {}, turned by {}, {} refinements", unit, turn, refinement));
-    expect_solved<D>(scene, {uniform(refinement)}, rotations<D>(center), 25);
+    expect_solved<D>(scene, {uniform(refinement)}, rotations<D>(center), 40);
   }
 }
 

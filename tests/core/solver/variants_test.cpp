@@ -53,40 +53,15 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values("forward", "backward", "symmetric", "adjoint", "surface_first", "patch")),
     name_of);
 
-TEST(Automatic, IsTruncatedNonsmoothNewtonMultigrid) {
+TEST(Automatic, IsMonotoneMultigridAsLongAsThatIsFast) {
   const auto cases = scalar_cases();
   std::vector<double> x, y;
   SolverOptions options;
   EXPECT_EQ(options.method, "auto");
-  EXPECT_EQ(solve_from_zero(cases.front().nested, x, options).options.method, "tnnmg");
-  options.method = "tnnmg";
-  solve_from_zero(cases.front().nested, y, options);
-  EXPECT_EQ(x, y);
-}
-
-TEST(Automatic, IsMonotoneMultigridWhereNothingIsTruncated) {
-  const auto cases = scalar_cases();
-  std::vector<double> x, y;
-  SolverOptions options;
-  options.truncate = "none";
   EXPECT_EQ(solve_from_zero(cases.front().nested, x, options).options.method, "monotone");
   options.method = "monotone";
   solve_from_zero(cases.front().nested, y, options);
   EXPECT_EQ(x, y);
-}
-
-// A block above a plane that it does not touch at first: without bounds nothing stops it.
-TEST(Automatic, TurnsMonotoneWhereOnlyTheObstacleHoldsTheBody) {
-  Model<2> model = resting_block<2>({0, -1}, {"left"});
-  model.obstacles.front() = {plane<2>({0, -0.1}, {0, 1}), on("bottom"), "test"};
-  const auto nested = discretize_all<2, 2>(cube<2>(0, 1, 2), 3, model);
-  std::vector<double> x;
-  const Summary summary = solve_from_zero(nested, x);
-  EXPECT_TRUE(summary.converged()) << summary.reason;
-  EXPECT_EQ(summary.options.method, "tnnmg, then monotone");
-  EXPECT_LE(summary.iterations, 20);
-  const Reference exact = reference(nested.finest());
-  EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
 }
 
 // Cells of 25 to 1 that bend: neither smoothing nor coarse meshes do much.
@@ -100,7 +75,7 @@ TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
   std::vector<double> x;
   const Summary summary = solve_from_zero(nested, x);
   EXPECT_TRUE(summary.converged()) << summary.reason;
-  EXPECT_EQ(summary.options.method, "tnnmg, then pdas");
+  EXPECT_EQ(summary.options.method, "monotone, then pdas");
   EXPECT_EQ(summary.history.size(), static_cast<std::size_t>(summary.iterations));
   for (std::size_t k = 0; k < summary.history.size(); ++k) {
     EXPECT_EQ(summary.history[k].iteration, static_cast<int>(k) + 1);
