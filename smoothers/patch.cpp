@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <optional>
 
 #include "core/sdk/projected_sweep.hpp"
 
@@ -19,7 +20,7 @@ class PatchSweeps final : public LevelSmoother<B> {
     std::vector<char> covered(number_.size(), 0);
     for (Index p = 0; p < level.vectors; ++p)
       if (!covered[p] && level.constraints.slot[p] < 0) {
-        patches_.push_back({neighbours(p), {}});
+        patches_.push_back({neighbours(p), std::nullopt});
         for (const Index q : patches_.back().vectors) covered[q] = 1;
       }
   }
@@ -36,7 +37,7 @@ class PatchSweeps final : public LevelSmoother<B> {
  private:
   struct PatchOfVectors {
     std::vector<Index> vectors;
-    Eigen::LLT<Eigen::MatrixXd> factor;
+    std::optional<Eigen::LLT<Eigen::MatrixXd>> factor;  // once the matrix is known
   };
 
   // The vector itself first.
@@ -69,7 +70,7 @@ class PatchSweeps final : public LevelSmoother<B> {
               Eigen::Map<const Eigen::Matrix<double, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor>>(A.at(k));
     for (const Index p : patch.vectors) number_[p] = -1;
     M.diagonal() *= 1 + raised;
-    patch.factor.compute(M);
+    patch.factor.emplace(M);
   }
 
   void solve_all(Order order) {
@@ -78,12 +79,12 @@ class PatchSweeps final : public LevelSmoother<B> {
   }
 
   void solve(const PatchOfVectors& patch) {
-    if (patch.factor.info() != Eigen::Success) return;
+    if (patch.factor->info() != Eigen::Success) return;
     const LevelView<B> view = level_.view();
     const auto count = static_cast<Index>(patch.vectors.size());
     r_.resize(count * B);
     for (Index i = 0; i < count; ++i) row_residual<B>(view, patch.vectors[i], r_.data() + i * B);
-    patch.factor.solveInPlace(r_);
+    patch.factor->solveInPlace(r_);
     for (Index i = 0; i < count; ++i)
       for (int k = 0; k < B; ++k) view.x[Offset{patch.vectors[i]} * B + k] += r_[i * B + k];
   }
