@@ -11,7 +11,8 @@
 namespace signorini {
 
 template <int B>
-Summary Iteration<B>::run(const Monitor& monitor) {
+Summary Iteration<B>::run(const Monitor& monitor, int before) {
+  before_ = before;
   summary_.level_unknowns = unknowns();
   for (Index p = 0; p < problem_.A.size(); ++p)
     for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
@@ -46,7 +47,7 @@ bool Iteration<B>::step(const Monitor& monitor) {
     return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
   if (!go_on) return end(Outcome::interrupted, "interrupted");
   if (!stuck.empty()) return end(Outcome::stuck, stuck);
-  if (summary_.iterations >= options_.max_iterations)
+  if (before_ + summary_.iterations >= options_.max_iterations)
     return end(Outcome::iteration_limit,
                fmt::format("iteration limit {}: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
                            options_.max_iterations, summary_.residual, summary_.algebraic_error, options_.tolerance));
@@ -135,7 +136,7 @@ void Iteration<B>::record(Step step) {
   gains_.push_back(sums_.gain);
   const Index contact = step.levels.back().critical, changed = step.levels.back().changed;
   s.history.push_back(
-      {s.iterations, s.residual, s.algebraic_error, s.energy, contact, changed, std::move(step.levels)});
+      {before_ + s.iterations, s.residual, s.algebraic_error, s.energy, contact, changed, std::move(step.levels)});
 }
 
 // What rounding leaves of x'Ax for a rigid motion, which has no energy.

@@ -15,7 +15,8 @@ class Iteration {
  public:
   virtual ~Iteration() = default;
   /// Iterates until the problem is solved, or there is another reason to stop.
-  Summary run(const Monitor& monitor);
+  /// @param before steps that other methods have made: they count for the limit and in the numbers of the steps
+  Summary run(const Monitor& monitor, int before = 0);
 
  protected:
   /// What a method says about its step.
@@ -82,6 +83,7 @@ class Iteration {
   void finish_energies();
   double residual_at_projected_zero();
 
+  int before_ = 0;    // steps of other methods
   double trace_ = 0;  // of A
   Summary summary_;
   std::vector<double> gains_;  // one for each step

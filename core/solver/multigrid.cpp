@@ -65,7 +65,7 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
     : levels_(prolongations.size() + 1),
       components_(std::move(components)),
       settings_(settings),
-      crew_(settings.threads) {
+      crew_(std::min(settings.threads, std::max(settings.pre, settings.post) + 2)) {  // no more passes go one way
   levels_.back() = finest_level(problem);
   transfers_.resize(prolongations.size());
   const bool known = problem.galerkin.size() == prolongations.size() &&

@@ -23,18 +23,16 @@ std::unique_ptr<Iteration<B>> iteration(const DiscreteProblem<B>& problem, std::
   return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, registry);
 }
 
-// `after` continues `before`; levels are counted from the coarsest, and the finest ones are the same.
-void number_on(const Summary& before, IterationRecord& after) {
-  after.iteration += before.iterations;
+// Levels are counted from the coarsest; a method without coarser ones works on the finest.
+void add_coarser_levels(const Summary& before, IterationRecord& after) {
   const std::size_t levels = before.level_unknowns.size();
   if (after.levels.size() < levels) after.levels.insert(after.levels.begin(), levels - after.levels.size(), {});
 }
 
 Summary joined(const Summary& before, Summary after) {
-  for (IterationRecord& record : after.history) number_on(before, record);
+  for (IterationRecord& record : after.history) add_coarser_levels(before, record);
   after.history.insert(after.history.begin(), before.history.begin(), before.history.end());
   after.iterations += before.iterations;
-  if (after.linear_phase_from > 0) after.linear_phase_from += before.iterations;
   after.options.method = before.options.method + ", then " + after.options.method;
   after.level_unknowns = before.level_unknowns;
   return after;
@@ -45,19 +43,20 @@ Summary go_on(const Summary& before, const std::string& method, const DiscretePr
               std::span<const Prolongation> prolongations, std::vector<double>& x, SolverOptions options,
               const Registry& registry, const Monitor& monitor) {
   options.method = method;
-  options.max_iterations -= before.iterations;
   const auto loop = iteration(problem, prolongations, x, options, registry);
-  return loop->run([&](IterationRecord record) {
-    number_on(before, record);
+  const auto counted = [&](IterationRecord record) {
+    add_coarser_levels(before, record);
     return !monitor || monitor(record);
-  });
+  };
+  return loop->run(counted, before.iterations);
 }
 
 // All steps of a direct solve count as one: the energy may grow between them.
-Summary as_one_step(Summary direct) {
+Summary as_one_step(Summary direct, int before) {
   direct.reason += fmt::format(", after {} steps of a direct solver", direct.iterations);
   direct.history.erase(direct.history.begin(), direct.history.end() - 1);
-  direct.iterations = direct.history.front().iteration = 1;
+  direct.iterations = 1;
+  direct.history.front().iteration = before + 1;
   direct.linear_phase_from = 0;
   return direct;
 }
@@ -70,7 +69,7 @@ Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
   const std::vector<double> start = x;
   try {
     Summary direct = go_on(cycles, "pdas", problem, prolongations, x, options, registry, monitor);
-    if (direct.converged()) return joined(cycles, as_one_step(std::move(direct)));
+    if (direct.converged()) return joined(cycles, as_one_step(std::move(direct), cycles.iterations));
     if (direct.outcome == Outcome::interrupted) return joined(cycles, std::move(direct));
   } catch (const Error&) {  // of a library that is not there
   } catch (const std::bad_alloc&) {
@@ -85,11 +84,13 @@ template <int B>
 Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations, std::vector<double>& x,
               const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
   const double begin = seconds();
-  const auto loop = iteration(problem, prolongations, x, options, registry);
+  auto loop = iteration(problem, prolongations, x, options, registry);
   const double ready = seconds();
   Summary summary = loop->run(monitor);
-  if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations)
+  if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations) {
+    loop.reset();  // its memory is needed
     summary = solve_directly(summary, problem, prolongations, x, options, registry, monitor);
+  }
   summary.setup_seconds = ready - begin;
   summary.solve_seconds = seconds() - ready;
   return summary;

@@ -88,16 +88,22 @@ void expect_same_matrices(const Chain<B>& a, const Chain<B>& b) {
   }
 }
 
+/// A problem with frames, and the interpolations to it over two levels.
+template <int B>
+std::pair<DiscreteProblem<B>, std::array<Prolongation, 2>> random_hierarchy(Random& random, Index n) {
+  auto problem = random_problem<B>(random, n, 1);
+  problem.A = random_matrix<B>(random, n, 1);
+  problem.frames = random_frames<B>(random, n);
+  auto coarser = random_prolongation(random, n / 16, n / 4);
+  return {std::move(problem), {std::move(coarser), random_prolongation(random, n / 4, n)}};
+}
+
 TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
   constexpr int B = TypeParam::value;
   constexpr Index n = 240;
   Random random(22);
   for (const bool rotate : {true, false}) {
-    auto problem = random_problem<B>(random, n, 1);
-    problem.A = random_matrix<B>(random, n, 1);
-    problem.frames = random_frames<B>(random, n);
-    const std::array<Prolongation, 2> P = {random_prolongation(random, n / 16, n / 4),
-                                           random_prolongation(random, n / 4, n)};
+    const auto [problem, P] = random_hierarchy<B>(random, n);
     Chain<B> chain(problem, P, rotate);
     std::vector<Flags> finest = random_flags<B>(random, n, 0.1), middle = random_flags<B>(random, n / 4, 0.1);
     chain.assemble(finest, middle);
@@ -126,11 +132,7 @@ TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
   constexpr Index n = 240;
   Random random(23);
   for (const bool rotate : {true, false}) {
-    auto problem = random_problem<B>(random, n, 1);
-    problem.A = random_matrix<B>(random, n, 1);
-    problem.frames = random_frames<B>(random, n);
-    const std::array<Prolongation, 2> P = {random_prolongation(random, n / 16, n / 4),
-                                           random_prolongation(random, n / 4, n)};
+    const auto [problem, P] = random_hierarchy<B>(random, n);
     const std::vector<Flags> none(n, 0);
     Chain<B> untruncated(problem, P, rotate);
     const Index all = untruncated.assemble(none, none);
