@@ -24,10 +24,8 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   coarse.A = &coarse.own_matrix;
   inherit_twins(fine, rotate, coarse);
   give_slots(fine, coarse);
-  if (coarse.galerkin)
-    adopt(*coarse.galerkin, coarse);
-  else
-    build_pattern(*fine.A, coarse.own_matrix);
+  if (!coarse.galerkin || !coarse.galerkin->complete) build_pattern(*fine.A, coarse.own_matrix);
+  if (coarse.galerkin) adopt(*coarse.galerkin, coarse);
   coarse.chunks = divide(coarse.own_matrix);
 }
 

@@ -24,6 +24,7 @@ class BlockTransfer : public Transfer<B> {
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
   void adopt(const GalerkinMatrix<B>& known, Level<B>& coarse);
+  void fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void transpose_weights();
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);

@@ -1,6 +1,7 @@
 // Coarse matrices: A_c = P'AP with the modifiers of rotated and truncated vectors, row by row, so that recomputing the
 // rows near a phase change gives bitwise what a full assembly gives (Krause, 4.5).
 #include <algorithm>
+#include <cassert>
 
 #include "transfer/block_transfer.hpp"
 #include "transfer/modifier.hpp"
@@ -36,7 +37,10 @@ void invert_diagonal(Level<B>& level, Index q) {
 
 template <int B>
 void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, Level<B>& coarse) {
-  coarse.own_matrix = known.A;
+  if (known.complete)
+    coarse.own_matrix = known.A;
+  else
+    fill_in(known.A, coarse.own_matrix);
   coarse.off = prescribed_ = known.off;
   for (Index q = 0; q < coarse.vectors; ++q) {
     const double* diagonal = known.A.diagonal(q);
@@ -45,6 +49,18 @@ void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, Level<B>& coarse) {
     invert_diagonal(coarse, q);
   }
   assembled_ = true;
+}
+
+// The values of a matrix at its places in a wider pattern.
+template <int B>
+void BlockTransfer<B>::fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
+  for (Index q = 0; q < coarse.size(); ++q) {
+    for (Offset k = coarse.row[q]; k < coarse.row[q + 1]; ++k) position_[coarse.column[k]] = k;
+    for (Offset k = A.row[q]; k < A.row[q + 1]; ++k) {
+      assert(coarse.column[position_[A.column[k]]] == A.column[k] && position_[A.column[k]] >= coarse.row[q]);
+      std::copy_n(A.at(k), B * B, coarse.at(position_[A.column[k]]));
+    }
+  }
 }
 
 template <int B>

@@ -5,6 +5,7 @@
 
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
+#include "apps/bench/choice.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
 #include "apps/bench/problems.hpp"
@@ -175,12 +176,13 @@ void run(bool quick) {
 
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
-  bool quick = false, algebraic = false, boundary = false, memory = false, variants = false;
+  bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
   app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
+  app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
@@ -189,7 +191,8 @@ int main(int argc, char** argv) {
     if (boundary) signorini::bench::print_boundary(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
-    if (!algebraic && !boundary && !memory && !variants) signorini::bench::run(quick);
+    if (choice) signorini::bench::print_choice();
+    if (!algebraic && !boundary && !memory && !variants && !choice) signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

@@ -74,13 +74,29 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   times_.setup += watch.elapsed();
 }
 
+/// On nested meshes the matrix of the coarser one is the product that the solver would compute: it takes it over.
+template <int D, int B>
+void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
+  Stopwatch watch;
+  const std::size_t below = algebraic_ + level - 1;
+  DiscreteProblem<B>& shared = coarse.discretization.problem;
+  if (galerkin_.size() == below && is_galerkin(shared, prolongations_[below], problem)) {
+    galerkin_.push_back({std::move(shared.A), std::move(shared.fixed), false});
+    problem.galerkin = galerkin_;
+  } else {
+    galerkin_.clear();
+  }
+  times_.setup += watch.elapsed();
+}
+
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
 template <int D, int B>
-Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
+Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
     solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
+    share_matrix(coarse, level, problem);
   } else if (level == 0 && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
@@ -99,10 +115,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
   solution.summary =
       signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
                           solution.x, finest ? options_ : loose(options_), registry_, monitor_);
-  if (level == 0) {
-    solution.discretization.problem.galerkin = {};
-    galerkin_.clear();
-  }
+  solution.discretization.problem.galerkin = {};
+  if (finest) galerkin_.clear();
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
@@ -131,7 +145,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   Solution<B> coarse;
   if (options_.start == "nested")
     for (std::size_t level = 0; level < finest; ++level)
-      if (!try_level(model, level, coarse)) coarse = {};
+      if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
   solve_level(model, finest, solution);

@@ -38,7 +38,8 @@ class NestedSolver {
 
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
-  Solution<B> begin_level(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
+  Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
@@ -51,7 +52,7 @@ class NestedSolver {
   const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
-  std::vector<GalerkinMatrix<B>> galerkin_;  // their matrices, until the problem that they were made for is solved
+  std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below that at work, as far as they are known
   bool continued_ = false;
 };
 

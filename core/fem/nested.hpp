@@ -15,4 +15,9 @@ template <int B>
 std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vector<double>& x,
                                 const Prolongation& prolongation, const DiscreteProblem<B>& fine);
 
+/// Whether the matrix of the coarse problem is the Galerkin product P'AP of the fine one, as for nested elements with
+/// the same coefficients: compares the energies of one random vector on both levels.
+template <int B>
+bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine);
+
 }  // namespace signorini

@@ -73,6 +73,7 @@ template <int B>
 struct GalerkinMatrix {
   BlockMatrix<B> A;
   std::vector<Flags> off;  ///< per vector: components prescribed, or without any fine function
+  bool complete = true;    ///< whether A stores a coupling wherever truncation may leave one, even where it is zero
 };
 
 /// min 1/2 x'Ax - b'x with x within bounds: what the solver is given. All of it is in local coordinates. A component
