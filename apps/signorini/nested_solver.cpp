@@ -99,6 +99,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
   solution.summary =
       signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
                           solution.x, finest ? options_ : loose(options_), registry_, monitor_);
+  solution.summary.finest_level = static_cast<int>(level);
   if (level == 0) {
     solution.discretization.problem.galerkin = {};
     galerkin_.clear();

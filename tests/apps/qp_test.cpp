@@ -85,6 +85,7 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
   EXPECT_EQ(r.at("converged"), true);
   EXPECT_EQ(r.at("unknowns"), n);
   EXPECT_EQ(r.at("levels").back().at("unknowns"), n);
+  EXPECT_EQ(r.at("levels").back().at("level"), 0) << "the matrix";
   EXPECT_EQ(r.at("active").at("lower"), touching);
   EXPECT_EQ(r.at("active").at("upper"), 0);
   for (const char* key : {"residual", "algebraic_error", "energy", "rate"})
