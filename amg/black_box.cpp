@@ -15,6 +15,7 @@
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/configuration.hpp"
 
 namespace signorini {
 namespace {
@@ -54,9 +55,9 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
     problem_.fixed.assign(static_cast<std::size_t>(A.rows) / B, 0);
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
-    const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
-    levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer)
-                    : algebraic_hierarchy<B>(problem_, transfer);
+    check_options(options_);
+    levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer())
+                    : algebraic_hierarchy<B>(problem_, transfer());
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }
@@ -70,15 +71,29 @@ class BlackBox::BlockSolver final : public Solver {
     check_finite("b", b);
     problem_.b.assign(b.begin(), b.end());
     problem_.constraints = box<B>(n, lower, upper);
+    if (!algebraic_settings(options_).only_twins) return solve(levels_, start, monitor);
+    const auto bounded = galerkin_hierarchy<B>(problem_, levels_.prolongations, transfer(), {.only_twins = true});
+    return solve(bounded, start, monitor);
+  }
+
+ private:
+  TransferFactory<B> transfer() const {
+    return [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  }
+
+  /// @param levels for the bounds of the problem
+  Result solve(const AlgebraicLevels<B>& levels, std::span<const double> start, const Monitor& monitor) {
+    const std::size_t n = problem_.b.size();
+    problem_.galerkin = levels.matrices;
     Result result;
     if (start.empty()) {
-      result.x = nested_start<B>(problem_, levels_.prolongations, loose(options_), registry_, monitor);
+      result.x = nested_start<B>(problem_, levels.prolongations, loose(options_), registry_, monitor);
     } else {
       check_size("start", start, n);
       check_finite("start", start);
       result.x.assign(start.begin(), start.end());
     }
-    result.summary = signorini::solve<B>(problem_, levels_.prolongations, result.x, options_, registry_, monitor);
+    result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
     result.multiplier.resize(n);
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
@@ -86,7 +101,6 @@ class BlackBox::BlockSolver final : public Solver {
     return result;
   }
 
- private:
   void recognise_unbounded(Result& result) const {
     if (!falls_forever(problem_, result.x)) return;
     result.summary.outcome = Outcome::unbounded;

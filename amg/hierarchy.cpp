@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "amg/classical.hpp"
+#include "amg/reach.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -15,11 +16,17 @@ constexpr double progress = 0.8;  // coarse over fine vectors above which coarse
 template <int B>
 class Descent {
  public:
-  explicit Descent(const DiscreteProblem<B>& problem) : level_(finest_level(problem)) { level_.clear_phases(); }
+  Descent(const DiscreteProblem<B>& problem, const AlgebraicSettings& settings)
+      : level_(finest_level(problem)), settings_(settings) {
+    level_.clear_phases();
+  }
 
   const Level<B>& level() const { return level_; }
 
   void go_down(Prolongation P, Transfer<B>& transfer) {
+    P.algebraic = true;
+    P.local = settings_.local;
+    if (settings_.only_twins) reach_from_twins(level_.constraints.slot, P);
     Level<B> coarse;
     transfer.prepare(level_, P, true, coarse);
     coarse.clear_phases();
@@ -43,6 +50,7 @@ class Descent {
   }
 
   Level<B> level_;
+  AlgebraicSettings settings_;
   std::vector<Prolongation> prolongations_;  // finest first
   std::vector<GalerkinMatrix<B>> matrices_;
 };
@@ -51,8 +59,8 @@ class Descent {
 
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough) {
-  Descent<B> descent(problem);
+                                       Index enough, const AlgebraicSettings& settings) {
+  Descent<B> descent(problem, settings);
   while (descent.level().vectors > enough) {
     Prolongation P = classical_interpolation(*descent.level().A, descent.level().off);
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
@@ -63,21 +71,24 @@ AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const 
 
 template <int B>
 AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
-                                      const TransferFactory<B>& transfer) {
-  Descent<B> descent(problem);
+                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings) {
+  Descent<B> descent(problem, settings);
   for (; !prolongations.empty(); prolongations.pop_back())
     descent.go_down(std::move(prolongations.back()), *transfer());
   return std::move(descent).levels();
 }
 
-template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index);
-template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index);
-template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index);
+template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index,
+                                                const AlgebraicSettings&);
+template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index,
+                                                const AlgebraicSettings&);
+template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index,
+                                                const AlgebraicSettings&);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
-                                               const TransferFactory<1>&);
+                                               const TransferFactory<1>&, const AlgebraicSettings&);
 template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,
-                                               const TransferFactory<2>&);
+                                               const TransferFactory<2>&, const AlgebraicSettings&);
 template AlgebraicLevels<3> galerkin_hierarchy(const DiscreteProblem<3>&, std::vector<Prolongation>,
-                                               const TransferFactory<3>&);
+                                               const TransferFactory<3>&, const AlgebraicSettings&);
 
 }  // namespace signorini

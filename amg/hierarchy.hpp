@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/solver/components.hpp"
+#include "core/solver/configuration.hpp"
 
 namespace signorini {
 
@@ -15,6 +16,9 @@ struct AlgebraicLevels {
   std::vector<GalerkinMatrix<B>> matrices;  ///< one for each prolongation
 };
 
+/// On which coarsening ends.
+inline constexpr Index enough_vectors = 400;
+
 template <int B>
 using TransferFactory = std::function<std::unique_ptr<Transfer<B>>()>;
 
@@ -23,12 +27,12 @@ using TransferFactory = std::function<std::unique_ptr<Transfer<B>>()>;
 /// @param transfer makes the transfers whose Galerkin products the coarser levels are chosen by
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough = 400);
+                                       Index enough = enough_vectors, const AlgebraicSettings& settings = {});
 
-/// The matrices of given levels.
+/// The matrices of given levels, whose interpolations are changed to what the settings want.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`
 template <int B>
 AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
-                                      const TransferFactory<B>& transfer);
+                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings = {});
 
 }  // namespace signorini

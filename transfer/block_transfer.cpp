@@ -38,12 +38,12 @@ void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>
   for (Index q = 0; q < coarse.vectors; ++q) {
     const Index p = twins[q];
     if (p < 0) continue;
-    const double* Q = fine.frames.at(p);
+    const double* Q = frames(fine).at(p);
     if (!Q) {
       coarse.off[q] = fine.off[p];
     } else if (rotate) {
       coarse.off[q] = fine.off[p];
-      coarse.frames.add(coarse.off.size(), q, Q, fine.frames.dual_at(p));
+      coarse.frames.add(coarse.off.size(), q, Q, frames(fine).dual_at(p));
     }
   }
 }
@@ -75,10 +75,10 @@ void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Inde
                                          Level<B>& coarse) const {
   for (Index p = first; p < last; ++p, r += B) {
     double global[B];
-    if (modifier::is_plain<B>(fine, p)) {
+    if (modifier::is_plain<B>(fine, frames(fine), p)) {
       for (int i = 0; i < B; ++i) global[i] = r[i];
     } else {
-      modifier::force_to_global<B>(fine, p, r, global);
+      modifier::force_to_global<B>(fine, frames(fine), p, r, global);
     }
     for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) {
       double* b = coarse.own_b.data() + Offset{P_->column[k]} * B;
@@ -117,11 +117,11 @@ void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine, 
     for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
       for (int i = 0; i < B; ++i) global[i] += P_->weight[k] * coarse.x[Offset{P_->column[k]} * B + i];
     double* x = fine.x + Offset{p} * B;
-    if (modifier::is_plain<B>(fine, p)) {
+    if (modifier::is_plain<B>(fine, frames(fine), p)) {
       for (int i = 0; i < B; ++i) x[i] += global[i];
     } else {
       double local[B];
-      modifier::value_to_local<B>(fine, p, global, local);
+      modifier::value_to_local<B>(fine, frames(fine), p, global, local);
       for (int i = 0; i < B; ++i) x[i] += local[i];
     }
   }

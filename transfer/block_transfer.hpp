@@ -19,6 +19,8 @@ class BlockTransfer : public Transfer<B> {
 
  protected:
   const Prolongation& weights() const { return *P_; }
+  /// Those that matter to interpolation.
+  const Frames<B>& frames(const Level<B>& fine) const { return P_->local ? no_frames_ : fine.frames; }
 
  private:
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
@@ -38,6 +40,7 @@ class BlockTransfer : public Transfer<B> {
     double weight;
   };
   const Prolongation* P_ = nullptr;
+  const Frames<B> no_frames_;
   std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to
   std::vector<Child> child_;
   std::vector<Flags> prescribed_;  // per coarse vector: components off whatever is truncated

@@ -166,14 +166,14 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q) {
   for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
     const Index p = child_[c].vector;
     if (fine.removed[p] == all) continue;
-    const bool plain = modifier::is_plain<B>(fine, p);
+    const bool plain = modifier::is_plain<B>(fine, frames(fine), p);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k];
       if (fine.removed[r] == all) continue;
       const double* M = A.at(k);
       double modified[B * B];
-      if (!plain || !modifier::is_plain<B>(fine, r)) {
-        modifier::block_to_global<B>(fine, p, r, M, modified);
+      if (!plain || !modifier::is_plain<B>(fine, frames(fine), r)) {
+        modifier::block_to_global<B>(fine, frames(fine), p, r, M, modified);
         M = modified;
       }
       if (place_[r] < 0) {

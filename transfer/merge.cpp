@@ -12,8 +12,8 @@ constexpr double negligible = 1e-14;
 
 // d(fine direction) / d(coarse component j), for weight one
 template <int B>
-void coupling(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, Index q, double* M) {
-  const double *Np = fine.frames.dual_at(p), *Qq = coarse.frames.at(q);
+void coupling(const Frames<B>& fine, Index p, int direction, const Level<B>& coarse, Index q, double* M) {
+  const double *Np = fine.dual_at(p), *Qq = coarse.frames.at(q);
   for (int j = 0; j < B; ++j) {
     M[j] = 0;
     for (int i = 0; i < B; ++i)
@@ -115,7 +115,8 @@ template <int B, Share share>
 void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse,
                               std::vector<Term>& terms) const {
   terms.clear();
-  const bool plain = fine.frames.slot.empty() && coarse.frames.slot.empty();  // every direction couples to itself alone
+  const bool plain =
+      this->frames(fine).slot.empty() && coarse.frames.slot.empty();  // every direction couples to itself alone
   const Prolongation& P = this->weights();
   for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
     const Index q = P.column[k];
@@ -125,7 +126,7 @@ void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, cons
       continue;
     }
     double M[B];
-    coupling<B>(fine, p, direction, coarse, q, M);
+    coupling<B>(this->frames(fine), p, direction, coarse, q, M);
     for (int j = 0; j < B; ++j)
       if (const double weight = P.weight[k] * M[j]; weight != 0) terms.push_back({at + j, weight});
   }

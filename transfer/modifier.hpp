@@ -3,12 +3,12 @@
 #include "core/solver/level.hpp"
 
 /// The small blocks at vectors that are not plain: rotations between local and global coordinates, and the removal of
-/// components that do not interpolate.
+/// components that do not interpolate. `frames` are those of the level that count for interpolation.
 namespace signorini::modifier {
 
 template <int B>
-inline bool is_plain(const Level<B>& level, Index p) {
-  return level.removed[p] == 0 && (B == 1 || !level.frames.at(p));
+inline bool is_plain(const Level<B>& level, const Frames<B>& frames, Index p) {
+  return level.removed[p] == 0 && (B == 1 || !frames.at(p));
 }
 
 template <int B>
@@ -19,8 +19,9 @@ inline void drop(Flags components, double* x) {
 
 /// local = D N' global: what an interpolated value does to the components that take part
 template <int B>
-inline void value_to_local(const Level<B>& level, Index p, const double* global, double* local) {
-  if (const double* N = level.frames.dual_at(p))
+inline void value_to_local(const Level<B>& level, const Frames<B>& frames, Index p, const double* global,
+                           double* local) {
+  if (const double* N = frames.dual_at(p))
     block::transposed_product<B>(N, global, local);
   else
     for (int k = 0; k < B; ++k) local[k] = global[k];
@@ -29,11 +30,12 @@ inline void value_to_local(const Level<B>& level, Index p, const double* global,
 
 /// global = N D local, the transposed of value_to_local
 template <int B>
-inline void force_to_global(const Level<B>& level, Index p, const double* local, double* global) {
+inline void force_to_global(const Level<B>& level, const Frames<B>& frames, Index p, const double* local,
+                            double* global) {
   double kept[B];
   for (int k = 0; k < B; ++k) kept[k] = local[k];
   drop<B>(level.removed[p], kept);
-  if (const double* N = level.frames.dual_at(p))
+  if (const double* N = frames.dual_at(p))
     block::product<B>(N, kept, global);
   else
     for (int k = 0; k < B; ++k) global[k] = kept[k];
@@ -51,12 +53,13 @@ inline void force_to_local(const Level<B>& level, Index q, const double* global,
 
 /// M = N_p D_p A D_r N_r' for the matrix block A between p and r in local coordinates
 template <int B>
-inline void block_to_global(const Level<B>& level, Index p, Index r, const double* A, double* M) {
+inline void block_to_global(const Level<B>& level, const Frames<B>& frames, Index p, Index r, const double* A,
+                            double* M) {
   double T[B * B];
   for (int i = 0; i < B; ++i)
     for (int j = 0; j < B; ++j)
       T[i * B + j] = (level.removed[p] >> i & 1u) || (level.removed[r] >> j & 1u) ? 0 : A[i * B + j];
-  const double *Np = level.frames.dual_at(p), *Nr = level.frames.dual_at(r);
+  const double *Np = frames.dual_at(p), *Nr = frames.dual_at(r);
   double S[B * B];
   if (Np)
     block::multiply<B>(Np, T, S);

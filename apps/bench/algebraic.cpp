@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "amg/black_box.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/matrices.hpp"
@@ -61,6 +63,87 @@ void compare(const Case& c, int uniform) {
   std::fflush(stdout);
 }
 
+/// Cells along an edge of the coarsest mesh, which is refined once.
+struct Hybrid {
+  const char* name;
+  const char* scene;
+  int dimension;
+  std::vector<int> cells;
+};
+
+std::string cells(int dimension, int along_edge) {
+  return dimension == 2 ? fmt::format("body.0.cells=[{0}, {0}]", along_edge)
+                        : fmt::format("body.0.cells=[{0}, {0}, {0}]", along_edge);
+}
+
+/// The whole solve, meshes and the assembly of the finest matrix left out.
+template <int D, int B>
+Timed hybrid(const Hybrid& c, int along_edge, const std::vector<std::string>& solver) {
+  std::vector<std::string> overrides{cells(c.dimension, along_edge), "refine.uniform=1"};
+  overrides.insert(overrides.end(), solver.begin(), solver.end());
+  const Problem problem(c.name, c.scene, overrides);
+  const Solved solved = solve_nonlinear<D, B>(problem, build_hierarchy<D>(problem.scene, B));
+  return {solved.times.setup, solved.times.solve, solved.summary};
+}
+
+template <int D, int B>
+void compare_coarse_solvers(const Hybrid& c, bool quick) {
+  const int most = quick ? 2 : 4;
+  for (int k = 0; k < most; ++k) {
+    const Timed usual = hybrid<D, B>(c, c.cells[k], {});
+    const Timed one_level = hybrid<D, B>(c, c.cells[k], {"solver.algebraic=false"});
+    const Timed sweeps =
+        hybrid<D, B>(c, c.cells[k], {"solver.algebraic=false", "solver.coarse=pgs", "solver.method=monotone"});
+    const auto time = [](const Timed& t) { return t.setup + t.solve; };
+    const auto over = [&](const Timed& t) {
+      return fmt::format("{}{} | {:.2f}", t.summary.converged() ? "" : "> ", t.summary.iterations,
+                         time(t) / time(usual));
+    };
+    fmt::print("| {} | {} | {} | {:.0f} | {} | {:.3f} | {} | {} |\n", c.name,
+               B * static_cast<int>(std::pow(c.cells[k] + 1, D)), usual.summary.level_number(0),
+               static_cast<double>(usual.summary.level_unknowns.back()), usual.summary.iterations, time(usual),
+               over(one_level), over(sweeps));
+    std::fflush(stdout);
+  }
+}
+
+void print_coarse_solvers(bool quick) {
+  fmt::print(
+      "\n## Coarse solvers below a mesh\n\n| problem | coarsest mesh's unknowns | coarsest level | finest mesh's | "
+      "cycles | s | cycles without algebraic levels | time over | cycles with Gauss-Seidel | time over |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  compare_coarse_solvers<2, 1>({"S2", "obstacle_radial_2d.toml", 2, {24, 70, 199, 315}}, quick);
+  compare_coarse_solvers<3, 3>({"E3", "cube_on_bump.toml", 3, {5, 11, 23, 32}}, quick);
+}
+
+/// The black box on meshes of three sizes.
+template <int D, int B>
+void grow(const Hybrid& c, bool quick) {
+  int first = 0;
+  for (std::size_t k = 0; k < c.cells.size() - (quick ? 1 : 0); ++k) {
+    const Problem problem(c.name, c.scene, {cells(c.dimension, c.cells[k]), "refine.uniform=0"});
+    const MatrixProblem matrix = matrix_problem(discretize<D, B>(build_hierarchy<D>(problem.scene, B).finest(),
+                                                                 build_model<B>(problem.scene, D, problem.registry, 1))
+                                                    .problem);
+    const Timed box = black_box<B>(matrix);
+    if (first == 0) first = box.summary.iterations;
+    fmt::print("| {} | {} | {}{} | {:.2f} | {:.2f} |\n", c.name, matrix.A.rows, box.summary.iterations,
+               box.summary.converged() ? "" : " (limit)", static_cast<double>(box.summary.iterations) / first,
+               1e6 * (box.setup + box.solve) / matrix.A.rows);
+    std::fflush(stdout);
+  }
+}
+
+void print_growth(bool quick) {
+  fmt::print(
+      "\n## Cycles of the black box from 1e4 to 1e6 unknowns\n\n| problem | unknowns | cycles | over the first | "
+      "set-up and "
+      "solve, s per million unknowns |\n| --- | --- | --- | --- | --- |\n");
+  grow<2, 1>({"S2", "obstacle_radial_2d.toml", 2, {100, 316, 1000}}, quick);
+  grow<3, 1>({"S3", "obstacle_cube_3d.toml", 3, {22, 46, 100}}, quick);
+  grow<3, 3>({"E3", "cube_on_bump.toml", 3, {14, 32, 69}}, quick);
+}
+
 }  // namespace
 
 void print_algebraic(bool quick) {
@@ -75,6 +158,8 @@ void print_algebraic(bool quick) {
   for (int k = s2.first; k <= s2.last - less; ++k) compare<2, 1>(s2, k);
   for (int k = s3.first; k <= s3.last - less; ++k) compare<3, 1>(s3, k);
   for (int k = e3.first; k <= e3.last - less; ++k) compare<3, 3>(e3, k);
+  print_growth(quick);
+  print_coarse_solvers(quick);
 }
 
 }  // namespace signorini::bench

@@ -92,27 +92,68 @@ double complexity(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
   return all / finest;
 }
 
+/// A matrix with its levels, and as yet no right-hand side.
+template <int B>
+struct AlgebraicProblem {
+  const Registry registry = solver_components();
+  DiscreteProblem<B> problem;
+  AlgebraicLevels<B> levels;
+
+  explicit AlgebraicProblem(const SparseRows& A) {
+    const auto n = static_cast<std::size_t>(A.rows);
+    problem.A = block_matrix<B>(A);
+    problem.b.assign(n, 0.0);
+    problem.fixed.assign(n / B, 0);
+    problem.start.assign(n, 0.0);
+    levels = algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
+    problem.galerkin = levels.matrices;
+  }
+};
+
 }  // namespace
 
 template <int B>
+struct AlgebraicCycle<B>::Parts {
+  AlgebraicProblem<B> given;
+  MonotoneMultigrid<B> multigrid;
+
+  explicit Parts(const SparseRows& A)
+      : given(A), multigrid(given.problem, given.levels.prolongations, symmetric_cycle<B>(given.registry), {}) {}
+};
+
+template <int B>
+AlgebraicCycle<B>::AlgebraicCycle(const SparseRows& A) : parts_(std::make_unique<Parts>(A)) {}
+
+template <int B>
+AlgebraicCycle<B>::~AlgebraicCycle() = default;
+
+template <int B>
+void AlgebraicCycle<B>::apply(const double* r, double* z) {
+  std::vector<double>& b = parts_->given.problem.b;
+  std::copy(r, r + b.size(), b.begin());
+  std::fill_n(z, b.size(), 0.0);
+  parts_->multigrid.cycle(z);
+}
+
+template <int B>
+double AlgebraicCycle<B>::complexity() const {
+  return bench::complexity(parts_->given.problem.A, parts_->given.levels);
+}
+
+template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance) {
-  const Registry registry = solver_components();
   Stopwatch watch;
-  DiscreteProblem<B> problem;
-  problem.A = block_matrix<B>(A);
-  problem.b.assign(b.begin(), b.end());
-  problem.fixed.assign(b.size() / B, 0);
-  problem.start.assign(b.size(), 0.0);
-  const auto levels =
-      algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
+  AlgebraicProblem<B> given(A);
+  given.problem.b.assign(b.begin(), b.end());
   const double hierarchy = watch.elapsed();
-  problem.galerkin = levels.matrices;
-  LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, tolerance);
+  LinearSolve result = multigrid_cg<B>(given.problem, given.levels.prolongations, given.registry, tolerance);
   result.setup += hierarchy;
-  result.complexity = complexity(problem.A, levels);
+  result.complexity = complexity(given.problem.A, given.levels);
   return result;
 }
 
+template class AlgebraicCycle<1>;
+template class AlgebraicCycle<3>;
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
@@ -22,7 +24,26 @@ template <int B>
 LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                          const Registry& registry, double tolerance);
 
-/// The same on levels that the matrix gives, B rows to a vector.
+/// One symmetric V(1,1) cycle on levels that a matrix gives, B rows to a vector, as a preconditioner.
+template <int B>
+class AlgebraicCycle {
+ public:
+  explicit AlgebraicCycle(const SparseRows& A);
+  ~AlgebraicCycle();
+  AlgebraicCycle(const AlgebraicCycle&) = delete;
+  AlgebraicCycle& operator=(const AlgebraicCycle&) = delete;
+
+  /// z = M^-1 r
+  void apply(const double* r, double* z);
+  /// Entries of the matrices of all levels over those of the finest.
+  double complexity() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Conjugate gradients on such levels.
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance);
 

@@ -1,10 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/solver/options.hpp"
 
 namespace signorini {
 
@@ -23,7 +23,9 @@ struct QpArguments {
   std::filesystem::path matrix, load, lower, upper, start;
   std::filesystem::path out, report;
   int block = 1;
-  SolverOptions options;
+  std::vector<std::string> settings;  ///< "solver.cycle=W"
+  std::optional<double> tolerance;    ///< go before those
+  std::optional<std::string> method;
 };
 
 Exit qp_command(const QpArguments& arguments);

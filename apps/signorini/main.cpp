@@ -118,15 +118,21 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
       ->capture_default_str();
-  command->add_option("--tol", qp.options.tolerance, "bound for the residual and the algebraic error, both relative")
+  command->add_option("--tol", qp.tolerance, "bound for the residual and the algebraic error, both relative")
       ->check([](const std::string& found) {
         const double tolerance = std::strtod(found.c_str(), nullptr);
         return tolerance > 0 && tolerance < 1 ? "" : "found '" + found + "', expected a number between 0 and 1";
       })
-      ->capture_default_str();
-  command->add_option("--method", qp.options.method, "see docs/solver.md")
+      ->default_str("1e-08");
+  command->add_option("--method", qp.method, "see docs/solver.md")
       ->check(one_of({"auto", "monotone", "tnnmg", "pgs", "pdas"}))
-      ->capture_default_str();
+      ->default_str("auto");
+  command
+      ->add_option(
+          "--set", qp.settings,
+          "further options of the solver, such as solver.reassemble=false; may be repeated; see docs/solver.md")
+      ->type_name("solver.KEY=VALUE")
+      ->allow_extra_args(false);
   command->footer(std::string(solve_notes) + qp_notes);
   return command;
 }

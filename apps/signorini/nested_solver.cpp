@@ -64,8 +64,9 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   continued_ = true;
   if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
   Stopwatch watch;
-  auto below =
-      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  auto below = algebraic_hierarchy<B>(
+      coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); }, enough_vectors,
+      algebraic_settings(options_));
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
                         std::make_move_iterator(below.prolongations.end()));
@@ -117,6 +118,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
                           solution.x, finest ? options_ : loose(options_), registry_, monitor_);
   solution.discretization.problem.galerkin = {};
   if (finest) galerkin_.clear();
+  solution.summary.finest_level = static_cast<int>(level);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();

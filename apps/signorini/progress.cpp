@@ -27,8 +27,9 @@ void print_summary(const Summary& summary, bool solved) {
   const std::vector<Index>& unknowns = summary.level_unknowns;
   fmt::print("{}", convergence_table(summary.history));
   fmt::print("{}: {}\n", solved ? "solved" : "not solved", summary.reason);
-  fmt::print("{} unknowns on {} levels, {} iterations, rate {:.3f}, energy {:.10g}\n",
-             unknowns.empty() ? 0 : unknowns.back(), unknowns.size(), summary.iterations, summary.rate, summary.energy);
+  fmt::print("{} unknowns on {} levels ({} to {}), {} iterations, rate {:.3f}, energy {:.10g}\n",
+             unknowns.empty() ? 0 : unknowns.back(), unknowns.size(), summary.level_number(0), summary.finest_level,
+             summary.iterations, summary.rate, summary.energy);
 }
 
 void print_of_written(const std::function<void()>& print) {

@@ -10,6 +10,7 @@
 #include "core/io/atomic_files.hpp"
 #include "core/io/matrix_market.hpp"
 #include "core/io/report.hpp"
+#include "core/scene/solver_options.hpp"
 
 namespace signorini {
 namespace fs = std::filesystem;
@@ -59,11 +60,20 @@ Active active(const std::vector<double>& x, const Vectors& vectors) {
   return count;
 }
 
+SolverOptions options_of(const QpArguments& arguments) {
+  SolverOptions options = solver_options(arguments.settings);
+  options.tolerance = arguments.tolerance.value_or(options.tolerance);
+  options.method = arguments.method.value_or(options.method);
+  return options;
+}
+
 /// One run of `signorini qp`.
 class QpRun {
  public:
   explicit QpRun(const QpArguments& arguments)
-      : arguments_(arguments), wants_solution_(!arguments.out.empty() && arguments.out != "-") {}
+      : arguments_(arguments),
+        options_(options_of(arguments)),
+        wants_solution_(!arguments.out.empty() && arguments.out != "-") {}
 
   Exit run() {
     read();
@@ -94,7 +104,7 @@ class QpRun {
   BlackBox set_up() {
     progress_.phase(fmt::format("setting up {} unknowns", matrix_.rows));
     try {
-      return BlackBox(std::exchange(matrix_, {}), arguments_.block, arguments_.options);
+      return BlackBox(std::exchange(matrix_, {}), arguments_.block, options_);
     } catch (const Error& error) {
       throw Error(error.status(), fmt::format("{}: {}", arguments_.matrix.string(), error.what()));
     }
@@ -142,6 +152,7 @@ class QpRun {
   }
 
   const QpArguments& arguments_;
+  const SolverOptions options_;
   const bool wants_solution_;
   const Progress progress_{false};
   Stopwatch watch_, lap_;

@@ -62,7 +62,6 @@ class SolveRun {
     Stopwatch watch;
     const Mesh<D>& mesh = hierarchy_.finest();
     results_ = results<D, B>(mesh, model, solution);
-    report_.level_unknowns = solution.summary.level_unknowns;
     report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
                                               judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
     vtu_.add(mesh, scene_.output.vtu ? point_fields(mesh, results_) : std::vector<VtuField>(), model.t);

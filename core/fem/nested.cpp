@@ -59,7 +59,7 @@ std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vec
     for (Offset k = prolongation.row[p]; k < prolongation.row[p + 1]; ++k)
       for (int i = 0; i < B; ++i)
         out[Offset{p} * B + i] += prolongation.weight[k] * u[Offset{prolongation.column[k]} * B + i];
-  out = to_local(fine, std::move(out));
+  if (!prolongation.local) out = to_local(fine, std::move(out));
   for (std::size_t k = 0; k < out.size(); ++k)
     if (fine.fixed[k / B] >> (k % B) & 1) out[k] = fine.start[k];
   return out;

@@ -31,8 +31,9 @@ std::string phases_csv(const std::vector<const Summary*>& steps) {
     for (const IterationRecord& record : steps[step]->history)
       for (std::size_t k = 0; k < record.levels.size(); ++k) {
         const LevelReport& level = record.levels[k];
-        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3e}\n", step + 1, record.iteration, k, level.vectors,
-                           level.critical, fmt::join(level.contact, ","), level.changed, level.renewed, level.seconds);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{:.3e}\n", step + 1, record.iteration, steps[step]->level_number(k),
+                           level.vectors, level.critical, fmt::join(level.contact, ","), level.changed, level.renewed,
+                           level.seconds);
       }
   return csv;
 }

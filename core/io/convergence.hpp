@@ -14,7 +14,8 @@ std::string convergence_row(const IterationRecord& record);
 
 /// The histories of all steps as comma-separated values in full precision, with a heading.
 std::string convergence_csv(const std::vector<const Summary*>& steps);
-/// The same per level (coarsest first): phases and rows recomputed, contact by direction in local coordinates.
+/// The same per level (coarsest first; algebraic ones have negative numbers): phases and rows recomputed, contact by
+/// direction in local coordinates.
 std::string phases_csv(const std::vector<const Summary*>& steps);
 
 }  // namespace signorini

@@ -14,19 +14,23 @@ Json array(const std::vector<T>& list, Convert convert) {
   return result;
 }
 
-Json level(const LevelReport& level) {
-  return {{"vectors", level.vectors}, {"critical", level.critical}, {"contact", level.contact},
-          {"changed", level.changed}, {"renewed", level.renewed},   {"seconds", level.seconds}};
+Json level(const LevelReport& level, int number) {
+  return {{"level", number},          {"vectors", level.vectors}, {"critical", level.critical},
+          {"contact", level.contact}, {"changed", level.changed}, {"renewed", level.renewed},
+          {"seconds", level.seconds}};
 }
 
-Json record(const IterationRecord& record) {
+Json record(const Summary& summary, const IterationRecord& record) {
+  Json levels = Json::array();
+  for (std::size_t k = 0; k < record.levels.size(); ++k)
+    levels.push_back(level(record.levels[k], summary.level_number(k)));
   return {{"iteration", record.iteration},
           {"residual", record.residual},
           {"algebraic_error", record.algebraic_error},
           {"energy", record.energy},
           {"contact_nodes", record.contact_nodes},
           {"changed", record.changed},
-          {"levels", array(record.levels, level)}};
+          {"levels", std::move(levels)}};
 }
 
 Json contact(const ContactReport& contact) {
@@ -54,11 +58,14 @@ Json solver(const SolverOptions& options) {
           {"transfer", options.transfer}, {"coarse", options.coarse},     {"truncate", options.truncate}};
 }
 
-Json levels(const std::vector<Index>& unknowns) {
+Json levels(const Summary& summary) {
   Json result = Json::array();
-  for (std::size_t k = 0; k < unknowns.size(); ++k) result.push_back({{"level", k}, {"unknowns", unknowns[k]}});
+  for (std::size_t k = 0; k < summary.level_unknowns.size(); ++k)
+    result.push_back({{"level", summary.level_number(k)}, {"unknowns", summary.level_unknowns[k]}});
   return result;
 }
+
+Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
 
 void add_summary(Json& json, const Summary& summary) {
   json["iterations"] = summary.iterations;
@@ -103,10 +110,7 @@ bool Report::converged() const {
 }
 
 Json to_json(const Summary& summary) {
-  const std::vector<Index>& unknowns = summary.level_unknowns;
-  Json json{{"converged", summary.converged()},
-            {"unknowns", unknowns.empty() ? 0 : unknowns.back()},
-            {"levels", levels(unknowns)}};
+  Json json{{"converged", summary.converged()}, {"unknowns", unknowns(summary)}, {"levels", levels(summary)}};
   add_summary(json, summary);
   finite_or_null(json);
   return json;
@@ -117,10 +121,11 @@ Json to_json(const Report& report) {
             {"title", report.title},
             {"dimension", report.dimension},
             {"converged", report.converged()},
-            {"unknowns", report.level_unknowns.empty() ? 0 : report.level_unknowns.back()},
-            {"levels", levels(report.level_unknowns)}};
+            {"unknowns", unknowns(report.last().summary)},
+            {"levels", levels(report.last().summary)}};
   add_summary(json, report.last().summary);
-  json["history"] = array(report.last().summary.history, record);
+  const Summary& last = report.last().summary;
+  json["history"] = array(last.history, [&](const IterationRecord& cycle) { return record(last, cycle); });
   json["time"] = time(report.time);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());

@@ -45,8 +45,7 @@ struct StepReport {
 struct Report {
   std::string scene, title;
   int dimension = 0;
-  std::vector<Index> level_unknowns;  ///< coarsest first
-  std::vector<StepReport> steps;      ///< at least one; the top-level keys are those of the last
+  std::vector<StepReport> steps;  ///< at least one; the top-level keys are those of the last
   std::vector<std::string> warnings;
   std::vector<PluginReport> plugins;
   Times time;

@@ -44,6 +44,9 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.cut = reader.number("cut");
   solver.rotate = reader.text("rotate");
   solver.algebraic = reader.flag("algebraic");
+  solver.reassemble = reader.flag("reassemble");
+  solver.reach = reader.text("reach");
+  solver.interpolate = reader.text("interpolate");
   solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");
   solver.threads = reader.integer("threads");

@@ -28,7 +28,7 @@ class Smoother {
 };
 
 /// Which coarse vectors take over the frame of their twin on the next finer level.
-enum class Rotate { all, not_coarsest, none };
+enum class Rotate { all, not_coarsest, meshes, none };
 
 /// The connection of a level with the next coarser one. Interpolation of vector q to p is w_pq R_p C_q with the scalar
 /// weight w, C_q from local to global coordinates and R_p back, R_p without the components removed at p.

@@ -30,6 +30,12 @@ Truncation truncation_of(const SolverOptions& o) {
       {{"none", Truncation::none}, {"normal", Truncation::normal}, {"tangential", Truncation::tangential}});
 }
 
+bool only_twins(const SolverOptions& o) { return choice<bool>("reach", o.reach, {{"all", false}, {"twins", true}}); }
+
+bool local_components(const SolverOptions& o) {
+  return choice<bool>("interpolate", o.interpolate, {{"global", false}, {"local", true}});
+}
+
 }  // namespace
 
 Method check_options(const SolverOptions& o) {
@@ -50,8 +56,12 @@ Method check_options(const SolverOptions& o) {
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
           "a monotone restriction, or method 'tnnmg', whose coarse corrections have no bounds");
+  only_twins(o);
+  local_components(o);
   return method;
 }
+
+AlgebraicSettings algebraic_settings(const SolverOptions& o) { return {only_twins(o), local_components(o)}; }
 
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
@@ -61,7 +71,11 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
           choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
           truncation_of(o),
           choice<Rotate>("rotate", o.rotate,
-                         {{"all", Rotate::all}, {"not_coarsest", Rotate::not_coarsest}, {"none", Rotate::none}}),
+                         {{"all", Rotate::all},
+                          {"not_coarsest", Rotate::not_coarsest},
+                          {"meshes", Rotate::meshes},
+                          {"none", Rotate::none}}),
+          o.reassemble,
           o.relaxation,
           o.threads};
 }

@@ -13,6 +13,15 @@ enum class Method { automatic, monotone, tnnmg, pgs, pdas };
 /// contradict each other.
 Method check_options(const SolverOptions& options);
 
+/// Which interpolations algebraic levels get.
+struct AlgebraicSettings {
+  bool only_twins = false;  ///< constrained vectors from coarse twins of such alone; else what reaches them has bounds
+  bool local = false;       ///< of local components; else of global ones
+};
+
+/// What the options say about algebraic levels. Error(Exit::input) as above.
+AlgebraicSettings algebraic_settings(const SolverOptions& options);
+
 /// What the options say about the cycles. Error(Exit::input) as above, also for components that do not exist.
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& options);

@@ -71,7 +71,8 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
   const bool known = problem.galerkin.size() == prolongations.size() &&
                      (settings.rotate == Rotate::all || problem.frames.slot.empty());
   for (std::size_t k = prolongations.size(); k-- > 0;) {
-    const bool rotate = settings.rotate == Rotate::all || (settings.rotate == Rotate::not_coarsest && k > 0);
+    const bool rotate = settings.rotate == Rotate::all || (settings.rotate == Rotate::not_coarsest && k > 0) ||
+                        (settings.rotate == Rotate::meshes && !prolongations[k].algebraic);
     transfers_[k] = components_.transfer();
     if (known) levels_[k].galerkin = &problem.galerkin[k];
     transfers_[k]->prepare(levels_[k + 1], prolongations[k], rotate, levels_[k]);
@@ -81,8 +82,18 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
     level.relaxation = settings.relaxation;
     level.clear_phases();
   }
+  if (!settings.reassemble)
+    while (lasting_ < prolongations.size() && prolongations[lasting_].algebraic) ++lasting_;
+  if (lasting_ > 0 && !known) assemble_once();
   smoothers_.resize(levels_.size());
   for (std::size_t k = 1; k < levels_.size(); ++k) smoothers_[k] = components_.smoother->on(levels_[k]);
+}
+
+// All coarser matrices before anything is truncated.
+template <int B>
+void MonotoneMultigrid<B>::assemble_once() {
+  for (std::size_t k = transfers_.size(); k-- > 0;) transfers_[k]->assemble(levels_[k + 1], levels_[k]);
+  for (Level<B>& level : levels_) level.renewed.clear();
 }
 
 template <int B>
@@ -105,7 +116,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   if (k == 0) {
     down.run(level.chunks, crew_);
     if (finest) update_phases(level, 0, level.vectors);
-    if (!components_.coarse->solve(level)) report_.bounded = false;
+    if (!components_.coarse->solve(level) && lasting_ == 0) report_.bounded = false;
     level.renewed.clear();
   } else {
     smoothers_[k]->add_passes(settings_.pre, Side::descend, down);
@@ -120,8 +131,8 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     down.run(level.chunks, crew_);
     if (finest) report_.rounding = coarse.inherited_rounding;
     elsewhere = correct(k, cycle);
-    if (finest && line_search_)
-      search(level);
+    if (searches(k))
+      search(k);
     else
       up.add([this, k](Index first, Index last) {
         transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last);
@@ -139,7 +150,12 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   Level<B>& fine = levels_[k];
   Level<B>& coarse = levels_[k - 1];
   Transfer<B>& transfer = *transfers_[k - 1];
-  report_.levels[k - 1].renewed += transfer.assemble(fine, coarse);
+  if (k > lasting_) {
+    report_.levels[k - 1].renewed += transfer.assemble(fine, coarse);
+  } else {
+    fine.changed.clear();
+    fine.renewed.clear();
+  }
   transfer.end_restriction(coarse);
   if (line_search_)
     coarse.constraints.clear_bounds();
@@ -153,15 +169,22 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   return elsewhere;
 }
 
-// prolongate() projects onto the bounds. Where that cuts nothing off, the correction lowers the energy as it is, for it
-// is a linear one in the truncated space. Else the energy has its minimum along the step to there where r'd vanishes;
-// beyond the full step it may go on until it meets a bound.
+// Whether the correction of level k may raise the energy: without bounds, or by a matrix that knows no truncation.
 template <int B>
-void MonotoneMultigrid<B>::search(Level<B>& level) {
+bool MonotoneMultigrid<B>::searches(std::size_t k) const {
+  return (line_search_ && k + 1 == levels_.size()) || (k <= lasting_ && levels_[k].constraints.size() > 0);
+}
+
+// prolongate() projects onto the bounds. Where that cuts nothing off, a correction without bounds lowers the energy as
+// it is, for it is a linear one in the truncated space. Else the energy has its minimum along the step to there where
+// r'd vanishes; beyond the full step it may go on until it meets a bound.
+template <int B>
+void MonotoneMultigrid<B>::search(std::size_t k) {
+  Level<B>& level = levels_[k];
   const auto n = static_cast<std::size_t>(level.vectors) * B;
   start_.assign(level.x, level.x + n);
-  transfers_.back()->prolongate(levels_[levels_.size() - 2], level, 0, level.vectors);
-  if (!meets_bound(level)) return;
+  transfers_[k - 1]->prolongate(levels_[k - 1], level, 0, level.vectors);
+  if (k > lasting_ && !meets_bound(level)) return;
   step_.resize(n);
   product_.resize(n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];
@@ -173,14 +196,14 @@ void MonotoneMultigrid<B>::search(Level<B>& level) {
     energy += step_[i] * product_[i];
     work += step_[i] * r_[i];
   }
-  if (!(energy > 0)) return;
-  double length = std::max(0.0, 1 + work / energy);
+  if (!(energy > 0 || work < 0)) return;
+  double length = energy > 0 ? std::max(0.0, 1 + work / energy) : 0.0;
   const Constraints<B>& c = level.constraints;
   const auto each_bound = [&](const auto& visit) {
     for (Index slot = 0; slot < c.size(); ++slot)
-      for (int k = 0; k < B; ++k) {
-        const Offset at = Offset{slot} * B + k;
-        visit(Offset{c.vector[slot]} * B + k, c.lower[at], c.upper[at]);
+      for (int i = 0; i < B; ++i) {
+        const Offset at = Offset{slot} * B + i;
+        visit(Offset{c.vector[slot]} * B + i, c.lower[at], c.upper[at]);
       }
   };
   each_bound([&](Offset i, double lower, double upper) {

@@ -37,6 +37,7 @@ class MonotoneMultigrid {
     Cycle cycle = Cycle::V;
     Truncation truncate = Truncation::normal;
     Rotate rotate = Rotate::all;
+    bool reassemble = true;   ///< also algebraic levels' matrices; else corrections from there are searched along
     double relaxation = 1.2;  ///< of the sweeps on all levels
     int threads = 1;          ///< results do not depend on it
   };
@@ -62,14 +63,17 @@ class MonotoneMultigrid {
  private:
   void descend(std::size_t k, Cycle cycle, const Passes::Run& before, const Passes::Run& after);
   double correct(std::size_t k, Cycle cycle);
-  void search(Level<B>& level);
+  bool searches(std::size_t k) const;
+  void search(std::size_t k);
   void update_phases(Level<B>& level, Index first, Index last);
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
   void restrict_residual(std::size_t k, Index first, Index last);
+  void assemble_once();
 
   std::vector<Level<B>> levels_;                              // coarsest first
   std::vector<std::unique_ptr<LevelSmoother<B>>> smoothers_;  // per level; none on the coarsest
   std::vector<std::unique_ptr<Transfer<B>>> transfers_;
+  std::size_t lasting_ = 0;  // number of levels whose matrices do not follow the phases: the coarsest ones
   Components<B> components_;
   Settings settings_;
   Crew crew_;

@@ -17,9 +17,12 @@ struct SolverOptions {
   std::string coarse = "newton";       ///< a registered coarse solver
   std::string truncate = "normal";     ///< none, normal or tangential
   double cut = 0;              ///< truncate also at distances up to this part of the last cycle's largest change
-  std::string rotate = "all";  ///< all, not_coarsest or none
-  bool krylov = true;          ///< accelerate the cycles while the phases rest
-  int threads = 1;             ///< at most; small problems start none, and results do not depend on them
+  std::string rotate = "all";  ///< all, not_coarsest, meshes or none
+  bool reassemble = true;      ///< renew the matrices of algebraic levels where phases have changed
+  std::string reach = "all";   ///< all or twins: what corrects constrained vectors from algebraic levels
+  std::string interpolate = "global";  ///< global or local: components between algebraic levels
+  bool krylov = true;                  ///< accelerate the cycles while the phases rest
+  int threads = 1;                     ///< at most; small problems start none, and results do not depend on them
 };
 
 /// For a start on a finer level, which need not be better than the discretisation error.

@@ -15,6 +15,9 @@ struct Prolongation {
   std::vector<double> weight;
   bool midpoints = false;  ///< coarse vectors are coupled only where a fine one lies between them (uniform refinement)
 
+  bool algebraic = false;  ///< the coarse level belongs to no mesh
+  bool local = false;      ///< interpolates the local components of the fine level; the coarse one then has no frames
+
   std::vector<Index> twin;  ///< per coarse vector, -1: none; empty where rows with the single weight one tell
 
   Index fine() const { return static_cast<Index>(row.size()) - 1; }

@@ -49,8 +49,14 @@ struct Summary {
   int linear_phase_from = 0;  ///< first cycle from which no phase changed, 0 if there was none
   std::vector<IterationRecord> history;
   std::vector<Index> level_unknowns;  ///< free unknowns, coarsest level first
+  int finest_level = 0;               ///< its number: 0 is the coarsest mesh, or a matrix without any mesh
   SolverOptions options;              ///< with the method that "auto" stood for
   double setup_seconds = 0, solve_seconds = 0;
+
+  /// The number of level k, from the coarsest: negative below the coarsest mesh, or below the matrix that was given.
+  int level_number(std::size_t k) const {
+    return finest_level + 1 + static_cast<int>(k) - static_cast<int>(level_unknowns.size());
+  }
 
   /// Solved as far as the machine's precision allows.
   bool converged() const { return outcome == Outcome::converged || outcome == Outcome::rounding; }

@@ -85,6 +85,7 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
   EXPECT_EQ(r.at("converged"), true);
   EXPECT_EQ(r.at("unknowns"), n);
   EXPECT_EQ(r.at("levels").back().at("unknowns"), n);
+  EXPECT_EQ(r.at("levels").back().at("level"), 0) << "the matrix";
   EXPECT_EQ(r.at("active").at("lower"), touching);
   EXPECT_EQ(r.at("active").at("upper"), 0);
   for (const char* key : {"residual", "algebraic_error", "energy", "rate"})
@@ -126,6 +127,35 @@ TEST_F(Qp, BlocksAndMethodsHaveTheSameSolution) {
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], found[0][i], 1e-5);
 }
 
+// Multigrid and conjugate directions or a truncated Newton method with the same algebraic levels.
+TEST_F(Qp, SettingsOfTheSolverLeadToTheSameSolution) {
+  constexpr Index n = 1500;
+  write_chain(n);
+  write_constant("b.mtx", n, -1);
+  write_constant("l.mtx", n, -2000);
+  std::vector<std::vector<double>> found;
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {},
+           {"--set", "solver.krylov=false"},
+           {"--method", "tnnmg"},
+           {"--method", "tnnmg", "--set", "solver.krylov=false", "--set", "solver.cycle=W"},
+           {"--set", "solver.reassemble=false"},
+           {"--set", "solver.reach=twins"},
+           {"--set", "solver.method=tnnmg", "--set", "solver.tolerance=1e-3", "--tol", "1e-8"}}) {
+    std::vector<std::string> arguments{"qp",    "A.mtx", "b.mtx",    "--lower", "l.mtx",
+                                       "--out", "x.mtx", "--report", "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = signorini(arguments);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    EXPECT_GE(json().at("levels").size(), 2u);
+    EXPECT_LE(json().at("residual"), 1e-8);
+    found.push_back(solution(n));
+  }
+  EXPECT_EQ(json().at("solver").at("method"), "tnnmg");
+  for (const auto& x : found)
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], found[0][i], 1e-3);
+}
+
 TEST_F(Qp, AtTheIterationLimitTheResultIsWrittenAndMarked) {
   constexpr Index n = 4000;
   write_chain(n);
@@ -149,6 +179,7 @@ TEST_F(Qp, BadInputIsNamedAndNothingIsWritten) {
     expect_failure(arguments, 2, message);
   };
   fails({"none.mtx", "b.mtx"}, "none.mtx: no such Matrix Market file");
+  fails({"A.mtx", "b.mtx", "--set", "solver.reach=some"}, "--set solver.reach=some");
   fails({"A.mtx", "b4.mtx"}, "b4.mtx:2: found 4 rows and 1 columns, expected a vector of 3 rows");
   fails({"A.mtx", "inf.mtx"}, "inf.mtx:3: found inf, expected a finite number");
   fails({"A.mtx", "b.mtx", "--start", "inf.mtx"}, "inf.mtx:3: found inf, expected a finite number");
@@ -173,6 +204,10 @@ TEST_F(Qp, WrongUsageIsStatusOne) {
                                                                                     {"--tol", "x"},
                                                                                     {"--method", "magic"},
                                                                                     {"--out", ""},
+                                                                                    {"--set", "solver.reech=all"},
+                                                                                    {"--set", "solver.start=zero"},
+                                                                                    {"--set", "refine.uniform=1"},
+                                                                                    {"--set", "title=x"},
                                                                                     {"--uper", "b.mtx"}}) {
     std::vector<std::string> arguments{"qp", "A.mtx", "b.mtx"};
     arguments.insert(arguments.end(), more.begin(), more.end());

@@ -71,6 +71,7 @@ TEST_F(Solve, PhasesOfEveryLevelAreReported) {
   write("membrane.toml", membrane);
   ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
   const auto r = report("o");
+  EXPECT_EQ(r.at("levels").front().at("level"), 0) << "the coarsest mesh";
   std::istringstream csv(read(folder_ / "o/phases.csv"));
   std::string line;
   std::getline(csv, line);
@@ -78,13 +79,14 @@ TEST_F(Solve, PhasesOfEveryLevelAreReported) {
   for (const auto& record : r.at("history")) {
     const auto& levels = record.at("levels");
     ASSERT_EQ(levels.size(), r.at("levels").size());
+    EXPECT_EQ(levels.front().at("level"), 0);
     EXPECT_EQ(levels.back().at("critical"), record.at("contact_nodes"));
     EXPECT_EQ(levels.back().at("contact")[0], record.at("contact_nodes")) << "one direction";
     EXPECT_EQ(levels.back().at("changed"), record.at("changed"));
     for (const auto& level : levels) {
       ASSERT_TRUE(std::getline(csv, line));
-      EXPECT_THAT(line,
-                  HasSubstr(fmt::format(",{},{},", level.at("vectors").get<int>(), level.at("critical").get<int>())));
+      EXPECT_THAT(line, HasSubstr(fmt::format(",{},{},{},", level.at("level").get<int>(),
+                                              level.at("vectors").get<int>(), level.at("critical").get<int>())));
     }
   }
   EXPECT_FALSE(std::getline(csv, line));
@@ -104,6 +106,9 @@ TEST_F(Solve, LargeUnrefinedMeshesGetAlgebraicLevels) {
   const auto with = solved("true"), without = solved("false");
   EXPECT_GE(with.at("levels").size(), 2u);
   EXPECT_EQ(without.at("levels").size(), 1u);
+  EXPECT_EQ(without.at("levels").front().at("level"), 0);
+  EXPECT_EQ(with.at("levels").back().at("level"), 0) << "the coarsest mesh";
+  EXPECT_EQ(with.at("levels").front().at("level"), 1 - static_cast<int>(with.at("levels").size()));
   EXPECT_NEAR(with.at("energy").get<double>() / without.at("energy").get<double>(), 1, 1e-12);
   EXPECT_LE(with.at("iterations"), 25);
 }

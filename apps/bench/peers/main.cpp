@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/bench/peers/run.hpp"
+#include "apps/bench/peers/setup.hpp"
 #include "apps/bench/peers/solvers.hpp"
 #include "core/base/error.hpp"
 
@@ -17,6 +18,7 @@ struct Arguments {
   std::vector<int> nodes;
   std::string only;
   Patience patience;
+  bool setup = false, quick = false;
 };
 
 const std::map<std::string, int> default_nodes{{"S2", 257}, {"S3", 33}, {"E3", 17}, {"E3w", 17}};
@@ -106,9 +108,12 @@ int main(int argc, char** argv) {
   app.add_option("--repeat", arguments.patience.repeats, "runs of solvers that take less than 2 s; the best counts")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--setup", arguments.setup, "only the set-up of algebraic hierarchies, without bounds");
+  app.add_flag("--quick", arguments.quick, "small sizes of that");
   app.footer("Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
+    if (arguments.setup) return bench::print_setup(arguments.quick), 0;
     return bench::run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

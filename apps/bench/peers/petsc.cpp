@@ -185,6 +185,58 @@ Attempt petsc_cg(const Instance& instance, const PetscPreconditioner& preconditi
   return out;
 }
 
+namespace {
+
+/// From zero; the preconditioner is set up.
+Attempt iterate(KSP ksp, const LinearSystem& system, double setup, double reduction) {
+  const ProcessorTime time;
+  const PetscVector b = petsc_vector(system.b);
+  PetscVector x;
+  check(VecDuplicate(b, x.fresh()));
+  const int iterations = solve(ksp, b, x, reduction);
+  return {setup, iterations, {setup, time.elapsed()}};
+}
+
+PetscErrorCode apply_shell(PC shell, Vec r, Vec z) {
+  const Preconditioner* apply = nullptr;
+  const double* from = nullptr;
+  double* to = nullptr;
+  PetscCall(PCShellGetContext(shell, &apply));
+  PetscCall(VecGetArrayRead(r, &from));
+  PetscCall(VecGetArrayWrite(z, &to));
+  (*apply)(from, to);
+  PetscCall(VecRestoreArrayRead(r, &from));
+  return VecRestoreArrayWrite(z, &to);
+}
+
+}  // namespace
+
+Attempt petsc_setup(const LinearSystem& system, const PetscPreconditioner& preconditioner, double reduction) {
+  const PetscSession session(preconditioner.options);
+  const ProcessorTime time;
+  const PetscMatrix A = system_matrix(system.A, preconditioner, system.block, system.coordinates);
+  const PetscLinear ksp = conjugate_gradients();
+  check(KSPSetOperators(ksp, A, A));
+  check(KSPSetUp(ksp));
+  return iterate(ksp, system, time.elapsed(), reduction);
+}
+
+Attempt petsc_setup(const LinearSystem& system, const std::function<Preconditioner()>& make, double reduction) {
+  const PetscSession session("-pc_type shell");
+  const ProcessorTime time;
+  Preconditioner apply = make();
+  const double setup = time.elapsed();
+  const PetscMatrix A = petsc_matrix(system.A, system.block);
+  const PetscLinear ksp = conjugate_gradients();
+  PC shell = nullptr;
+  check(KSPGetPC(ksp, &shell));
+  check(PCShellSetContext(shell, &apply));
+  check(PCShellSetApply(shell, apply_shell));
+  check(KSPSetOperators(ksp, A, A));
+  check(KSPSetUp(ksp));
+  return iterate(ksp, system, setup, reduction);
+}
+
 Attempt petsc_active_set(const Instance& instance, const PetscPreconditioner& preconditioner,
                          const ActiveSetOptions& options, double tolerance) {
   const PetscSession session(preconditioner.options);

@@ -24,4 +24,21 @@ Attempt petsc_cg(const Instance& instance, const PetscPreconditioner& preconditi
 Attempt petsc_active_set(const Instance& instance, const PetscPreconditioner& preconditioner,
                          const ActiveSetOptions& options, double tolerance);
 
+/// A linear system alone.
+struct LinearSystem {
+  SparseRows A;
+  int block = 1;
+  std::vector<double> coordinates;  ///< three per vector, for rigid body modes; or none
+  std::vector<double> b;
+};
+
+/// z = M^-1 r
+using Preconditioner = std::function<void(const double* r, double* z)>;
+
+/// Conjugate gradients until the 2-norm of the residual has dropped by `reduction`. Seconds are those of the set-up,
+/// from the rows of the matrix on; x holds them and those of the iterations.
+Attempt petsc_setup(const LinearSystem& system, const PetscPreconditioner& preconditioner, double reduction);
+/// The same iterations with a preconditioner that is none of PETSc's.
+Attempt petsc_setup(const LinearSystem& system, const std::function<Preconditioner()>& make, double reduction);
+
 }  // namespace signorini::bench

@@ -73,9 +73,10 @@ void limit_process(double seconds) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
-/// One run in a process of its own: what a library leaves behind, or its crash, concerns no other run.
-Measurement run_apart(const Solver& solver, std::size_t unknowns, double tolerance, double limit) {
-  SharedResult result(unknowns);
+}  // namespace
+
+Measurement run_apart(const Solver& solver, std::size_t size, double tolerance, double limit) {
+  SharedResult result(size);
   malloc_trim(0);
   std::fflush(nullptr);
   const pid_t child = fork();
@@ -98,6 +99,8 @@ Measurement run_apart(const Solver& solver, std::size_t unknowns, double toleran
     out.failure = result.header().failure[0] ? result.header().failure : "crashed";
   return out;
 }
+
+namespace {
 
 void judge(Measurement& m, const NaturalResidual& residual, const SparseRows& A, const Reference& reference) {
   if (!m.solved()) return;

@@ -21,6 +21,10 @@ struct Measurement {
   bool solved() const { return failure.empty(); }
 };
 
+/// One run in a process of its own: what a library leaves behind, or its crash, concerns no other run. Its result has
+/// `size` numbers; no accuracy is judged.
+Measurement run_apart(const Solver& solver, std::size_t size, double tolerance, double limit);
+
 /// The accuracy that counts: ||x - x*||_A / ||x*||_A and the natural residual.
 inline constexpr double demanded_error = 1e-6, demanded_residual = 1e-8;
 

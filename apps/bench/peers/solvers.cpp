@@ -12,15 +12,6 @@ namespace {
 constexpr double nonlinear_tolerance = 1e-8;  // of the natural residual
 constexpr double linear_tolerance = 1e-7;     // of the residual's 2-norm
 
-/// BoomerAMG with the settings that did best for the problem.
-PetscPreconditioner boomeramg(const std::string& problem) {
-  const std::string set = " -pc_hypre_boomeramg_", extended = set + "interp_type ext+i" + set + "P_max 4";
-  if (problem == "S2") return {"-pc_type hypre"};
-  if (problem == "S3")
-    return {"-pc_type hypre" + set + "coarsen_type PMIS" + set + "strong_threshold 0.25" + set + "agg_nl 1" + extended};
-  return {"-pc_type hypre" + set + "coarsen_type HMIS" + set + "strong_threshold 0.5" + extended};
-}
-
 const PetscPreconditioner gamg{"-pc_type gamg"}, ml{"-pc_type ml"};
 const PetscPreconditioner rigid_gamg{"-pc_type gamg", false, true};
 const PetscPreconditioner grid{
@@ -136,6 +127,14 @@ class Listing {
 };
 
 }  // namespace
+
+PetscPreconditioner boomeramg(const std::string& problem) {
+  const std::string set = " -pc_hypre_boomeramg_", extended = set + "interp_type ext+i" + set + "P_max 4";
+  if (problem == "S2") return {"-pc_type hypre"};
+  if (problem == "S3")
+    return {"-pc_type hypre" + set + "coarsen_type PMIS" + set + "strong_threshold 0.25" + set + "agg_nl 1" + extended};
+  return {"-pc_type hypre" + set + "coarsen_type HMIS" + set + "strong_threshold 0.5" + extended};
+}
 
 std::vector<Contestant> contestants(const std::string& problem, const Benchmark& benchmark) {
   return Listing(problem, benchmark).take();

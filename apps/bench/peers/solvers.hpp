@@ -1,10 +1,13 @@
 #pragma once
-#include "apps/bench/peers/instance.hpp"
+#include "apps/bench/peers/petsc.hpp"
 
 namespace signorini::bench {
 
 /// What a solver is given, which says what it is compared with.
 enum class Given { meshes, matrix };
+
+/// BoomerAMG with the settings that did best for S2, S3 or elastic problems.
+PetscPreconditioner boomeramg(const std::string& problem);
 
 /// A row of the table.
 struct Contestant {
