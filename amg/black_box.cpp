@@ -56,7 +56,7 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
     levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer)
-                    : algebraic_hierarchy<B>(problem_, transfer);
+                    : algebraic_hierarchy<B>(problem_, transfer, few_vectors, coarsening_of(options_));
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }

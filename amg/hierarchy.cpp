@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "amg/classical.hpp"
+#include "amg/smoothed_aggregation.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -47,14 +48,20 @@ class Descent {
   std::vector<GalerkinMatrix<B>> matrices_;
 };
 
+template <int B>
+Prolongation interpolation(const Level<B>& level, Coarsening coarsening) {
+  return coarsening == Coarsening::classical ? classical_interpolation(*level.A, level.off)
+                                             : smoothed_aggregation(*level.A, level.off);
+}
+
 }  // namespace
 
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough) {
+                                       Index enough, Coarsening coarsening) {
   Descent<B> descent(problem);
   while (descent.level().vectors > enough) {
-    Prolongation P = classical_interpolation(*descent.level().A, descent.level().off);
+    Prolongation P = interpolation(descent.level(), coarsening);
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
     descent.go_down(std::move(P), *transfer());
   }
@@ -70,9 +77,12 @@ AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::ve
   return std::move(descent).levels();
 }
 
-template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index);
-template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index);
-template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index);
+template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index,
+                                                Coarsening);
+template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index,
+                                                Coarsening);
+template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index,
+                                                Coarsening);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
                                                const TransferFactory<1>&);
 template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,

@@ -127,6 +127,9 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   command->add_option("--method", qp.options.method, "see docs/solver.md")
       ->check(one_of({"auto", "monotone", "tnnmg", "pgs", "pdas"}))
       ->capture_default_str();
+  command->add_option("--coarsening", qp.options.coarsening, "how coarser levels are chosen, see docs/solver.md")
+      ->check(one_of({"classical", "aggregation"}))
+      ->capture_default_str();
   command->footer(std::string(solve_notes) + qp_notes);
   return command;
 }

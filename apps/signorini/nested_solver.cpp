@@ -64,8 +64,8 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   continued_ = true;
   if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
   Stopwatch watch;
-  auto below =
-      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  auto below = algebraic_hierarchy<B>(coarsest, transfer, few_vectors, coarsening_of(options_));
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
                         std::make_move_iterator(below.prolongations.end()));
