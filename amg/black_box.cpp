@@ -57,7 +57,7 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     check_options(options_);
     levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer())
-                    : algebraic_hierarchy<B>(problem_, transfer());
+                    : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_));
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }

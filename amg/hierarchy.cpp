@@ -4,6 +4,7 @@
 
 #include "amg/classical.hpp"
 #include "amg/reach.hpp"
+#include "amg/smoothed_aggregation.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -55,6 +56,12 @@ class Descent {
   std::vector<GalerkinMatrix<B>> matrices_;
 };
 
+template <int B>
+Prolongation interpolation(const Level<B>& level, Coarsening coarsening) {
+  return coarsening == Coarsening::classical ? classical_interpolation(*level.A, level.off)
+                                             : smoothed_aggregation(*level.A, level.off);
+}
+
 }  // namespace
 
 template <int B>
@@ -62,7 +69,7 @@ AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const 
                                        Index enough, const AlgebraicSettings& settings) {
   Descent<B> descent(problem, settings);
   while (descent.level().vectors > enough) {
-    Prolongation P = classical_interpolation(*descent.level().A, descent.level().off);
+    Prolongation P = interpolation(descent.level(), settings.coarsening);
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
     descent.go_down(std::move(P), *transfer());
   }

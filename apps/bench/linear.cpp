@@ -99,13 +99,14 @@ struct AlgebraicProblem {
   DiscreteProblem<B> problem;
   AlgebraicLevels<B> levels;
 
-  explicit AlgebraicProblem(const SparseRows& A) {
+  explicit AlgebraicProblem(const SparseRows& A, Coarsening coarsening = Coarsening::classical) {
     const auto n = static_cast<std::size_t>(A.rows);
     problem.A = block_matrix<B>(A);
     problem.b.assign(n, 0.0);
     problem.fixed.assign(n / B, 0);
     problem.start.assign(n, 0.0);
-    levels = algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
+    const auto transfer = [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); };
+    levels = algebraic_hierarchy<B>(problem, transfer, enough_vectors, {.coarsening = coarsening});
     problem.galerkin = levels.matrices;
   }
 };
@@ -141,9 +142,9 @@ double AlgebraicCycle<B>::complexity() const {
 }
 
 template <int B>
-LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance) {
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening) {
   Stopwatch watch;
-  AlgebraicProblem<B> given(A);
+  AlgebraicProblem<B> given(A, coarsening);
   given.problem.b.assign(b.begin(), b.end());
   const double hierarchy = watch.elapsed();
   LinearSolve result = multigrid_cg<B>(given.problem, given.levels.prolongations, given.registry, tolerance);
@@ -157,7 +158,7 @@ template class AlgebraicCycle<3>;
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
-template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double);
-template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double);
+template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double, Coarsening);
+template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double, Coarsening);
 
 }  // namespace signorini::bench

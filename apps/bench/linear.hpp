@@ -4,6 +4,7 @@
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini::bench {
@@ -45,6 +46,7 @@ class AlgebraicCycle {
 
 /// Conjugate gradients on such levels.
 template <int B>
-LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance);
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance,
+                         Coarsening coarsening = Coarsening::classical);
 
 }  // namespace signorini::bench

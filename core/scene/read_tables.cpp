@@ -47,6 +47,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.reassemble = reader.flag("reassemble");
   solver.reach = reader.text("reach");
   solver.interpolate = reader.text("interpolate");
+  solver.coarsening = reader.text("coarsening");
   solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");
   solver.threads = reader.integer("threads");

@@ -148,6 +148,8 @@ constexpr KeySpec solver[] = {
      "of constrained ones; other weights are truncated"},
     {"interpolate", text, "global", "global | local", "",
      "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases"},
+    {"coarsening", text, "classical", "classical | aggregation", "",
+     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "[1, 4096]", "",

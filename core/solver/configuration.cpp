@@ -38,6 +38,11 @@ bool local_components(const SolverOptions& o) {
 
 }  // namespace
 
+Coarsening coarsening_of(const SolverOptions& o) {
+  return choice<Coarsening>("coarsening", o.coarsening,
+                            {{"classical", Coarsening::classical}, {"aggregation", Coarsening::aggregation}});
+}
+
 Method check_options(const SolverOptions& o) {
   require(o.pre >= 0 && o.post >= 0 && o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post),
           "pre, post >= 0 and at least one smoothing step");
@@ -52,6 +57,7 @@ Method check_options(const SolverOptions& o) {
                                       {"tnnmg", Method::tnnmg},
                                       {"pgs", Method::pgs},
                                       {"pdas", Method::pdas}});
+  coarsening_of(o);
   require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
@@ -61,7 +67,7 @@ Method check_options(const SolverOptions& o) {
   return method;
 }
 
-AlgebraicSettings algebraic_settings(const SolverOptions& o) { return {only_twins(o), local_components(o)}; }
+AlgebraicSettings algebraic_settings(const SolverOptions& o) { return {only_twins(o), local_components(o), coarsening_of(o)}; }
 
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
