@@ -67,7 +67,9 @@ Method check_options(const SolverOptions& o) {
   return method;
 }
 
-AlgebraicSettings algebraic_settings(const SolverOptions& o) { return {only_twins(o), local_components(o), coarsening_of(o)}; }
+AlgebraicSettings algebraic_settings(const SolverOptions& o) {
+  return {only_twins(o), local_components(o), coarsening_of(o)};
+}
 
 template <int B>
 typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {

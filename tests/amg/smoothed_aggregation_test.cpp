@@ -79,7 +79,7 @@ AlgebraicLevels<B> aggregated(const DiscreteProblem<B>& problem, Index enough) {
 TEST(SmoothedAggregation, HasFewEntries) {
   const DiscreteProblem<1> problem = problem_of(laplacian(128));
   std::size_t entries = problem.A.column.size();
-  for (const auto& coarse : aggregated(problem, few_vectors).matrices) entries += coarse.A.column.size();
+  for (const auto& coarse : aggregated(problem, enough_vectors).matrices) entries += coarse.A.column.size();
   EXPECT_LE(static_cast<double>(entries), 1.4 * static_cast<double>(problem.A.column.size()));
 }
 
