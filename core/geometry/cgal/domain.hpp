@@ -24,6 +24,9 @@ class Domain {
   virtual bool inside(const Point<3>& p) const = 0;
   /// A point of the surface on the segment ab; there is one whenever one end is inside and the other is not.
   virtual std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const = 0;
+  /// Whether crossing() holds to rounding for any ends. Otherwise it is asked for ends near the box alone, and these
+  /// are rounded where dual edges of the mesher reach farther.
+  virtual bool exact() const = 0;
   /// A few points spread over the surface.
   virtual std::vector<Point<3>> surface_points() const = 0;
   /// Sharp edges as polylines that meet at most at their ends; a loop repeats its first point.

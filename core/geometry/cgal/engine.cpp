@@ -44,6 +44,12 @@ SolidDomain domain_of(const Solid& solid) {
 
 Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(domain_of(solid), size, 1); }
 
+/// The condition that failed, or the first line of what CGAL says instead of one.
+std::string reason(const CGAL::Failure_exception& failure) {
+  const std::string text = failure.expression().empty() ? failure.message() : failure.expression();
+  return text.substr(0, text.find('\n'));
+}
+
 /// Calls `work`; what CGAL finds itself unable to do, and what does not fit memory, becomes the user's error.
 template <class Work>
 auto guarded(const char* what, const Work& work) {
@@ -53,7 +59,7 @@ auto guarded(const char* what, const Work& work) {
     throw ShapeError(what, "",
                      fmt::format("failed for this geometry ({}); expected one without degenerate details, or another "
                                  "size",
-                                 failure.expression()));
+                                 reason(failure)));
   } catch (const std::bad_alloc&) {
     throw ShapeError(what, "", "out of memory; expected a larger size");
   }

@@ -16,6 +16,7 @@ class RoundDomain : public Domain {
   double volume() const override { return volume_; }
   bool inside(const Point<3>& p) const override;
   std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const override;
+  bool exact() const override { return false; }
   std::vector<Point<3>> surface_points() const override;
   std::vector<Polyline> creases() const override;
   double coarsest_size() const override { return coarsest_size_; }

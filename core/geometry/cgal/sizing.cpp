@@ -20,6 +20,9 @@ constexpr double most_elements = 2e8;
 template <int D>
 constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 
+// Vertices granted to them, and queries between two looks at whether the user interrupts.
+constexpr double spare_vertices = 3e5, queries_per_poll = 64;
+
 // Sizes of fewer spacings of floating point numbers leave no room for vertices between vertices.
 constexpr double least_spacings = 8;
 
@@ -64,6 +67,12 @@ double Sizing<D>::operator()(Point<D> p) const {
 }
 
 template <int D>
+void Sizing<D>::count_query() const {
+  if (++queries_ > query_limit_) no_end();
+  if (std::fmod(queries_, queries_per_poll) == 0) poll();
+}
+
+template <int D>
 void Sizing<D>::fail(const std::string& complaint) const {
   throw ShapeError(shape_, "size", complaint);
 }
@@ -84,6 +93,8 @@ void Sizing<D>::expect(double elements) {
     fail(fmt::format("too small, about {:.1g} elements would need {:.1f} GB of memory, {:.1f} GB are available",
                      elements, elements * bytes_per_element / 1e9, available / 1e9));
   limit_ = evaluations_ + spare_evaluations<D> + 100 * elements;
+  query_limit_ = queries_ + spare_evaluations<D> + 200 * elements;
+  most_vertices_ = static_cast<std::size_t>(spare_vertices + elements);
 }
 
 template <int D>

@@ -22,9 +22,14 @@ class Sizing {
   double operator()(Point<D> p) const;
   /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
   void poll() const { size_(last_); }
-  /// Bounds the number of evaluations from now on by the elements to be expected. Throws ShapeError when these are too
-  /// many for memory, or for a mesh of 2e8 elements.
+  /// Counts a question that the mesher asks of the domain; polls every few of them. Throws ShapeError when they get too
+  /// many.
+  void count_query() const;
+  /// Bounds the numbers of evaluations, queries and vertices from now on by the elements to be expected. Throws
+  /// ShapeError when these are too many for memory, or for a mesh of 2e8 elements.
   void expect(double elements);
+  /// The mesher has to give up at so many vertices.
+  std::size_t most_vertices() const { return most_vertices_; }
   /// Throws ShapeError: too many evaluations, or a failure that has the same cause.
   [[noreturn]] void no_end() const;
   /// Throws ShapeError when the shape is so thin that it takes very many elements wherever the sizes asked for until
@@ -38,8 +43,9 @@ class Sizing {
   double ceiling_, floor_, unit_;
   std::string shape_, narrowest_;
   mutable Point<D> last_{};
-  double limit_ = 1e7;
-  mutable double evaluations_ = 0, smallest_ = infinity;
+  double limit_ = 1e7, query_limit_ = 1e7;
+  std::size_t most_vertices_ = 0;
+  mutable double evaluations_ = 0, queries_ = 0, smallest_ = infinity;
 };
 
 /// Elements to be expected in a region of the given measure (area, volume) from size values at points spread over it.

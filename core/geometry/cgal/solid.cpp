@@ -39,10 +39,10 @@ double SolidDomain::volume() const {
 }
 
 std::optional<Point<3>> SolidDomain::crossing(const Point<3>& a, const Point<3>& b) const {
-  if (const auto p = surface_.crossing(a, b)) return p;
-  const bool a_inside = inside(a);
-  if (a_inside != inside(b)) return a_inside ? b : a;  // the outer end lies on the surface
-  return {};
+  const auto p = surface_.crossing(a, b);
+  // Points on the surface count as outside, for crossings as for inside(): what touches it from outside does not cross.
+  if ((p == a && !inside(b)) || (p == b && !inside(a))) return {};
+  return p;
 }
 
 std::vector<Point<3>> SolidDomain::surface_points() const {

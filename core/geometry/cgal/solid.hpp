@@ -14,6 +14,7 @@ class SolidDomain : public Domain {
   double volume() const override;
   bool inside(const Point<3>& p) const override { return surface_.inside(p); }
   std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const override;
+  bool exact() const override { return true; }
   std::vector<Point<3>> surface_points() const override;
   std::vector<Polyline> creases() const override;
   double coarsest_size() const override;

@@ -3,6 +3,7 @@
 #include "core/geometry/cgal/tetrahedra.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Mesh_3/Slivers_exuder.h>
 #include <CGAL/Mesh_3/sliver_criteria.h>
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -20,6 +21,7 @@
 #include "core/geometry/cgal/peel.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
@@ -55,7 +57,8 @@ class Oracle {
   using Index = boost::variant<Subdomain_index, Surface_patch_index>;
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  explicit Oracle(const Domain* domain) : domain_(domain) {}
+  /// `sizing` counts the queries, and ends the work when they get too many or the user interrupts.
+  Oracle(const Domain* domain, const Sizing<3>* sizing) : domain_(domain), sizing_(sizing) {}
 
   CGAL::Bbox_3 bbox() const {
     const auto [a, b] = domain_->box();
@@ -73,6 +76,7 @@ class Oracle {
   struct Is_in_domain {
     const Oracle& oracle;
     Subdomain operator()(const Point_3& p) const {
+      oracle.sizing_->count_query();
       return oracle.domain_->inside(plain(p)) ? Subdomain(1) : Subdomain();
     }
   };
@@ -105,10 +109,12 @@ class Oracle {
  private:
   static Surface_patch_index surface_patch() { return {0, 1}; }
 
+  using Ends = std::pair<Point<3>, Point<3>>;
+
   // The part of a segment, ray or line within a box somewhat larger than the domain's: dual edges may reach millions of
   // diameters out, where closed forms for crossings have no correct digit left.
   template <class Query>
-  std::optional<std::pair<Point<3>, Point<3>>> clipped(const Query& query) const {
+  std::optional<Ends> clipped(const Query& query) const {
     const Point_3 p = query.point(0);
     const Vector_3 v = query.to_vector();
     const auto [low, high] = domain_->box();
@@ -125,20 +131,65 @@ class Oracle {
       }
     }
     if (!(first < last) || !std::isfinite(first) || !std::isfinite(last)) return {};
-    return std::pair(plain(p + first * v), last == 1 ? plain(p + v) : plain(p + last * v));
+    return Ends(plain(p + first * v), last == 1 ? plain(p + v) : plain(p + last * v));
+  }
+
+  // The ends of a segment as they are: inside() is asked for them too, and the answers have to agree. Of a ray or a
+  // line the part that reaches beyond the domain.
+  template <class Query>
+  std::optional<Ends> ends(const Query& query) const {
+    if constexpr (std::is_same_v<Query, Segment_3>) {
+      return Ends(plain(query.source()), plain(query.target()));
+    } else {
+      const auto [low, high] = domain_->box();
+      const Point_3 p = query.point(0);
+      const Vector_3 v = query.to_vector();
+      const double reach = std::sqrt(CGAL::squared_distance(p, cgal(low))) + length<3>(difference<3>(high, low));
+      const Vector_3 beyond = 2 * reach / std::sqrt(v * v) * v;
+      return Ends(plain(std::is_same_v<Query, Ray_3> ? p : p - beyond), plain(p + beyond));
+    }
   }
 
   template <class Query>
   std::optional<Point<3>> crossing(const Query& query) const {
-    const auto ends = clipped(query);
-    return ends ? domain_->crossing(ends->first, ends->second) : std::nullopt;
+    sizing_->count_query();
+    const auto segment = domain_->exact() ? ends(query) : clipped(query);
+    return segment ? domain_->crossing(segment->first, segment->second) : std::nullopt;
   }
 
   const Domain* domain_;
+  const Sizing<3>* sizing_;
+};
+
+/// The distances that exudation takes its weights from, exact where the differences of floating point numbers have no
+/// correct digits left: four vertices on a flat face are coplanar but for rounding. Wrong weights make exudation pump
+/// the same vertex for ever, and those that are not finite end the program.
+struct ExudingKernel : Kernel {
+  struct Compute_power_distance_to_power_sphere_3 {
+    using result_type = FT;
+    using P = Weighted_point_3;
+    FT operator()(const P& p, const P& q, const P& r, const P& s, const P& t) const {
+      if (precise(p, q, r, s, t)) return Kernel().compute_power_distance_to_power_sphere_3_object()(p, q, r, s, t);
+      return CGAL::to_double(in<CGAL::Simple_cartesian<CGAL::Exact_rational>>(p, q, r, s, t));
+    }
+
+   private:
+    template <class K>
+    static typename K::FT in(const P& p, const P& q, const P& r, const P& s, const P& t) {
+      const CGAL::Cartesian_converter<Kernel, K> c;
+      return K().compute_power_distance_to_power_sphere_3_object()(c(p), c(q), c(r), c(s), c(t));
+    }
+    static bool precise(const P& p, const P& q, const P& r, const P& s, const P& t) {
+      const CGAL::Protect_FPU_rounding<true> protect;
+      return CGAL::has_smaller_relative_precision(in<CGAL::Simple_cartesian<CGAL::Interval_nt_advanced>>(p, q, r, s, t),
+                                                  1e-6);
+    }
+  };
+  Compute_power_distance_to_power_sphere_3 compute_power_distance_to_power_sphere_3_object() const { return {}; }
 };
 
 using MeshDomain = CGAL::Mesh_domain_with_polyline_features_3<Oracle>;
-using Triangulation = CGAL::Mesh_triangulation_3<MeshDomain, Kernel, CGAL::Sequential_tag>::type;
+using Triangulation = CGAL::Mesh_triangulation_3<MeshDomain, ExudingKernel, CGAL::Sequential_tag>::type;
 using Complex =
     CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, MeshDomain::Corner_index, MeshDomain::Curve_index>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
@@ -171,9 +222,54 @@ class Slivers : public CGAL::Mesh_3::Min_dihedral_angle_criterion<Triangulation>
   mutable std::size_t calls_ = 0;
 };
 
+/// Ends exudation between two steps: when the user interrupts, or when there have been more steps than cells, of which
+/// it mends a few.
+class ExudingWatch {
+ public:
+  struct Enough {};
+
+  ExudingWatch(const Sizing<3>* sizing, std::size_t most) : sizing_(sizing), left_(most) {}
+  void after_cell_pumped(std::size_t) {
+    if (left_-- == 0) throw Enough();
+    sizing_->poll();
+  }
+
+ private:
+  const Sizing<3>* sizing_;
+  std::size_t left_;
+};
+
 // Not by make_mesh_3, which limits its time by that of the refinement: meshes would differ from run to run.
 void exude(Complex& complex, const Sizing<3>& sizing) {
-  CGAL::Mesh_3::Slivers_exuder<Complex, Slivers>(complex, Slivers(complex.triangulation(), &sizing))();
+  using Exuder = CGAL::Mesh_3::Slivers_exuder<Complex, Slivers, ExudingWatch>;
+  try {
+    Exuder(complex, Slivers(complex.triangulation(), &sizing))(
+        ExudingWatch(&sizing, 1000 + complex.number_of_cells_in_complex()));
+  } catch (const ExudingWatch::Enough&) {  // the mesh is as good as it gets
+  }
+}
+
+Complex refine(const Domain& domain, const Sizing<3>& sizing) {
+  CGAL::get_default_random() = CGAL::Random(0);
+  MeshDomain mesh_domain(&domain, &sizing);
+  std::vector<std::vector<Kernel::Point_3>> creases;
+  for (const Polyline& crease : domain.creases()) {
+    creases.emplace_back();
+    std::transform(crease.begin(), crease.end(), std::back_inserter(creases.back()), cgal);
+  }
+  mesh_domain.add_features(creases.begin(), creases.end());
+
+  namespace p = CGAL::parameters;
+  const Criteria criteria(p::edge_size = ScaledSize{&sizing, edge_bound}, p::facet_angle = 25,
+                          p::facet_size = ScaledSize{&sizing, facet_bound},
+                          p::facet_distance = ScaledSize{&sizing, domain.flatness()}, p::cell_radius_edge_ratio = 2,
+                          p::cell_size = ScaledSize{&sizing, cell_bound});
+  CGAL::Mesh_error_code error = CGAL::CGAL_MESH_3_NO_ERROR;
+  auto complex = CGAL::make_mesh_3<Complex>(
+      mesh_domain, criteria, p::manifold(), p::no_perturb(), p::no_exude(),
+      p::mesh_3_options(p::maximal_number_of_vertices = sizing.most_vertices(), p::pointer_to_error_code = &error));
+  if (error != CGAL::CGAL_MESH_3_NO_ERROR) sizing.no_end();
+  return complex;
 }
 
 Mesh<3> extract(const Complex& complex, std::vector<bool>& on_crease) {
@@ -220,21 +316,7 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size, double unit) {
   sizing.check_thickness(domain.volume());
   sizing.expect(expected_elements<3>(domain.volume(), sizes));
 
-  CGAL::get_default_random() = CGAL::Random(0);
-  MeshDomain mesh_domain(&domain);
-  std::vector<std::vector<Kernel::Point_3>> creases;
-  for (const Polyline& crease : domain.creases()) {
-    creases.emplace_back();
-    std::transform(crease.begin(), crease.end(), std::back_inserter(creases.back()), cgal);
-  }
-  mesh_domain.add_features(creases.begin(), creases.end());
-
-  namespace p = CGAL::parameters;
-  const Criteria criteria(p::edge_size = ScaledSize{&sizing, edge_bound}, p::facet_angle = 25,
-                          p::facet_size = ScaledSize{&sizing, facet_bound},
-                          p::facet_distance = ScaledSize{&sizing, domain.flatness()}, p::cell_radius_edge_ratio = 2,
-                          p::cell_size = ScaledSize{&sizing, cell_bound});
-  auto complex = CGAL::make_mesh_3<Complex>(mesh_domain, criteria, p::manifold(), p::no_perturb(), p::no_exude());
+  Complex complex = refine(domain, sizing);
   exude(complex, sizing);
   std::vector<bool> on_crease;
   Mesh<3> mesh = extract(complex, on_crease);

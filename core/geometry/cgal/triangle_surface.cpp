@@ -5,6 +5,7 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Mesh_3/Robust_intersection_traits_3.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -28,7 +29,11 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
-using AABBTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+// Exact constructions, rounded once: a segment that leaves a plane under a tiny angle crosses it anywhere otherwise,
+// even beyond its own ends. Segments within the plane of a triangle do not cross it.
+using CrossingKernel = CGAL::Mesh_3::Robust_intersection_traits_3_new<Kernel>;
+using AABBTree = CGAL::AABB_tree<CGAL::AABB_traits<CrossingKernel, Primitive>>;
+using Side = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel, CGAL::Default, AABBTree>;
 using Polygons = std::vector<std::vector<std::size_t>>;
 
 Kernel::Point_3 cgal(const Point<3>& p) { return {p[0], p[1], p[2]}; }
@@ -87,7 +92,7 @@ void read(const std::string& file, SurfaceMesh& mesh) {
 struct TriangleSurface::Tree {
   SurfaceMesh mesh;
   AABBTree aabb;
-  std::optional<CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel>> side;
+  std::optional<Side> side;
 };
 
 TriangleSurface::TriangleSurface(const std::string& file) : file_(file), tree_(std::make_unique<Tree>()) {
@@ -145,10 +150,10 @@ std::optional<std::pair<Index, Index>> TriangleSurface::self_intersection() cons
 bool TriangleSurface::inside(const Point<3>& p) const { return (*tree_->side)(cgal(p)) == CGAL::ON_BOUNDED_SIDE; }
 
 std::optional<Point<3>> TriangleSurface::crossing(const Point<3>& a, const Point<3>& b) const {
+  if (a == b) return {};
   const auto hit = tree_->aabb.any_intersection(Kernel::Segment_3(cgal(a), cgal(b)));
   if (!hit) return {};
-  if (const auto* p = boost::get<Kernel::Point_3>(&hit->first)) return plain(*p);
-  return plain(boost::get<Kernel::Segment_3>(hit->first).source());
+  return plain(boost::get<Kernel::Point_3>(hit->first));
 }
 
 Index TriangleSurface::nearest_triangle(const Point<3>& p) const {

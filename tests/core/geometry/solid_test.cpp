@@ -60,6 +60,38 @@ TEST(Solid, AHollowCubeIsMeshedAroundItsHole) {
   EXPECT_NEAR(test::area(m, "boundary"), 54 + 6, 1e-10);
 }
 
+struct Named {
+  const char* name;
+  Surface surface;
+  double volume;
+};
+
+std::vector<Named> solids_with_flat_faces() {
+  const Surface tetrahedron{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+  const Surface corner =
+      test::prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1, {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}});
+  const Surface notched = test::prism({{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1.5}, {1, 1.5}, {1, 3}, {0, 3}}, 3,
+                                      {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {0, 4, 5}, {0, 5, 7}, {5, 6, 7}});
+  return {{"hollow cube", cube(0, 3).add(cube(1, 2)), 26},
+          {"plate", test::box({2, 2, 0.1}), 0.4},
+          {"tetrahedron", tetrahedron, 8.0 / 6},
+          {"corner", corner, 3},
+          {"notched cube", notched, 22.5},
+          {"cube with a slot inside", cube(0, 2).add(test::box({1.1, 1.1, 0.2}).moved(0.45)), 8 - 0.242}};
+}
+
+TEST(Solid, FlatFacesAreFilledAtAnySizeAndInAnyPosition) {
+  for (const auto& [name, surface, volume] : solids_with_flat_faces())
+    for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
+      for (const double h : {0.412, 0.388}) {
+        SCOPED_TRACE(fmt::format("{}, size {}", name, h));
+        const Mesh<3> m = mesh(TemporaryFile("solid.off", s.off()), h);
+        test::expect_consistent(m);
+        EXPECT_NEAR(test::volume(m), volume, 1e-9 * volume);
+        EXPECT_GT(test::smallest_angle(m), 1);
+      }
+}
+
 TEST(Solid, RealSurfacesAreFilled) {
   const char* folder = std::getenv("SIGNORINI_MESHES");
   if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj, fandisk.obj and rocker-arm.obj";
@@ -116,6 +148,32 @@ TEST(SolidErrors, NameWhatIsWrongWithTheSurface) {
   Surface crossing = cube(0, 1);
   crossing.add(cube(0.5, 1.7));
   EXPECT_THAT(complaint(TemporaryFile("crossing.off", crossing.off())), HasSubstr("intersects itself"));
+}
+
+TEST(SolidErrors, AnInterruptEndsTheMeshingInItsQueriesToo) {
+  const TemporaryFile file("cube.off", cube(0, 1).off());
+  // Between the sizes at points of their own, the last one is asked for again: to see whether to go on.
+  const auto repetitions = [&](int last) {
+    Point<3> before{infinity, infinity, infinity};
+    int count = 0;
+    const auto size = [&](const Point<3>& p) {
+      count += p == std::exchange(before, p);
+      if (count > last) throw Error(Exit::interrupted, "interrupted");
+      return 0.2;
+    };
+    engine().mesh(geometry::Shape3(Solid{file.path()}), size);
+    return count;
+  };
+  const int all = repetitions(std::numeric_limits<int>::max());
+  EXPECT_GT(all, 100);
+  for (const int last : {0, all / 2, all - 1}) {
+    try {
+      repetitions(last);
+      ADD_FAILURE() << "not interrupted after " << last << " of " << all;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::interrupted);
+    }
+  }
 }
 
 }  // namespace
