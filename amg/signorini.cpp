@@ -77,6 +77,7 @@ int status_of(Outcome outcome) {
     case Outcome::iteration_limit:
       return SIGNORINI_ITERATION_LIMIT;
     case Outcome::interrupted:
+    case Outcome::stuck:
     case Outcome::violated:
       break;  // neither a monitor nor an obstacle
   }

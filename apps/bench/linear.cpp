@@ -119,7 +119,9 @@ struct AlgebraicCycle<B>::Parts {
   MonotoneMultigrid<B> multigrid;
 
   explicit Parts(const SparseRows& A)
-      : given(A), multigrid(given.problem, given.levels.prolongations, symmetric_cycle<B>(given.registry), {}) {}
+      : given(A),
+        multigrid(given.problem, given.levels.prolongations, symmetric_cycle<B>(given.registry),
+                  {.pre = 2, .post = 2}) {}
 };
 
 template <int B>
@@ -134,11 +136,6 @@ void AlgebraicCycle<B>::apply(const double* r, double* z) {
   std::copy(r, r + b.size(), b.begin());
   std::fill_n(z, b.size(), 0.0);
   parts_->multigrid.cycle(z);
-}
-
-template <int B>
-double AlgebraicCycle<B>::complexity() const {
-  return bench::complexity(parts_->given.problem.A, parts_->given.levels);
 }
 
 template <int B>

@@ -25,7 +25,7 @@ template <int B>
 LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                          const Registry& registry, double tolerance);
 
-/// One symmetric V(1,1) cycle on levels that a matrix gives, B rows to a vector, as a preconditioner.
+/// One symmetric V(2,2) cycle on levels that a matrix gives, B rows to a vector, as a preconditioner.
 template <int B>
 class AlgebraicCycle {
  public:
@@ -36,8 +36,6 @@ class AlgebraicCycle {
 
   /// z = M^-1 r
   void apply(const double* r, double* z);
-  /// Entries of the matrices of all levels over those of the finest.
-  double complexity() const;
 
  private:
   struct Parts;

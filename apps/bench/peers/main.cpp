@@ -19,6 +19,7 @@ struct Arguments {
   std::string only;
   Patience patience;
   bool setup = false, quick = false;
+  std::string matrix;
 };
 
 const std::map<std::string, int> default_nodes{{"S2", 257}, {"S3", 33}, {"E3", 17}, {"E3w", 17}};
@@ -110,10 +111,11 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--setup", arguments.setup, "only the set-up of algebraic hierarchies, without bounds");
   app.add_flag("--quick", arguments.quick, "small sizes of that");
+  app.add_option("--matrix", arguments.matrix, "only matrices of that with this text in their names");
   app.footer("Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
-    if (arguments.setup) return bench::print_setup(arguments.quick), 0;
+    if (arguments.setup) return bench::print_setup(arguments.quick, arguments.matrix), 0;
     return bench::run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
