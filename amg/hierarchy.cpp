@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "amg/classical.hpp"
+#include "amg/mode_aggregation.hpp"
 #include "amg/reach.hpp"
 #include "amg/smoothed_aggregation.hpp"
 #include "core/solver/multigrid.hpp"
@@ -56,20 +57,36 @@ class Descent {
   std::vector<GalerkinMatrix<B>> matrices_;
 };
 
+/// Interpolations from fine to coarse.
 template <int B>
-Prolongation interpolation(const Level<B>& level, Coarsening coarsening) {
-  return coarsening == Coarsening::classical ? classical_interpolation(*level.A, level.off)
-                                             : smoothed_aggregation(*level.A, level.off);
-}
+class Chooser {
+ public:
+  Chooser(Coarsening coarsening, NearNullSpace modes) : coarsening_(coarsening), modes_(std::move(modes)) {}
+
+  Prolongation next(const Level<B>& level) {
+    if (coarsening_ == Coarsening::classical) return classical_interpolation(*level.A, level.off);
+    if (modes_.modes == 0) return smoothed_aggregation(*level.A, level.off);
+    ModeAggregation found = mode_aggregation(level, modes_, group_);
+    modes_ = std::move(found.coarse);
+    group_ = found.group;
+    return std::move(found.prolongation);
+  }
+
+ private:
+  Coarsening coarsening_;
+  NearNullSpace modes_;  // of the level that comes next
+  Index group_ = 1;      // of its vectors that belong together
+};
 
 }  // namespace
 
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough, const AlgebraicSettings& settings) {
+                                       Index enough, const AlgebraicSettings& settings, NearNullSpace near_null) {
   Descent<B> descent(problem, settings);
+  Chooser<B> chooser(settings.coarsening, std::move(near_null));
   while (descent.level().vectors > enough) {
-    Prolongation P = interpolation(descent.level(), settings.coarsening);
+    Prolongation P = chooser.next(descent.level());
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
     descent.go_down(std::move(P), *transfer());
   }
@@ -86,11 +103,11 @@ AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::ve
 }
 
 template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index,
-                                                const AlgebraicSettings&);
+                                                const AlgebraicSettings&, NearNullSpace);
 template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index,
-                                                const AlgebraicSettings&);
+                                                const AlgebraicSettings&, NearNullSpace);
 template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index,
-                                                const AlgebraicSettings&);
+                                                const AlgebraicSettings&, NearNullSpace);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
                                                const TransferFactory<1>&, const AlgebraicSettings&);
 template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,

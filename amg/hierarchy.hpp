@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "amg/near_null_space.hpp"
 #include "core/solver/components.hpp"
 #include "core/solver/configuration.hpp"
 
@@ -25,9 +26,11 @@ using TransferFactory = std::function<std::unique_ptr<Transfer<B>>()>;
 /// Levels chosen by the matrix, until at most `enough` vectors are left or coarsening makes no progress. They continue
 /// a geometric hierarchy downwards, or are a hierarchy of their own.
 /// @param transfer makes the transfers whose Galerkin products the coarser levels are chosen by
+/// @param near_null what coarser levels by aggregation represent exactly, on the level of `problem`
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough = enough_vectors, const AlgebraicSettings& settings = {});
+                                       Index enough = enough_vectors, const AlgebraicSettings& settings = {},
+                                       NearNullSpace near_null = {});
 
 /// The matrices of given levels, whose interpolations are changed to what the settings want.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`

@@ -99,14 +99,15 @@ struct AlgebraicProblem {
   DiscreteProblem<B> problem;
   AlgebraicLevels<B> levels;
 
-  explicit AlgebraicProblem(const SparseRows& A, Coarsening coarsening = Coarsening::classical) {
+  explicit AlgebraicProblem(const SparseRows& A, Coarsening coarsening = Coarsening::classical,
+                            const NearNullSpace& near_null = {}) {
     const auto n = static_cast<std::size_t>(A.rows);
     problem.A = block_matrix<B>(A);
     problem.b.assign(n, 0.0);
     problem.fixed.assign(n / B, 0);
     problem.start.assign(n, 0.0);
     const auto transfer = [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); };
-    levels = algebraic_hierarchy<B>(problem, transfer, enough_vectors, {.coarsening = coarsening});
+    levels = algebraic_hierarchy<B>(problem, transfer, enough_vectors, {.coarsening = coarsening}, near_null);
     problem.galerkin = levels.matrices;
   }
 };
@@ -139,9 +140,10 @@ void AlgebraicCycle<B>::apply(const double* r, double* z) {
 }
 
 template <int B>
-LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening) {
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening,
+                         const NearNullSpace& near_null) {
   Stopwatch watch;
-  AlgebraicProblem<B> given(A, coarsening);
+  AlgebraicProblem<B> given(A, coarsening, near_null);
   given.problem.b.assign(b.begin(), b.end());
   const double hierarchy = watch.elapsed();
   LinearSolve result = multigrid_cg<B>(given.problem, given.levels.prolongations, given.registry, tolerance);
@@ -155,7 +157,9 @@ template class AlgebraicCycle<3>;
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
-template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double, Coarsening);
-template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double, Coarsening);
+template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double, Coarsening,
+                                     const NearNullSpace&);
+template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double, Coarsening,
+                                     const NearNullSpace&);
 
 }  // namespace signorini::bench

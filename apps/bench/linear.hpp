@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
@@ -45,6 +46,6 @@ class AlgebraicCycle {
 /// Conjugate gradients on such levels.
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance,
-                         Coarsening coarsening = Coarsening::classical);
+                         Coarsening coarsening = Coarsening::classical, const NearNullSpace& near_null = {});
 
 }  // namespace signorini::bench

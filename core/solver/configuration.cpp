@@ -57,13 +57,13 @@ Method check_options(const SolverOptions& o) {
                                       {"tnnmg", Method::tnnmg},
                                       {"pgs", Method::pgs},
                                       {"pdas", Method::pdas}});
-  coarsening_of(o);
   require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
           "a monotone restriction, or method 'tnnmg', whose coarse corrections have no bounds");
-  only_twins(o);
-  local_components(o);
+  const bool restricted = only_twins(o), rotated = local_components(o);
+  require(coarsening_of(o) == Coarsening::classical || !(restricted || rotated), "coarsening", o.coarsening,
+          "'classical' with reach 'twins' or interpolate 'local'");
   return method;
 }
 
