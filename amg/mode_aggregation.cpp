@@ -63,7 +63,7 @@ class SmoothedRows {
         weak_(static_cast<std::size_t>(B * modes.modes), 0.0),
         place_(aggregates.root.size(), -1) {
     for (Index p = 0; p < level.vectors; ++p)
-      if (!modifier::is_plain<B>(level, p)) make_local(p);
+      if (!modifier::is_plain<B>(level, level.frames, p)) make_local(p);
   }
 
   void append_row(Index p, Prolongation& P) {
@@ -88,7 +88,7 @@ class SmoothedRows {
         double* block = local_.data() + Offset{p} * per_row_ + k * B * B;
         double global[B], local[B];
         for (int i = 0; i < B; ++i) global[i] = block[i * B + j];
-        modifier::value_to_local<B>(level_, p, global, local);
+        modifier::value_to_local<B>(level_, level_.frames, p, global, local);
         for (int i = 0; i < B; ++i) block[i * B + j] = local[i];
       }
   }
@@ -125,7 +125,7 @@ class SmoothedRows {
     for (Index mode = 0; mode < modes_.modes; ++mode) {
       double global[B], local[B];
       for (int i = 0; i < B; ++i) global[i] = modes_.at(Offset{r} * B + i)[mode];
-      modifier::value_to_local<B>(level_, r, global, local);
+      modifier::value_to_local<B>(level_, level_.frames, r, global, local);
       for (int i = 0; i < B; ++i)
         for (int j = 0; j < B; ++j) weak_[i * modes_.modes + mode] += A[i * B + j] * local[j];
     }
