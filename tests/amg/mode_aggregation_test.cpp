@@ -15,6 +15,7 @@
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"
+#include "tests/support/random.hpp"
 
 namespace signorini::test {
 namespace {
@@ -181,6 +182,29 @@ TEST(BlackBoxWithANearNullSpace, SolvesTheSameProblemInFewerCycles) {
   EXPECT_TRUE(b.summary.converged()) << b.summary.reason;
   EXPECT_LE(2 * b.summary.iterations, a.summary.iterations);
   EXPECT_NEAR(a.summary.energy, b.summary.energy, 1e-8 * std::abs(a.summary.energy));
+}
+
+// Directions that are none, that depend on each other or that mean nothing cost cycles only.
+TEST(BlackBoxWithANearNullSpace, SolvesWithWhateverIsGiven) {
+  const Eigen::SparseMatrix<double> A = laplacian(40);
+  const auto n = static_cast<std::size_t>(A.rows());
+  DiscreteProblem<1> problem = problem_of(A);
+  problem.b.assign(n, -1e-3);
+  bound(problem, std::vector<double>(n, -0.05), std::vector<double>(n, infinity));
+  const Given<1> given(problem);
+  const Reference exact = reference(problem);
+  SolverOptions options;
+  options.coarsening = "aggregation";
+  Random random(86);
+  NearNullSpace noise{3, std::vector<double>(3 * n)};
+  for (double& value : noise.value) value = random.between(-1, 1);
+  for (const NearNullSpace& modes :
+       {NearNullSpace{1, std::vector<double>(n, 0.0)}, NearNullSpace{2, std::vector<double>(2 * n, 1.0)},
+        NearNullSpace{1, std::vector<double>(n, 1e200)}, noise}) {
+    const auto found = BlackBox(A, 1, options, modes).solve(given.b, given.lower);
+    EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+    EXPECT_LE((vector(found.x) - exact.x).norm(), 1e-6 * exact.x.norm());
+  }
 }
 
 TEST(BlackBoxWithANearNullSpace, RefusesWhatDoesNotFit) {
