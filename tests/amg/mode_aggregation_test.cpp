@@ -136,8 +136,8 @@ Model<D> cantilever(double load) {
 template <int D>
 int cycles(const Mesh<D>& mesh, const Model<D>& model) {
   DiscreteProblem<D> problem = discretize<D, D>(mesh, model).problem;
-  const AlgebraicLevels<D> levels = algebraic_hierarchy<D>(problem, min_merge<D>(), 40, Coarsening::aggregation,
-                                                           rigid_body_modes<D>(coordinates(mesh)));
+  const AlgebraicLevels<D> levels = algebraic_hierarchy<D>(
+      problem, min_merge<D>(), 40, {.coarsening = Coarsening::aggregation}, rigid_body_modes<D>(coordinates(mesh)));
   EXPECT_GE(levels.prolongations.size(), 2u);
   problem.galerkin = levels.matrices;
   std::vector<double> x = nested_start<D>(problem, levels.prolongations, loose({}), registry());
