@@ -72,8 +72,8 @@ TEST(SmoothedAggregation, LeavesOutWhatIsPrescribedOrCoupledToNothing) {
 
 template <int B>
 AlgebraicLevels<B> aggregated(const DiscreteProblem<B>& problem, Index enough) {
-  return algebraic_hierarchy<B>(
-      problem, [] { return registry().create<Transfer<B>>("transfer", "min_merge"); }, enough, Coarsening::aggregation);
+  return algebraic_hierarchy<B>(problem, [] { return registry().create<Transfer<B>>("transfer", "min_merge"); }, enough,
+                                {.coarsening = Coarsening::aggregation});
 }
 
 TEST(SmoothedAggregation, HasFewEntries) {
