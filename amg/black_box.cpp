@@ -15,6 +15,7 @@
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/configuration.hpp"
 
 namespace signorini {
 namespace {
@@ -30,6 +31,19 @@ void check_finite(const char* what, std::span<const double> values) {
       input_error(what, fmt::format("found {} in row {}, expected a finite number", values[i], i + 1));
 }
 
+void check_near_null(const NearNullSpace& near_null, Index rows, Coarsening coarsening) {
+  if (near_null.modes == 0 && near_null.value.empty()) return;
+  constexpr const char* what = "near null space";
+  if (coarsening != Coarsening::aggregation)
+    input_error(what, "given with coarsening 'classical', which has no use for it; expected coarsening 'aggregation'");
+  if (near_null.modes < 1 || near_null.modes > most_modes)
+    input_error(what, fmt::format("found {} modes, expected 1 to {}", near_null.modes, most_modes));
+  if (near_null.value.size() != static_cast<std::size_t>(rows) * near_null.modes)
+    input_error(what, fmt::format("found {} values, expected {}, for each row of the matrix one per mode",
+                                  near_null.value.size(), static_cast<std::size_t>(rows) * near_null.modes));
+  check_finite(what, near_null.value);
+}
+
 }  // namespace
 
 class BlackBox::Solver {
@@ -42,21 +56,22 @@ class BlackBox::Solver {
                        std::span<const double> start, const Monitor& monitor) = 0;
 
   static std::unique_ptr<Solver> create(const SparseRows& A, const Given& given, int block,
-                                        const SolverOptions& options);
+                                        const SolverOptions& options, const NearNullSpace& near_null = {});
 };
 
 template <int B>
 class BlackBox::BlockSolver final : public Solver {
  public:
-  BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options)
+  BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options, const NearNullSpace& near_null)
       : options_(options), registry_(solver_components()) {
     problem_.A = block_matrix<B>(A);
     problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
     problem_.fixed.assign(static_cast<std::size_t>(A.rows) / B, 0);
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
+    check_near_null(near_null, A.rows, coarsening_of(options_));
     const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
     levels_ = given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer)
-                    : algebraic_hierarchy<B>(problem_, transfer);
+                    : algebraic_hierarchy<B>(problem_, transfer, few_vectors, coarsening_of(options_), near_null);
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }
@@ -100,21 +115,22 @@ class BlackBox::BlockSolver final : public Solver {
 };
 
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
-                                                           const SolverOptions& options) {
+                                                           const SolverOptions& options,
+                                                           const NearNullSpace& near_null) {
   switch (block) {
     case 1:
-      return std::make_unique<BlockSolver<1>>(A, given, options);
+      return std::make_unique<BlockSolver<1>>(A, given, options, near_null);
     case 2:
-      return std::make_unique<BlockSolver<2>>(A, given, options);
+      return std::make_unique<BlockSolver<2>>(A, given, options, near_null);
     case 3:
-      return std::make_unique<BlockSolver<3>>(A, given, options);
+      return std::make_unique<BlockSolver<3>>(A, given, options, near_null);
     default:
       input_error("block", fmt::format("found {}, expected 1, 2 or 3 unknowns in a block", block));
   }
 }
 
-BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options)
-    : solver_(Solver::create(A, {}, block, options)) {}
+BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options, const NearNullSpace& near_null)
+    : solver_(Solver::create(A, {}, block, options, near_null)) {}
 
 BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block,
                    const SolverOptions& options)

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/solver/options.hpp"
 #include "core/solver/solve.hpp"
@@ -27,8 +28,12 @@ class BlackBox {
   /// Levels chosen by the matrix.
   /// @param block 1, 2 or 3 unknowns that belong together, such as the displacement of a mesh vertex, in consecutive
   ///     rows
-  /// @throws Error(Exit::input) for a matrix that is not symmetric, not square or seen not to be positive semidefinite
-  explicit BlackBox(const SparseRows& A, int block = 1, const SolverOptions& options = {});
+  /// @param near_null what levels by aggregation represent exactly, such as rigid_body_modes() of an elastic body; only
+  ///     with options.coarsening = "aggregation"
+  /// @throws Error(Exit::input) for a matrix that is not symmetric, not square or seen not to be positive semidefinite,
+  ///     and a near null space that does not fit
+  explicit BlackBox(const SparseRows& A, int block = 1, const SolverOptions& options = {},
+                    const NearNullSpace& near_null = {});
 
   /// Levels by the interpolations of another linear multigrid code, coarsest first: one row per fine vector, one column
   /// per coarse one, weights of any sign. With blocks, a vector is a block, all of whose components are interpolated

@@ -10,6 +10,7 @@
 #include "amg/direction.hpp"
 #include "amg/masked_cg.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/weights.hpp"
 
 namespace signorini {
 namespace {
@@ -22,9 +23,10 @@ constexpr int steps_on_coarsest = 40, steps_above = 16;  // of conjugate gradien
 template <int B>
 Vector interpolated(const Prolongation& P, const Vector& coarse) {
   Vector fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
-  for (Index p = 0; p < P.fine(); ++p)
-    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
-      for (int i = 0; i < B; ++i) fine[Offset{p} * B + i] += P.weight[k] * coarse[Offset{P.column[k]} * B + i];
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Index p = 0; p < P.fine(); ++p)
+      weights::interpolate<B>(P, weight, p, coarse.data(), fine.data() + Offset{p} * B);
+  });
   return fine;
 }
 
@@ -118,22 +120,34 @@ class Search {
     const BlockMatrix<B>& A = matrix(k + 1);
     const std::vector<Flags>& gone = off(k + 1);
     Vector energy(lost.size() * B, 0.0);
-    for (Index p = 0; p < A.size(); ++p)
-      for (Offset c = P.row[p]; c < P.row[p + 1]; ++c) {
-        const Index q = P.column[c];
-        for (int i = 0; i < B; ++i)
-          if ((lost[q] & ~gone[p]) >> i & 1u) energy[Offset{q} * B + i] += P.weight[c] * product_with(A, P, p, q, i);
-      }
+    weights::with<B>(P, [&](const auto& weight) {
+      for (Index p = 0; p < A.size(); ++p)
+        for (Offset c = P.row[p]; c < P.row[p + 1]; ++c)
+          for (int i = 0; i < B; ++i) {
+            const Index q = P.column[c];
+            if (!(lost[q] >> i & 1u)) continue;
+            double unit[B] = {}, d[B] = {}, Ad[B] = {};
+            unit[i] = 1;
+            weight(c).add_value(unit, d);
+            add_product_with(A, P, weight, p, q, unit, Ad);
+            for (int j = 0; j < B; ++j)
+              if (!(gone[p] >> j & 1u)) energy[Offset{q} * B + i] += d[j] * Ad[j];
+          }
+    });
     return energy;
   }
 
-  /// (Ad)_p with the function d of component i of q
-  static double product_with(const BlockMatrix<B>& A, const Prolongation& P, Index p, Index q, int i) {
-    double sum = 0;
+  /// Adds (Ad)_p with the function d of a unit vector at q.
+  template <class Weight>
+  static void add_product_with(const BlockMatrix<B>& A, const Prolongation& P, const Weight& weight, Index p, Index q,
+                               const double* unit, double* Ad) {
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
       for (Offset m = P.row[A.column[k]]; m < P.row[A.column[k] + 1]; ++m)
-        if (P.column[m] == q) sum += A.at(k)[i * B + i] * P.weight[m];
-    return sum;
+        if (P.column[m] == q) {
+          double d[B] = {};
+          weight(m).add_value(unit, d);
+          block::add_product<B>(A.at(k), d, Ad);
+        }
   }
 
   const BlockMatrix<B>& A_;

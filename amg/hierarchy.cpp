@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "amg/classical.hpp"
+#include "amg/mode_aggregation.hpp"
+#include "amg/smoothed_aggregation.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -47,14 +49,36 @@ class Descent {
   std::vector<GalerkinMatrix<B>> matrices_;
 };
 
+/// Interpolations from fine to coarse.
+template <int B>
+class Chooser {
+ public:
+  Chooser(Coarsening coarsening, NearNullSpace modes) : coarsening_(coarsening), modes_(std::move(modes)) {}
+
+  Prolongation next(const Level<B>& level) {
+    if (coarsening_ == Coarsening::classical) return classical_interpolation(*level.A, level.off);
+    if (modes_.modes == 0) return smoothed_aggregation(*level.A, level.off);
+    ModeAggregation found = mode_aggregation(level, modes_, group_);
+    modes_ = std::move(found.coarse);
+    group_ = found.group;
+    return std::move(found.prolongation);
+  }
+
+ private:
+  Coarsening coarsening_;
+  NearNullSpace modes_;  // of the level that comes next
+  Index group_ = 1;      // of its vectors that belong together
+};
+
 }  // namespace
 
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough) {
+                                       Index enough, Coarsening coarsening, NearNullSpace near_null) {
   Descent<B> descent(problem);
+  Chooser<B> chooser(coarsening, std::move(near_null));
   while (descent.level().vectors > enough) {
-    Prolongation P = classical_interpolation(*descent.level().A, descent.level().off);
+    Prolongation P = chooser.next(descent.level());
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
     descent.go_down(std::move(P), *transfer());
   }
@@ -70,9 +94,12 @@ AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::ve
   return std::move(descent).levels();
 }
 
-template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index);
-template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index);
-template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index);
+template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index, Coarsening,
+                                                NearNullSpace);
+template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index, Coarsening,
+                                                NearNullSpace);
+template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index, Coarsening,
+                                                NearNullSpace);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
                                                const TransferFactory<1>&);
 template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,

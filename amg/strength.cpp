@@ -10,12 +10,19 @@ namespace {
 template <int B>
 constexpr double strong = B == 3 ? 0.4 : 0.25;  // part of the largest coupling of a row
 
+constexpr double strong_norm = 0.2;  // of groups
+
+template <int B>
+double square(const double* block) {
+  double sum = 0;
+  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
+  return sum;
+}
+
 template <int B>
 double strength(const double* block) {
   if constexpr (B == 1) return std::max(0.0, -*block);
-  double sum = 0;
-  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
-  return std::sqrt(sum);
+  return std::sqrt(square<B>(block));
 }
 
 template <int B>
@@ -52,6 +59,39 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
   return graph;
 }
 
+template <int B>
+StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group) {
+  constexpr Flags all = (1u << B) - 1;
+  const Index groups = A.size() / group;
+  StrengthGraph graph;
+  graph.balanced.assign(static_cast<std::size_t>(groups), 1.0);
+  std::vector<double> sum(static_cast<std::size_t>(groups), 0.0);  // zero between the rows
+  std::vector<Index> found;
+  for (Index g = 0; g < groups; ++g) {
+    found.clear();
+    for (Index p = g * group; p < (g + 1) * group; ++p)
+      for (Offset k = A.row[p]; off[p] != all && k < A.row[p + 1]; ++k) {
+        const Index q = A.column[k], h = q / group;
+        if (h == g || off[q] == all) continue;
+        if (sum[h] == 0) found.push_back(h);
+        sum[h] += square<B>(A.at(k));
+      }
+    double largest = 0;
+    for (const Index h : found) largest = std::max(largest, sum[h]);
+    std::ranges::sort(found);
+    for (const Index h : found) {
+      if (sum[h] > 0 && sum[h] >= strong_norm * strong_norm * largest)
+        graph.edge.push_back({h, static_cast<float>(std::sqrt(sum[h] / largest))});
+      sum[h] = 0;
+    }
+    graph.row.push_back(static_cast<Offset>(graph.edge.size()));
+  }
+  return graph;
+}
+
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index);
 template StrengthGraph strong_couplings(const BlockMatrix<1>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<2>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<3>&, const std::vector<Flags>&);

@@ -30,4 +30,8 @@ struct StrengthGraph {
 template <int B>
 StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off);
 
+/// The same between groups of consecutive vectors, by the norms of all that couples two of them.
+template <int B>
+StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group);
+
 }  // namespace signorini

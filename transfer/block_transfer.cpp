@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/solver/weights.hpp"
 #include "transfer/modifier.hpp"
 
 namespace signorini {
@@ -75,18 +76,18 @@ void BlockTransfer<B>::begin_restriction(Level<B>& coarse) const {
 template <int B>
 void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
                                          Level<B>& coarse) const {
-  for (Index p = first; p < last; ++p, r += B) {
-    double global[B];
-    if (modifier::is_plain<B>(fine, p)) {
-      for (int i = 0; i < B; ++i) global[i] = r[i];
-    } else {
-      modifier::force_to_global<B>(fine, p, r, global);
+  weights::with<B>(*P_, [&](const auto& weight) {
+    for (Index p = first; p < last; ++p, r += B) {
+      double global[B];
+      if (modifier::is_plain<B>(fine, p)) {
+        for (int i = 0; i < B; ++i) global[i] = r[i];
+      } else {
+        modifier::force_to_global<B>(fine, p, r, global);
+      }
+      for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
+        weight(k).add_force(global, coarse.own_b.data() + Offset{P_->column[k]} * B);
     }
-    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) {
-      double* b = coarse.own_b.data() + Offset{P_->column[k]} * B;
-      for (int i = 0; i < B; ++i) b[i] += P_->weight[k] * global[i];
-    }
-  }
+  });
 }
 
 template <int B>
@@ -114,19 +115,20 @@ void BlockTransfer<B>::begin_prolongation(const Level<B>& coarse) const {
 
 template <int B>
 void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const {
-  for (Index p = first; p < last; ++p) {
-    double global[B] = {};
-    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
-      for (int i = 0; i < B; ++i) global[i] += P_->weight[k] * coarse.x[Offset{P_->column[k]} * B + i];
-    double* x = fine.x + Offset{p} * B;
-    if (modifier::is_plain<B>(fine, p)) {
-      for (int i = 0; i < B; ++i) x[i] += global[i];
-    } else {
-      double local[B];
-      modifier::value_to_local<B>(fine, p, global, local);
-      for (int i = 0; i < B; ++i) x[i] += local[i];
+  weights::with<B>(*P_, [&](const auto& weight) {
+    for (Index p = first; p < last; ++p) {
+      double global[B] = {};
+      weights::interpolate<B>(*P_, weight, p, coarse.x, global);
+      double* x = fine.x + Offset{p} * B;
+      if (modifier::is_plain<B>(fine, p)) {
+        for (int i = 0; i < B; ++i) x[i] += global[i];
+      } else {
+        double local[B];
+        modifier::value_to_local<B>(fine, p, global, local);
+        for (int i = 0; i < B; ++i) x[i] += local[i];
+      }
     }
-  }
+  });
   const Constraints<B>& c = fine.constraints;
   const auto [from, to] = slots_between(c, first, last);
   for (Index slot = from; slot < to; ++slot)

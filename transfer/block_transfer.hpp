@@ -3,7 +3,7 @@
 
 namespace signorini {
 
-/// Transfer between two levels from scalar interpolation weights; the few vectors that are rotated, truncated or
+/// Transfer between two levels from interpolation weights; the few vectors that are rotated, truncated or
 /// prescribed get their small block modifiers on the fly. The merge of bounds is left to the monotone restriction.
 template <int B>
 class BlockTransfer : public Transfer<B> {
@@ -28,13 +28,15 @@ class BlockTransfer : public Transfer<B> {
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);
   void mark_parents(Index p, std::vector<Index>& rows);
-  void sum_children(const Level<B>& fine, Index q);
-  void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q);
+  template <class Weight>
+  void sum_children(const Level<B>& fine, Index q, const Weight& weight);
+  template <class Weight>
+  void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q, const Weight& weight);
   void finish_row(Level<B>& coarse, Index q);
 
   struct Child {
     Index vector;
-    double weight;
+    Offset entry;  // of the weights
   };
   const Prolongation* P_ = nullptr;
   std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to

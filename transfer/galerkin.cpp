@@ -2,6 +2,7 @@
 // rows near a phase change gives bitwise what a full assembly gives (Krause, 4.5).
 #include <algorithm>
 
+#include "core/solver/weights.hpp"
 #include "transfer/block_transfer.hpp"
 #include "transfer/modifier.hpp"
 
@@ -56,7 +57,7 @@ void BlockTransfer<B>::transpose_weights() {
   child_.resize(P_->column.size());
   std::vector<Offset> next(child_row_.begin(), child_row_.end() - 1);
   for (Index p = 0; p < P_->fine(); ++p)
-    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, P_->weight[k]};
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, k};
 }
 
 // The coarse vectors that a row reaches through the fine ones that its children are coupled to.
@@ -111,7 +112,9 @@ Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
   fine.renewed.clear();
   if (!rows.empty() && child_row_.empty()) transpose_weights();
   place_.resize(static_cast<std::size_t>(fine.vectors), -1);
-  for (const Index q : rows) assemble_row(fine, coarse, q);
+  weights::with<B>(*P_, [&](const auto& weight) {
+    for (const Index q : rows) assemble_row(fine, coarse, q, weight);
+  });
   for (const Index q : rows) finish_row(coarse, q);
   coarse.renewed.insert(coarse.renewed.end(), rows.begin(), rows.end());
   assembled_ = true;
@@ -141,7 +144,8 @@ std::vector<Index> BlockTransfer<B>::affected_rows(const Level<B>& fine) {
 
 // Row q of P'A in global coordinates, for the fine vectors reached.
 template <int B>
-void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q) {
+template <class Weight>
+void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight& weight) {
   const BlockMatrix<B>& A = *fine.A;
   constexpr Flags all = (1u << B) - 1;
   for (const Index r : reached_) place_[r] = -1;
@@ -151,6 +155,7 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q) {
     const Index p = child_[c].vector;
     if (fine.removed[p] == all) continue;
     const bool plain = modifier::is_plain<B>(fine, p);
+    const auto W = weight(child_[c].entry);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k];
       if (fine.removed[r] == all) continue;
@@ -165,24 +170,21 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q) {
         reached_.push_back(r);
         sums_.resize(sums_.size() + B * B, 0.0);
       }
-      double* sum = sums_.data() + Offset{place_[r]} * B * B;
-      for (int i = 0; i < B * B; ++i) sum[i] += child_[c].weight * M[i];
+      W.add_from_left(M, sums_.data() + Offset{place_[r]} * B * B);
     }
   }
 }
 
 template <int B>
-void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Index q) {
+template <class Weight>
+void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Index q, const Weight& weight) {
   BlockMatrix<B>& C = coarse.own_matrix;
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
   std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
-  sum_children(fine, q);
+  sum_children(fine, q, weight);
   const double* sum = sums_.data();
   for (const Index r : reached_) {
-    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) {
-      double* entry = C.at(position_[P_->column[m]]);
-      for (int i = 0; i < B * B; ++i) entry[i] += P_->weight[m] * sum[i];
-    }
+    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) weight(m).add_from_right(sum, C.at(position_[P_->column[m]]));
     sum += B * B;
   }
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solver/weights.hpp"
+
 namespace signorini {
 
 namespace {
@@ -10,16 +12,20 @@ namespace {
 // Products of rotations that would vanish in exact arithmetic.
 constexpr double negligible = 1e-14;
 
-// d(fine direction) / d(coarse component j), for weight one
-template <int B>
-void coupling(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, Index q, double* M) {
+// d(fine direction) / d(coarse component j)
+template <int B, class Weight>
+void coupling(const Level<B>& fine, Index p, int direction, const Weight& W, const Level<B>& coarse, Index q,
+              double* M) {
   const double *Np = fine.frames.dual_at(p), *Qq = coarse.frames.at(q);
-  for (int j = 0; j < B; ++j) {
-    M[j] = 0;
-    for (int i = 0; i < B; ++i)
-      M[j] += (Np ? Np[i * B + direction] : double(i == direction)) * (Qq ? Qq[i * B + j] : double(i == j));
-    if ((coarse.off[q] >> j & 1u) || std::fabs(M[j]) <= negligible) M[j] = 0;
-  }
+  double n[B], moved[B] = {};  // the direction in global coordinates, of the fine vector and of the coarse one
+  for (int i = 0; i < B; ++i) n[i] = Np ? Np[i * B + direction] : double(i == direction);
+  W.add_force(n, moved);
+  if (Qq)
+    block::transposed_product<B>(Qq, moved, M);
+  else
+    for (int j = 0; j < B; ++j) M[j] = moved[j];
+  for (int j = 0; j < B; ++j)
+    if ((coarse.off[q] >> j & 1u) || std::fabs(M[j]) <= negligible * W.size()) M[j] = 0;
 }
 
 // One side of a row: sum side M_j c_j <= distance, with side = 1 for the upper bound and -1 for the lower one.
@@ -115,20 +121,23 @@ template <int B, Share share>
 void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse,
                               std::vector<Term>& terms) const {
   terms.clear();
-  const bool plain = fine.frames.slot.empty() && coarse.frames.slot.empty();  // every direction couples to itself alone
   const Prolongation& P = this->weights();
-  for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
-    const Index q = P.column[k];
-    const Offset at = Offset{coarse.constraints.slot[q]} * B;
-    if (plain) {
-      if (P.weight[k] != 0 && !(coarse.off[q] >> direction & 1u)) terms.push_back({at + direction, P.weight[k]});
-      continue;
+  // Every direction couples to itself alone.
+  const bool plain = fine.frames.slot.empty() && coarse.frames.slot.empty() && P.block.empty();
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
+      const Index q = P.column[k];
+      const Offset at = Offset{coarse.constraints.slot[q]} * B;
+      if (plain) {
+        if (P.weight[k] != 0 && !(coarse.off[q] >> direction & 1u)) terms.push_back({at + direction, P.weight[k]});
+        continue;
+      }
+      double M[B];
+      coupling<B>(fine, p, direction, weight(k), coarse, q, M);
+      for (int j = 0; j < B; ++j)
+        if (M[j] != 0) terms.push_back({at + j, M[j]});
     }
-    double M[B];
-    coupling<B>(fine, p, direction, coarse, q, M);
-    for (int j = 0; j < B; ++j)
-      if (const double weight = P.weight[k] * M[j]; weight != 0) terms.push_back({at + j, weight});
-  }
+  });
 }
 
 template class Merge<1, Share::equal>;

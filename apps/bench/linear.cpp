@@ -95,7 +95,8 @@ double complexity(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
 }  // namespace
 
 template <int B>
-LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance) {
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening,
+                         const NearNullSpace& near_null) {
   const Registry registry = solver_components();
   Stopwatch watch;
   DiscreteProblem<B> problem;
@@ -103,8 +104,8 @@ LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double 
   problem.b.assign(b.begin(), b.end());
   problem.fixed.assign(b.size() / B, 0);
   problem.start.assign(b.size(), 0.0);
-  const auto levels =
-      algebraic_hierarchy<B>(problem, [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); });
+  const auto transfer = [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); };
+  const auto levels = algebraic_hierarchy<B>(problem, transfer, few_vectors, coarsening, near_null);
   const double hierarchy = watch.elapsed();
   problem.galerkin = levels.matrices;
   LinearSolve result = multigrid_cg<B>(problem, levels.prolongations, registry, tolerance);
@@ -116,7 +117,9 @@ LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double 
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
-template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double);
-template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double);
+template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double, Coarsening,
+                                     const NearNullSpace&);
+template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double, Coarsening,
+                                     const NearNullSpace&);
 
 }  // namespace signorini::bench

@@ -1,7 +1,9 @@
 #pragma once
+#include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini::bench {
@@ -24,6 +26,7 @@ LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prol
 
 /// The same on levels that the matrix gives, B rows to a vector.
 template <int B>
-LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance);
+LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance,
+                         Coarsening coarsening = Coarsening::classical, const NearNullSpace& near_null = {});
 
 }  // namespace signorini::bench

@@ -32,7 +32,8 @@ double cycle_bytes(const std::vector<Level<B>>& levels, std::span<const Prolonga
     const double sweep = matrix + inverse + bounds + 3 * vector;  // b, x read and written
     const double residual = matrix + 3 * vector;
     const Prolongation& P = prolongations[k - 1];
-    const double weights = static_cast<double>(P.weight.size()) * (doubles + sizeof(Index)) + vectors * sizeof(Offset);
+    const double weights = static_cast<double>(P.weight.size() + P.block.size()) * doubles +
+                           static_cast<double>(P.column.size()) * sizeof(Index) + vectors * sizeof(Offset);
     const double coarse = static_cast<double>(P.coarse) * B * doubles;
     bytes += 2 * sweep + residual + 2 * weights + vector + 2 * vector + 4 * coarse;
   }

@@ -20,7 +20,7 @@ Exit solve_command(const SolveArguments& arguments);
 
 /// `signorini qp`. Paths of files that are not given are empty.
 struct QpArguments {
-  std::filesystem::path matrix, load, lower, upper, start;
+  std::filesystem::path matrix, load, lower, upper, start, near_null, coordinates;
   std::filesystem::path out, report;
   int block = 1;
   SolverOptions options;

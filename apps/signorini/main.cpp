@@ -113,6 +113,8 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--lower", qp.lower, "lower bounds l");
   file("--upper", qp.upper, "upper bounds u");
   file("--start", qp.start, "where to start; default: from coarser levels");
+  file("--near-null", qp.near_null, "directions of little energy, one per column; with --coarsening aggregation");
+  file("--coordinates", qp.coordinates, "positions of elastic vectors, one row each, in place of --near-null");
   file("--out", qp.out, "file for the solution; default, or '-': print a summary only");
   file("--report", qp.report, "JSON file for what the solver did");
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
@@ -126,6 +128,9 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   command->add_option("--method", qp.options.method, "see docs/solver.md")
       ->check(one_of({"auto", "monotone", "tnnmg", "pgs", "pdas"}))
+      ->capture_default_str();
+  command->add_option("--coarsening", qp.options.coarsening, "how coarser levels are chosen, see docs/solver.md")
+      ->check(one_of({"classical", "aggregation"}))
       ->capture_default_str();
   command->footer(std::string(solve_notes) + qp_notes);
   return command;

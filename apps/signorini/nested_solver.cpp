@@ -26,6 +26,16 @@ template <int B>
                           " but perhaps obstacles that meet others in dependent or nearly parallel directions at one "
                           "vertex; such obstacles are not available in this version");
 }
+
+/// Of an elastic body.
+template <int D, int B>
+NearNullSpace near_null_space(const Mesh<D>& mesh) {
+  if constexpr (B == 1) return {};
+  std::vector<double> coordinates;
+  for (const Point<D>& x : mesh.points) coordinates.insert(coordinates.end(), x.begin(), x.end());
+  return rigid_body_modes<D>(coordinates);
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -64,8 +74,11 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   continued_ = true;
   if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
   Stopwatch watch;
-  auto below =
-      algebraic_hierarchy<B>(coarsest, [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); });
+  const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  const Coarsening coarsening = coarsening_of(options_);
+  auto modes =
+      coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
+  auto below = algebraic_hierarchy<B>(coarsest, transfer, few_vectors, coarsening, std::move(modes));
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
                         std::make_move_iterator(below.prolongations.end()));

@@ -28,6 +28,19 @@ Vectors read_vectors(const QpArguments& arguments, Index size) {
           read(arguments.upper, Infinities::allowed), read(arguments.start, Infinities::refused)};
 }
 
+NearNullSpace near_null_space(const QpArguments& arguments, Index rows) {
+  const int block = arguments.block;
+  if (!arguments.near_null.empty()) {
+    if (!arguments.coordinates.empty()) throw Error(Exit::usage, "--near-null and --coordinates exclude each other");
+    Columns columns = read_columns(arguments.near_null, rows, 1, most_modes);
+    return {columns.columns, std::move(columns.value)};
+  }
+  if (arguments.coordinates.empty()) return {};
+  if (block == 1) throw Error(Exit::usage, "--coordinates needs --block 2 or --block 3");
+  const std::vector<double> coordinates = read_columns(arguments.coordinates, rows / block, block, block).value;
+  return block == 2 ? rigid_body_modes<2>(coordinates) : rigid_body_modes<3>(coordinates);
+}
+
 /// The files of a run, in one folder or several.
 class Outputs {
  public:
@@ -82,6 +95,7 @@ class QpRun {
     progress_.phase("reading");
     matrix_ = read_matrix(arguments_.matrix);
     vectors_ = read_vectors(arguments_, matrix_.rows);
+    near_null_ = near_null_space(arguments_, matrix_.rows);
     if (wants_solution_) out_ = outputs_.stage(arguments_.out);
     if (!arguments_.report.empty()) report_ = outputs_.stage(arguments_.report);
     if (wants_solution_ && out_ == report_)
@@ -94,7 +108,7 @@ class QpRun {
   BlackBox set_up() {
     progress_.phase(fmt::format("setting up {} unknowns", matrix_.rows));
     try {
-      return BlackBox(std::exchange(matrix_, {}), arguments_.block, arguments_.options);
+      return BlackBox(std::exchange(matrix_, {}), arguments_.block, arguments_.options, std::exchange(near_null_, {}));
     } catch (const Error& error) {
       throw Error(error.status(), fmt::format("{}: {}", arguments_.matrix.string(), error.what()));
     }
@@ -150,6 +164,7 @@ class QpRun {
   } time_;
   SparseRows matrix_;  // until the set-up
   Vectors vectors_;
+  NearNullSpace near_null_;
   Outputs outputs_;
   fs::path out_, report_;  // where they are written before they appear; empty: not wanted
   BlackBox::Result result_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fem/discretize.hpp"
+#include "core/solver/weights.hpp"
 
 namespace signorini {
 
@@ -30,10 +31,10 @@ std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vec
                                 const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
   const std::vector<double> u = to_global(coarse, x);
   std::vector<double> out(Offset{prolongation.fine()} * B);
-  for (Index p = 0; p < prolongation.fine(); ++p)
-    for (Offset k = prolongation.row[p]; k < prolongation.row[p + 1]; ++k)
-      for (int i = 0; i < B; ++i)
-        out[Offset{p} * B + i] += prolongation.weight[k] * u[Offset{prolongation.column[k]} * B + i];
+  weights::with<B>(prolongation, [&](const auto& weight) {
+    for (Index p = 0; p < prolongation.fine(); ++p)
+      weights::interpolate<B>(prolongation, weight, p, u.data(), out.data() + Offset{p} * B);
+  });
   out = to_local(fine, std::move(out));
   for (std::size_t k = 0; k < out.size(); ++k)
     if (fine.fixed[k / B] >> (k % B) & 1) out[k] = fine.start[k];

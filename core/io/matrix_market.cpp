@@ -76,12 +76,37 @@ void refuse_duplicates(const SparseRows& matrix, std::string_view text, std::str
       }
 }
 
+/// Row by row; what a coordinate file leaves out is zero.
+std::vector<double> dense(MatrixMarketInput& input, Infinities infinities) {
+  std::vector<double> out(static_cast<std::size_t>(input.rows()) * input.columns(), 0);
+  std::vector<bool> seen(out.size(), false);
+  const auto set = [&](Index row, Index column, double value) {
+    const auto at = static_cast<std::size_t>(row) * input.columns() + column;
+    if (seen[at])
+      input.fail(input.columns() == 1
+                     ? fmt::format("the entry in row {} stands twice", row + 1)
+                     : fmt::format("the entry in row {}, column {} stands twice", row + 1, column + 1));
+    seen[at] = true;
+    out[at] = value;
+  };
+  input.for_each_entry([&](const Entry& entry) {
+    if (infinities == Infinities::refused) refuse_infinity(input, entry);
+    set(entry.row, entry.column, entry.value);
+    if (input.symmetric() && entry.row != entry.column) set(entry.column, entry.row, entry.value);
+  });
+  return out;
+}
+
 }  // namespace
 
 SparseRows read_matrix(const std::filesystem::path& path) { return parse_matrix(read_text(path), path.string()); }
 
 std::vector<double> read_vector(const std::filesystem::path& path, Index size, Infinities infinities) {
   return parse_vector(read_text(path), path.string(), size, infinities);
+}
+
+Columns read_columns(const std::filesystem::path& path, Index size, Index fewest, Index most) {
+  return parse_columns(read_text(path), path.string(), size, fewest, most);
 }
 
 SparseRows parse_matrix(std::string_view text, std::string_view place) {
@@ -99,15 +124,16 @@ std::vector<double> parse_vector(std::string_view text, std::string_view place, 
   if (input.rows() != size || input.columns() != 1)
     input.fail(fmt::format("found {} rows and {} columns, expected a vector of {} rows and one column", input.rows(),
                            input.columns(), size));
-  std::vector<double> out(static_cast<std::size_t>(size), 0);
-  std::vector<bool> seen(out.size(), false);
-  input.for_each_entry([&](const Entry& entry) {
-    if (infinities == Infinities::refused) refuse_infinity(input, entry);
-    if (seen[entry.row]) input.fail(fmt::format("the entry in row {} stands twice", entry.row + 1));
-    seen[entry.row] = true;
-    out[entry.row] = entry.value;
-  });
-  return out;
+  return dense(input, infinities);
+}
+
+Columns parse_columns(std::string_view text, std::string_view place, Index size, Index fewest, Index most) {
+  MatrixMarketInput input(text, place);
+  if (input.rows() != size || input.columns() < fewest || input.columns() > most)
+    input.fail(fmt::format("found {} rows and {} columns, expected {} rows and {} columns", input.rows(),
+                           input.columns(), size,
+                           fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most)));
+  return {input.columns(), dense(input, Infinities::refused)};
 }
 
 std::string matrix_market(std::span<const double> vector) {

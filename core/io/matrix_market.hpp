@@ -20,9 +20,19 @@ enum class Infinities { refused, allowed };
 /// One column of `size` rows; what a coordinate file leaves out is zero.
 std::vector<double> read_vector(const std::filesystem::path& path, Index size, Infinities infinities);
 
+/// A dense matrix, row by row.
+struct Columns {
+  Index columns = 0;
+  std::vector<double> value;
+};
+
+/// Finite values in `size` rows and from `fewest` to `most` columns.
+Columns read_columns(const std::filesystem::path& path, Index size, Index fewest, Index most);
+
 /// The same from memory, unpacked; `place` is the name used in messages.
 SparseRows parse_matrix(std::string_view text, std::string_view place);
 std::vector<double> parse_vector(std::string_view text, std::string_view place, Index size, Infinities infinities);
+Columns parse_columns(std::string_view text, std::string_view place, Index size, Index fewest, Index most);
 
 /// A file's text, in full precision: one column as an array, a matrix in coordinates.
 std::string matrix_market(std::span<const double> vector);

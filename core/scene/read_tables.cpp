@@ -44,6 +44,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.cut = reader.number("cut");
   solver.rotate = reader.text("rotate");
   solver.algebraic = reader.flag("algebraic");
+  solver.coarsening = reader.text("coarsening");
   solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");
   solver.threads = reader.integer("threads");

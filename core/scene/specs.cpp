@@ -139,6 +139,8 @@ constexpr KeySpec solver[] = {
     {"rotate", text, "all", "all | not_coarsest | none", "", "levels on which contact vectors use their local basis"},
     {"algebraic", boolean, "true", "", "",
      "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
+    {"coarsening", text, "classical", "classical | aggregation", "",
+     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "[1, 4096]", "",

@@ -32,6 +32,11 @@ Truncation truncation_of(const SolverOptions& o) {
 
 }  // namespace
 
+Coarsening coarsening_of(const SolverOptions& o) {
+  return choice<Coarsening>("coarsening", o.coarsening,
+                            {{"classical", Coarsening::classical}, {"aggregation", Coarsening::aggregation}});
+}
+
 Method check_options(const SolverOptions& o) {
   require(o.pre >= 0 && o.post >= 0 && o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post),
           "pre, post >= 0 and at least one smoothing step");
@@ -46,6 +51,7 @@ Method check_options(const SolverOptions& o) {
                                       {"tnnmg", Method::tnnmg},
                                       {"pgs", Method::pgs},
                                       {"pdas", Method::pdas}});
+  coarsening_of(o);
   require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,

@@ -9,9 +9,13 @@ namespace signorini {
 
 enum class Method { automatic, monotone, tnnmg, pgs, pdas };
 
+/// How levels are chosen by the matrix: by interpolation from some of the vectors, or by smoothed aggregation.
+enum class Coarsening { classical, aggregation };
+
 /// Error(Exit::input) naming the option, what was found and what was expected where options are out of range or
 /// contradict each other.
 Method check_options(const SolverOptions& options);
+Coarsening coarsening_of(const SolverOptions& options);
 
 /// What the options say about the cycles. Error(Exit::input) as above, also for components that do not exist.
 template <int B>

@@ -5,17 +5,19 @@
 
 namespace signorini {
 
-/// Interpolation from a coarse to a fine level: scalar weights in compressed rows, one row per fine vector, the same
-/// for all components. A coarse vector may be one of the fine vectors, its twin, whose row then holds the single weight
-/// one; it shares the twin's frame and prescribed components. Geometric and algebraic levels use the same form.
+/// Interpolation from a coarse to a fine level: weights in compressed rows, one row per fine vector; scalars that are
+/// the same for all components, or blocks (see weights.hpp). A coarse vector may be one of the fine vectors, its twin,
+/// or stand for its neighbourhood; it shares the twin's frame and prescribed components. Geometric and algebraic levels
+/// use the same form.
 struct Prolongation {
   Index coarse = 0;            ///< number of coarse vectors
   std::vector<Offset> row{0};  ///< fine + 1
   std::vector<Index> column;
-  std::vector<double> weight;
+  std::vector<double> weight;  ///< per entry; none where there are blocks
+  std::vector<double> block;   ///< B * B per entry, row-major, between global coordinates; for B > 1 only
   bool midpoints = false;  ///< coarse vectors are coupled only where a fine one lies between them (uniform refinement)
 
-  std::vector<Index> twin;  ///< per coarse vector, -1: none; empty where rows with the single weight one tell
+  std::vector<Index> twin;  ///< per coarse vector, -1: none; empty where rows with the single scalar weight one tell
 
   Index fine() const { return static_cast<Index>(row.size()) - 1; }
 

@@ -28,7 +28,7 @@ TYPED_TEST(Galerkin, EqualsTheDenseProduct) {
   constexpr int B = TypeParam::value;
   Random random(21);
   for (int trial = 0; trial < 40; ++trial) {
-    TwoLevels<B> t(random, 30, trial % 2 == 0);
+    TwoLevels<B> t(random, 30, trial % 2 == 0, trial % 8 > 3);
     truncate(t.fine, random_flags<B>(random, 30, 0.15 * (trial % 4)));
     EXPECT_EQ(t.transfer.assemble(t.fine, t.coarse), t.coarse.vectors);
     const Eigen::MatrixXd C = galerkin(t.fine, t.P, t.coarse);
@@ -90,12 +90,13 @@ void expect_same_matrices(const Chain<B>& a, const Chain<B>& b) {
 
 /// A problem with frames, and the interpolations to it over two levels.
 template <int B>
-std::pair<DiscreteProblem<B>, std::array<Prolongation, 2>> random_hierarchy(Random& random, Index n) {
+std::pair<DiscreteProblem<B>, std::array<Prolongation, 2>> random_hierarchy(Random& random, Index n, bool blocks) {
   auto problem = random_problem<B>(random, n, 1);
   problem.A = random_matrix<B>(random, n, 1);
   problem.frames = random_frames<B>(random, n);
-  auto coarser = random_prolongation(random, n / 16, n / 4);
-  return {std::move(problem), {std::move(coarser), random_prolongation(random, n / 4, n)}};
+  auto coarser = random_prolongation(random, n / 16, n / 4), finer = random_prolongation(random, n / 4, n);
+  if (B > 1 && blocks) make_blocks<B>(random, finer);
+  return {std::move(problem), {std::move(coarser), std::move(finer)}};
 }
 
 TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
@@ -103,7 +104,7 @@ TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
   constexpr Index n = 240;
   Random random(22);
   for (const bool rotate : {true, false}) {
-    const auto [problem, P] = random_hierarchy<B>(random, n);
+    const auto [problem, P] = random_hierarchy<B>(random, n, rotate);
     Chain<B> chain(problem, P, rotate);
     std::vector<Flags> finest = random_flags<B>(random, n, 0.1), middle = random_flags<B>(random, n / 4, 0.1);
     chain.assemble(finest, middle);
@@ -132,7 +133,7 @@ TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
   constexpr Index n = 240;
   Random random(23);
   for (const bool rotate : {true, false}) {
-    const auto [problem, P] = random_hierarchy<B>(random, n);
+    const auto [problem, P] = random_hierarchy<B>(random, n, rotate);
     const std::vector<Flags> none(n, 0);
     Chain<B> untruncated(problem, P, rotate);
     const Index all = untruncated.assemble(none, none);

@@ -6,7 +6,7 @@
 namespace signorini::test {
 
 /// The interpolation from `coarse` to `fine` as one dense matrix, written down from its definition: block (p, q) is
-/// w_pq D_p R_p^-1 C_q D_q with the frames R_p, C_q, and D dropping what does not interpolate.
+/// D_p R_p^-1 W_pq C_q D_q with the weights W, the frames R_p, C_q, and D dropping what does not interpolate.
 template <int B>
 Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const Level<B>& coarse) {
   using Block = Eigen::Matrix<double, B, B>;
@@ -27,8 +27,11 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
   for (Index p = 0; p < fine.vectors; ++p)
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
       const Index q = P.column[k];
+      Block W = Block::Identity();
+      for (int i = 0; i < B * B; ++i)
+        W(i / B, i % B) = P.block.empty() ? W(i / B, i % B) * P.weight[k] : P.block[k * B * B + i];
       T.block(p * B, q * B, B, B) =
-          P.weight[k] * kept(fine.removed[p]) * basis(fine, p).inverse() * basis(coarse, q) * kept(coarse.off[q]);
+          kept(fine.removed[p]) * basis(fine, p).inverse() * W * basis(coarse, q) * kept(coarse.off[q]);
     }
   return T;
 }
@@ -53,6 +56,17 @@ std::vector<Flags> random_flags(Random& random, Index n, double probability) {
   return flags;
 }
 
+/// Random blocks in place of the weights, but for the twins; for B > 1.
+template <int B>
+void make_blocks(Random& random, Prolongation& P) {
+  P.twin = P.twins();
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
+      for (int i = 0; i < B * B; ++i)
+        P.block.push_back(p < P.coarse ? double(i % (B + 1) == 0) : P.weight[k] * random.between(-1, 1));
+  P.weight.clear();
+}
+
 /// A fine level with random matrix, frames and remaining distances, and the coarse one below it.
 template <int B, template <int> class Restriction = MinMerge>
 struct TwoLevels {
@@ -62,10 +76,11 @@ struct TwoLevels {
   Restriction<B> transfer;
   std::vector<double> x;
 
-  TwoLevels(Random& random, Index n, bool rotate) {
+  TwoLevels(Random& random, Index n, bool rotate, bool blocks = false) {
     problem = random_problem<B>(random, n, 0.4);
     problem.frames = random_frames<B>(random, n);
     P = random_prolongation(random, n / 3, n);
+    if (B > 1 && blocks) make_blocks<B>(random, P);
     fine = finest_level(problem);
     x.assign(problem.b.size(), 0.0);
     fine.x = x.data();

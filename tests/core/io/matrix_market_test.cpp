@@ -130,6 +130,23 @@ TEST(MatrixMarket, RefusesSizesThatTheFileCannotHold) {
   wrong(coordinate + "2000000000 2000000000 1\n1 1 1\n", "2000000000 rows, but 1 entries only");
 }
 
+TEST(MatrixMarket, ReadsColumnsRowByRow) {
+  const auto columns = [](const std::string& text, Index size, Index fewest, Index most) {
+    return parse_columns(text, "v.mtx", size, fewest, most);
+  };
+  const Columns found = columns(array + "3 2\n1\n2\n3\n4\n5\n6\n", 3, 1, 4);
+  EXPECT_EQ(found.columns, 2);
+  EXPECT_THAT(found.value, ElementsAre(1, 4, 2, 5, 3, 6));
+  EXPECT_THAT(columns(coordinate + "2 2 1\n2 1 7\n", 2, 2, 2).value, ElementsAre(0, 0, 7, 0));
+  EXPECT_THAT(input_error_of([&] { columns(array + "3 2\n1\n2\n3\n4\n5\n6\n", 3, 3, 3); }),
+              HasSubstr("found 3 rows and 2 columns, expected 3 rows and 3 columns"));
+  EXPECT_THAT(input_error_of([&] { columns(coordinate + "2 2000000000 1\n1 1 1\n", 2, 1, 32); }),
+              HasSubstr("expected 2 rows and 1 to 32 columns"));
+  EXPECT_THAT(input_error_of([&] { columns(coordinate + "2 2 2\n2 1 7\n2 1 7\n", 2, 2, 2); }),
+              HasSubstr("row 2, column 1"));
+  EXPECT_THAT(input_error_of([&] { columns(array + "1 2\n1\ninf\n", 1, 2, 2); }), HasSubstr("finite"));
+}
+
 TEST(MatrixMarket, AVectorHasTheSizeThatIsExpected) {
   for (const char* text : {"3 1\n1\n2\n3\n", "1 4\n1\n2\n3\n4\n", "4 2\n1\n2\n3\n4\n1\n2\n3\n4\n"})
     EXPECT_THAT(input_error_of([&] { vector(array + text, 4); }),

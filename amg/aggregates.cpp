@@ -1,0 +1,78 @@
+#include "amg/aggregates.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+constexpr Index none = -1;
+
+class Aggregation {
+ public:
+  explicit Aggregation(const StrengthGraph& graph) : graph_(graph), of_(static_cast<std::size_t>(graph.size()), none) {}
+
+  void take_free_neighbourhoods() {
+    for (Index p = 0; p < graph_.size(); ++p)
+      if (of_[p] == none && !graph_.of(p).empty() &&
+          std::ranges::all_of(graph_.of(p), [&](const Coupling& c) { return of_[c.to] == none; }))
+        found(p);
+  }
+
+  void join_the_strongest() {
+    const std::vector<Index> before = of_;
+    for (Index p = 0; p < graph_.size(); ++p) {
+      if (of_[p] != none) continue;
+      float most = 0;
+      for (const Coupling& c : graph_.of(p))
+        if (before[c.to] != none && c.strength > most) {
+          most = c.strength;
+          of_[p] = before[c.to];
+        }
+    }
+  }
+
+  void gather_the_rest() {
+    for (Index p = 0; p < graph_.size(); ++p)
+      if (of_[p] == none && !graph_.of(p).empty()) found(p);
+  }
+
+  /// Numbered by their roots.
+  Aggregates result() && {
+    std::vector<Index> order(root_.size()), number(root_.size());
+    for (std::size_t a = 0; a < order.size(); ++a) order[a] = static_cast<Index>(a);
+    std::ranges::sort(order, {}, [&](Index a) { return root_[a]; });
+    Aggregates out;
+    for (const Index a : order) {
+      number[a] = out.size();
+      out.root.push_back(root_[a]);
+    }
+    for (Index& a : of_)
+      if (a != none) a = number[a];
+    out.of = std::move(of_);
+    return out;
+  }
+
+ private:
+  void found(Index p) {
+    const auto a = static_cast<Index>(root_.size());
+    root_.push_back(p);
+    of_[p] = a;
+    for (const Coupling& c : graph_.of(p))
+      if (of_[c.to] == none) of_[c.to] = a;
+  }
+
+  const StrengthGraph& graph_;
+  std::vector<Index> of_, root_;
+};
+
+}  // namespace
+
+Aggregates aggregate(const StrengthGraph& graph) {
+  Aggregation aggregation(graph);
+  aggregation.take_free_neighbourhoods();
+  aggregation.join_the_strongest();
+  aggregation.gather_the_rest();
+  return std::move(aggregation).result();
+}
+
+}  // namespace signorini
