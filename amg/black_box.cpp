@@ -34,8 +34,10 @@ void check_finite(const char* what, std::span<const double> values) {
 void check_near_null(const NearNullSpace& near_null, Index rows, Coarsening coarsening) {
   if (near_null.modes == 0 && near_null.value.empty()) return;
   constexpr const char* what = "near null space";
-  if (coarsening != Coarsening::aggregation)
-    input_error(what, "given with coarsening 'classical', which has no use for it; expected coarsening 'aggregation'");
+  if (coarsening == Coarsening::classical)
+    input_error(
+        what,
+        "given with coarsening 'classical', which has no use for it; expected coarsening 'auto' or 'aggregation'");
   if (near_null.modes < 1 || near_null.modes > most_modes)
     input_error(what, fmt::format("found {} modes, expected 1 to {}", near_null.modes, most_modes));
   if (near_null.value.size() != static_cast<std::size_t>(rows) * near_null.modes)

@@ -29,7 +29,7 @@ class BlackBox {
   /// @param block 1, 2 or 3 unknowns that belong together, such as the displacement of a mesh vertex, in consecutive
   ///     rows
   /// @param near_null what levels by aggregation represent exactly, such as rigid_body_modes() of an elastic body; only
-  ///     with options.coarsening = "aggregation"
+  ///     unless options.coarsening = "classical"
   /// @throws Error(Exit::input) for a matrix that is not symmetric, not square or seen not to be positive semidefinite,
   ///     and a near null space that does not fit
   explicit BlackBox(const SparseRows& A, int block = 1, const SolverOptions& options = {},

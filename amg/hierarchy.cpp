@@ -64,8 +64,10 @@ class Chooser {
   Chooser(Coarsening coarsening, NearNullSpace modes) : coarsening_(coarsening), modes_(std::move(modes)) {}
 
   Prolongation next(const Level<B>& level) {
-    if (coarsening_ == Coarsening::classical) return classical_interpolation(*level.A, level.off);
-    if (modes_.modes == 0) return smoothed_aggregation(*level.A, level.off);
+    const bool known = modes_.modes > 0;
+    if (coarsening_ == Coarsening::classical || (coarsening_ == Coarsening::automatic && !known))
+      return classical_interpolation(*level.A, level.off);
+    if (!known) return smoothed_aggregation(*level.A, level.off);
     ModeAggregation found = mode_aggregation(level, modes_, group_);
     modes_ = std::move(found.coarse);
     group_ = found.group;

@@ -113,8 +113,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--lower", qp.lower, "lower bounds l");
   file("--upper", qp.upper, "upper bounds u");
   file("--start", qp.start, "where to start; default: from coarser levels");
-  file("--near-null", qp.near_null,
-       "directions of little energy, one per column; with --set solver.coarsening=aggregation");
+  file("--near-null", qp.near_null, "directions of little energy, one per column");
   file("--coordinates", qp.coordinates, "positions of elastic vectors, one row each, in place of --near-null");
   file("--out", qp.out, "file for the solution; default, or '-': print a summary only");
   file("--report", qp.report, "JSON file for what the solver did");

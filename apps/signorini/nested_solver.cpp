@@ -76,8 +76,9 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   Stopwatch watch;
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   const AlgebraicSettings settings = algebraic_settings(options_);
-  auto modes = settings.coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front())
-                                                              : NearNullSpace{};
+  const bool aggregate =
+      settings.coarsening == Coarsening::aggregation || (B > 1 && settings.coarsening == Coarsening::automatic);
+  auto modes = aggregate ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes));
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),

@@ -148,8 +148,10 @@ constexpr KeySpec solver[] = {
      "of constrained ones; other weights are truncated"},
     {"interpolate", text, "global", "global | local", "",
      "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases"},
-    {"coarsening", text, "classical", "classical | aggregation", "",
-     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation"},
+    {"coarsening", text, "auto", "auto | classical | aggregation", "",
+     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
+     "for "
+     "elastic bodies"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "[1, 4096]", "",

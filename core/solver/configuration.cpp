@@ -40,7 +40,9 @@ bool local_components(const SolverOptions& o) {
 
 Coarsening coarsening_of(const SolverOptions& o) {
   return choice<Coarsening>("coarsening", o.coarsening,
-                            {{"classical", Coarsening::classical}, {"aggregation", Coarsening::aggregation}});
+                            {{"auto", Coarsening::automatic},
+                             {"classical", Coarsening::classical},
+                             {"aggregation", Coarsening::aggregation}});
 }
 
 Method check_options(const SolverOptions& o) {
@@ -62,13 +64,14 @@ Method check_options(const SolverOptions& o) {
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
           "a monotone restriction, or method 'tnnmg', whose coarse corrections have no bounds");
   const bool restricted = only_twins(o), rotated = local_components(o);
-  require(coarsening_of(o) == Coarsening::classical || !(restricted || rotated), "coarsening", o.coarsening,
-          "'classical' with reach 'twins' or interpolate 'local'");
+  require(coarsening_of(o) != Coarsening::aggregation || !(restricted || rotated), "coarsening", o.coarsening,
+          "'auto' or 'classical' with reach 'twins' or interpolate 'local'");
   return method;
 }
 
 AlgebraicSettings algebraic_settings(const SolverOptions& o) {
-  return {only_twins(o), local_components(o), coarsening_of(o)};
+  const bool restricted = only_twins(o), rotated = local_components(o);
+  return {restricted, rotated, restricted || rotated ? Coarsening::classical : coarsening_of(o)};
 }
 
 template <int B>

@@ -10,7 +10,11 @@ namespace signorini {
 enum class Method { automatic, monotone, tnnmg, pgs, pdas };
 
 /// How levels are chosen by the matrix: by interpolation from some of the vectors, or by smoothed aggregation.
-enum class Coarsening { classical, aggregation };
+enum class Coarsening {
+  automatic,  ///< aggregation where a near null space is known, else classical
+  classical,
+  aggregation
+};
 
 /// Error(Exit::input) naming the option, what was found and what was expected where options are out of range or
 /// contradict each other.
@@ -21,7 +25,7 @@ Coarsening coarsening_of(const SolverOptions& options);
 struct AlgebraicSettings {
   bool only_twins = false;  ///< constrained vectors from coarse twins of such alone; else what reaches them has bounds
   bool local = false;       ///< of local components; else of global ones
-  Coarsening coarsening = Coarsening::classical;
+  Coarsening coarsening = Coarsening::automatic;
 };
 
 /// What the options say about algebraic levels. Error(Exit::input) as above.

@@ -14,8 +14,8 @@ namespace {
 constexpr double noise = 0.1;
 
 // Cycles after which "auto" lets corrections without bounds take turns while phases change: where bounds are tight, as
-// on algebraic levels, contact spreads too slowly with them alone; weights that are blocks share a distance among so
-// many components that it does so from the beginning. And after which it takes to a direct solver: more
+// on algebraic levels, contact spreads too slowly with them alone. (Weights that are blocks share a distance among so
+// many components that it does so from the first cycle to the last.) And after which it takes to a direct solver: more
 // than it needs where multigrid does its work.
 constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
 // What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
@@ -36,7 +36,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
       recombination_(problem.constraints),
-      patience_with_bounds_(has_blocks(prolongations) ? 0 : patience_with_bounds),
+      blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && settings_of<B>(options).truncate != Truncation::none) {}
 
 template <int B>
@@ -78,7 +78,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
-  return may_turn_ && changing_ && cycles_ >= patience_with_bounds_ && cycles_ % 2 == 0;
+  return may_turn_ && cycles_ % 2 == 0 && (blocks_ || (changing_ && cycles_ >= patience_with_bounds));
 }
 
 template <int B>

@@ -31,7 +31,7 @@ class MultigridIteration final : public Iteration<B> {
   Method method_;
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
-  int patience_with_bounds_;
+  bool blocks_;           // among the interpolations' weights
   bool may_turn_;         // "auto" may make corrections without bounds
   bool turned_ = false;   // and has made some
   bool changing_ = true;  // phases, in the last cycle

@@ -8,15 +8,15 @@ namespace signorini {
 struct SolverOptions {
   double tolerance = 1e-8;  ///< for the relative algebraic error and for the natural residual
   int max_iterations = 200;
-  std::string method = "auto";           ///< auto, monotone, tnnmg, pgs or pdas
-  std::string cycle = "V";               ///< V, W or F
-  int pre = 2, post = 2;                 ///< smoothing steps before and after the coarse correction
-  std::string smoother = "forward";      ///< a registered smoother
-  double relaxation = 1.2;               ///< of the smoother's sweeps, in (0, 2); 1 is plain Gauss-Seidel
-  std::string transfer = "min_merge";    ///< a registered monotone restriction
-  std::string coarse = "newton";         ///< a registered coarse solver
-  std::string truncate = "normal";       ///< none, normal or tangential
-  std::string coarsening = "classical";  ///< of algebraic levels: classical or aggregation
+  std::string method = "auto";         ///< auto, monotone, tnnmg, pgs or pdas
+  std::string cycle = "V";             ///< V, W or F
+  int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
+  std::string smoother = "forward";    ///< a registered smoother
+  double relaxation = 1.2;             ///< of the smoother's sweeps, in (0, 2); 1 is plain Gauss-Seidel
+  std::string transfer = "min_merge";  ///< a registered monotone restriction
+  std::string coarse = "newton";       ///< a registered coarse solver
+  std::string truncate = "normal";     ///< none, normal or tangential
+  std::string coarsening = "auto";     ///< of algebraic levels: auto, classical or aggregation
   double cut = 0;              ///< truncate also at distances up to this part of the last cycle's largest change
   std::string rotate = "all";  ///< all, not_coarsest, meshes or none
   bool reassemble = true;      ///< renew the matrices of algebraic levels where phases have changed

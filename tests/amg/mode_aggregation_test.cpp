@@ -221,8 +221,9 @@ TEST(BlackBoxWithANearNullSpace, RefusesWhatDoesNotFit) {
   };
   using testing::HasSubstr;
   const NearNullSpace ones{1, std::vector<double>(9, 1.0)};
-  EXPECT_THAT(message(ones), HasSubstr("expected coarsening 'aggregation'"));
-  options.coarsening = "aggregation";
+  options.coarsening = "classical";
+  EXPECT_THAT(message(ones), HasSubstr("expected coarsening 'auto' or 'aggregation'"));
+  options.coarsening = "auto";
   EXPECT_EQ(message(ones), "");
   EXPECT_THAT(message({1, std::vector<double>(8, 1.0)}), HasSubstr("found 8 values, expected 9"));
   EXPECT_THAT(message({0, std::vector<double>(9, 1.0)}), HasSubstr("found 0 modes"));
