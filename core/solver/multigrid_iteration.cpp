@@ -15,8 +15,8 @@ constexpr double noise = 0.1;
 
 // Cycles after which "auto" lets corrections without bounds take turns while phases change: where bounds are tight, as
 // on algebraic levels, contact spreads too slowly with them alone. (Weights that are blocks share a distance among so
-// many components that it does so from the first cycle to the last.) And after which it takes to a direct solver: more
-// than it needs where multigrid does its work.
+// many components that it does so from the first cycle on, and now and then while phases rest.) And after which it
+// takes to a direct solver: more than it needs where multigrid does its work.
 constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
 // What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
 constexpr Index most_unknowns_for_direct = 150'000;
@@ -78,7 +78,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
-  return may_turn_ && cycles_ % 2 == 0 && (blocks_ || (changing_ && cycles_ >= patience_with_bounds));
+  if (!may_turn_) return false;
+  if (blocks_) return cycles_ % (changing_ ? 2 : 4) == 0;
+  return changing_ && cycles_ >= patience_with_bounds && cycles_ % 2 == 0;
 }
 
 template <int B>
