@@ -47,7 +47,7 @@ Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, double u
       narrowest_(std::move(narrowest)) {}
 
 template <int D>
-double Sizing<D>::operator()(Point<D> p) const {
+double Sizing<D>::asked(Point<D> p) const {
   for (double& x : p) x *= unit_;
   last_ = p;
   const double h = size_(p) / unit_;
@@ -63,7 +63,7 @@ double Sizing<D>::operator()(Point<D> p) const {
                      h * unit_, fmt::join(p, ", "), spacing));
   if (++evaluations_ > limit_) no_end();
   smallest_ = std::min(smallest_, h);
-  return std::min(h, ceiling_);
+  return h;
 }
 
 template <int D>

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 
 #include "core/geometry/geometry.hpp"
@@ -19,7 +20,9 @@ class Sizing {
   Sizing(const Size<D>& size, double ceiling, double diameter, double unit, std::string shape,
          std::string narrowest = "");
 
-  double operator()(Point<D> p) const;
+  double operator()(const Point<D>& p) const { return std::min(asked(p), ceiling_); }
+  /// The same, but not cut.
+  double asked(Point<D> p) const;
   /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
   void poll() const { size_(last_); }
   /// Counts a question that the mesher asks of the domain; polls every few of them. Throws ShapeError when they get too

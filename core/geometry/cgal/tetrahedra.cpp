@@ -18,6 +18,7 @@
 #include <unordered_map>
 
 #include "core/geometry/cgal/checks.hpp"
+#include "core/geometry/cgal/crease_spacing.hpp"
 #include "core/geometry/cgal/peel.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
@@ -188,7 +189,33 @@ struct ExudingKernel : Kernel {
   Compute_power_distance_to_power_sphere_3 compute_power_distance_to_power_sphere_3_object() const { return {}; }
 };
 
-using MeshDomain = CGAL::Mesh_domain_with_polyline_features_3<Oracle>;
+/// The Oracle with creases. What CGAL asks for as it protects them counts as queries, and the points that it makes as
+/// vertices: it does not look at their number there.
+class MeshDomain : public CGAL::Mesh_domain_with_polyline_features_3<Oracle> {
+  using Base = CGAL::Mesh_domain_with_polyline_features_3<Oracle>;
+
+ public:
+  MeshDomain(const Domain* domain, const Sizing<3>* sizing) : Base(domain, sizing), sizing_(sizing) {}
+
+  Point_3 construct_point_on_curve(const Point_3& start, const Curve_index& curve, FT distance) const {
+    sizing_->count_query();
+    if (++points_ > sizing_->most_vertices()) sizing_->no_end();
+    return Base::construct_point_on_curve(start, curve, distance);
+  }
+  FT curve_segment_length(const Point_3& p, const Point_3& q, const Curve_index& curve, CGAL::Orientation o) const {
+    sizing_->count_query();
+    return Base::curve_segment_length(p, q, curve, o);
+  }
+  CGAL::Sign distance_sign(const Point_3& p, const Point_3& q, const Curve_index& curve) const {
+    sizing_->count_query();
+    return Base::distance_sign(p, q, curve);
+  }
+
+ private:
+  const Sizing<3>* sizing_;
+  mutable std::size_t points_ = 0;
+};
+
 using Triangulation = CGAL::Mesh_triangulation_3<MeshDomain, ExudingKernel, CGAL::Sequential_tag>::type;
 using Complex =
     CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, MeshDomain::Corner_index, MeshDomain::Curve_index>;
@@ -315,6 +342,7 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size, double unit) {
   const auto sizes = sampled_sizes(domain, sizing);
   sizing.check_thickness(domain.volume());
   sizing.expect(expected_elements<3>(domain.volume(), sizes));
+  check_crease_spacing(domain, sizing, unit);
 
   Complex complex = refine(domain, sizing);
   exude(complex, sizing);

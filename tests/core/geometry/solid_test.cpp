@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdlib>
 
 #include "geometry_checks.hpp"
@@ -174,6 +175,49 @@ TEST(SolidErrors, AnInterruptEndsTheMeshingInItsQueriesToo) {
       EXPECT_EQ(error.status(), Exit::interrupted);
     }
   }
+}
+
+Surface walls(double thickness) { return cube(0, 1).add(cube(thickness, 1 - thickness)); }
+
+Surface needle(double thickness) {
+  return {{{0, 0, 0}, {1, 0, 0}, {0, thickness, 0}, {0, 0, thickness}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+}
+
+TEST(Solid, SharpEdgesMayBeMuchCloserThanTheSize) {
+  for (const auto& [name, surface, volume] :
+       {Named{"walls", walls(0.05), 1 - 0.729}, Named{"needle", needle(0.04), 0.0016 / 6}}) {
+    SCOPED_TRACE(name);
+    const Mesh<3> m = mesh(TemporaryFile("close.off", surface.off()), 0.3);
+    test::expect_consistent(m);
+    EXPECT_NEAR(test::volume(m), volume, 1e-9 * volume);
+  }
+}
+
+TEST(SolidErrors, TellOfSharpEdgesTooCloseForTheSize) {
+  for (const double thickness : {1e-3, 1e-4, 1e-7}) {
+    const std::string found = fmt::format("{:.3g} apart", std::sqrt(2) * thickness);  // of the nearest parallel edges
+    EXPECT_THAT(complaint(TemporaryFile("walls.off", walls(thickness).off())),
+                AllOf(HasSubstr("walls.off"), HasSubstr(found), HasSubstr("where the size is 0.3; expected")));
+  }
+  EXPECT_THAT(complaint(TemporaryFile("needle.off", needle(1e-3).off())),
+              AllOf(HasSubstr("needle.off"), HasSubstr("apart near"), HasSubstr("where the size is 0.3; expected")));
+}
+
+TEST(SolidErrors, AnInterruptEndsTheProtectionOfSharpEdges) {
+  const TemporaryFile file("needle.off", needle(0.016).off());  // takes seconds, the first for its edges
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto size = [&](const Point<3>&) {
+    if (Clock::now() - start > std::chrono::milliseconds(200)) throw Error(Exit::interrupted, "interrupted");
+    return 0.3;
+  };
+  try {
+    engine().mesh(geometry::Shape3(Solid{file.path()}), size);
+    ADD_FAILURE() << "not interrupted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::interrupted);
+  }
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
 }
 
 }  // namespace

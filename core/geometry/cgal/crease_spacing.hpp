@@ -1,0 +1,12 @@
+#pragma once
+#include "core/geometry/cgal/domain.hpp"
+#include "core/geometry/cgal/sizing.hpp"
+
+namespace signorini::geometry {
+
+/// Throws ShapeError where creases of the domain are so close to each other that they need very many more edges than
+/// the size asks for. Call it when the elements to be expected are known.
+/// @param unit of the domain in the user's
+void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing, double unit);
+
+}  // namespace signorini::geometry
