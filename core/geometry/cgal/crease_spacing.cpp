@@ -61,9 +61,11 @@ struct Nearest {
 /// next to the ends of creases, where they meet.
 class Walk {
  public:
-  double edges = 0, asked = 0;  ///< numbers of edges, and of those of the size alone
-  double closest = infinity;    ///< the least distance to another crease below the size there
-  Point<3> place{};             ///< where that is
+  double edges = 0;
+  double close = 0;           ///< those where another crease is nearer than half the size that resolves the shape
+  double asked = 0;           ///< the number of edges of the size asked for
+  double closest = infinity;  ///< the least distance to another crease below the size there
+  Point<3> place{};           ///< where that is
 
   /// Gives up after `most` steps.
   Walk(const std::vector<Polyline>& creases, const Sizing<3>& sizing, double most)
@@ -104,6 +106,7 @@ class Walk {
       place = p;
     }
     ++edges;
+    if (gap < h / 2) ++close;
     asked += gap / sizing_.asked(p);
     return gap;
   }
@@ -131,13 +134,12 @@ class Walk {
 void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing, double unit) {
   const std::vector<Polyline> creases = domain.creases();
   const Walk walk(creases, sizing, static_cast<double>(sizing.most_vertices()));
-  if (walk.edges <= spare_edges + most_per_edge * walk.asked) return;
+  if (walk.close <= spare_edges + most_per_edge * walk.asked) return;
   const auto& [x, y, z] = walk.place;
   throw ShapeError(
       domain.name(), "size",
-      fmt::format("sharp edges of the shape are only {0:.3g} apart near [{1:.6g}, {2:.6g}, {3:.6g}], where "
-                  "the size is {4:.3g}; expected a shape without such details, or a size near {0:.3g} "
-                  "there if they are meant",
+      fmt::format("sharp edges of the shape are only {:.3g} apart near [{:.6g}, {:.6g}, {:.6g}], where the size is "
+                  "{:.3g}; expected a shape without gaps and angles so narrow, or a smaller size there",
                   walk.closest * unit, x * unit, y * unit, z * unit, sizing.asked(walk.place) * unit));
 }
 
