@@ -127,7 +127,7 @@ void print_rates() {
 }
 
 void print_algebraic_levels() {
-  const Overrides unrefined{"refine.uniform=0", "solver.method=monotone"};
+  const Overrides unrefined{"refine.uniform=0", "solver.method=monotone", "solver.coarsening=classical"};
   const auto with = [&](Overrides overrides) {
     overrides.insert(overrides.end(), unrefined.begin(), unrefined.end());
     return overrides;
