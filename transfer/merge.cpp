@@ -86,7 +86,9 @@ struct Row {
 template <int B, Share share>
 void Merge<B, share>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) const {
   coarse.constraints.clear_bounds();
-  if (share == Share::sharpest) {
+  if (share == Share::equal && is_uncoupled(fine, coarse)) {
+    restrict_uncoupled(fine, coarse);
+  } else if (share == Share::sharpest) {
     restrict_rows(fine, coarse, true, false);
     restrict_rows(fine, coarse, false, true);
   } else {
@@ -117,18 +119,47 @@ void Merge<B, share>::restrict_rows(const Level<B>& fine, Level<B>& coarse, bool
   }
 }
 
+// Equal shares without a list of terms.
+template <int B, Share share>
+void Merge<B, share>::restrict_uncoupled(const Level<B>& fine, Level<B>& coarse) const {
+  const Prolongation& P = this->weights();
+  for (Index slot = 0; slot < fine.constraints.size(); ++slot) {
+    const Index p = fine.constraints.vector[slot];
+    for (int k = 0; k < B; ++k) {
+      const double lower = fine.lower[Offset{slot} * B + k], upper = fine.upper[Offset{slot} * B + k];
+      if ((fine.removed[p] >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
+      const auto moves = [&](Offset at) { return P.weight[at] != 0 && !(coarse.off[P.column[at]] >> k & 1u); };
+      int terms = 0;
+      for (Offset at = P.row[p]; at < P.row[p + 1]; ++at) terms += moves(at);
+      for (Offset at = P.row[p]; at < P.row[p + 1]; ++at) {
+        if (!moves(at)) continue;
+        const double w = P.weight[at], share_of_one = terms * w;
+        const Offset c = Offset{coarse.constraints.slot[P.column[at]]} * B + k;
+        const double one = lower / share_of_one, other = upper / share_of_one;
+        coarse.constraints.lower[c] = std::max(coarse.constraints.lower[c], w > 0 ? one : other);
+        coarse.constraints.upper[c] = std::min(coarse.constraints.upper[c], w > 0 ? other : one);
+      }
+    }
+  }
+}
+
+// Whether every direction couples to itself alone.
+template <int B, Share share>
+bool Merge<B, share>::is_uncoupled(const Level<B>& fine, const Level<B>& coarse) const {
+  return this->frames(fine).slot.empty() && coarse.frames.slot.empty() && this->weights().block.empty();
+}
+
 template <int B, Share share>
 void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse,
                               std::vector<Term>& terms) const {
   terms.clear();
   const Prolongation& P = this->weights();
-  // Every direction couples to itself alone.
-  const bool plain = this->frames(fine).slot.empty() && coarse.frames.slot.empty() && P.block.empty();
+  const bool uncoupled = is_uncoupled(fine, coarse);
   weights::with<B>(P, [&](const auto& weight) {
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
       const Index q = P.column[k];
       const Offset at = Offset{coarse.constraints.slot[q]} * B;
-      if (plain) {
+      if (uncoupled) {
         if (P.weight[k] != 0 && !(coarse.off[q] >> direction & 1u)) terms.push_back({at + direction, P.weight[k]});
         continue;
       }

@@ -33,6 +33,8 @@ class Merge final : public BlockTransfer<B> {
   void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const override;
 
  private:
+  bool is_uncoupled(const Level<B>& fine, const Level<B>& coarse) const;
+  void restrict_uncoupled(const Level<B>& fine, Level<B>& coarse) const;
   void restrict_rows(const Level<B>& fine, Level<B>& coarse, bool single, bool others) const;
   void collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, std::vector<Term>& terms) const;
 };

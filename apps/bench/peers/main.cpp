@@ -61,8 +61,7 @@ bool compare(const std::string& name, int nodes, const Arguments& arguments, Slo
       m.failure = "not run";
     } else {
       const QuadraticProgram program = c.bounded ? bounded(instance.finest()) : unbounded(instance);
-      m = measure(c.solve, program, c.bounded ? benchmark.bounded : benchmark.unbounded, c.first_tolerance,
-                  arguments.patience);
+      m = measure(c.solve, program, c.bounded ? benchmark.bounded : benchmark.unbounded, arguments.patience);
       if (m.too_slow) slow.insert(identity(c));
       good = good && (m.solved() || m.too_slow);
     }

@@ -112,13 +112,14 @@ void judge(Measurement& m, const NaturalResidual& residual, const SparseRows& A,
 
 }  // namespace
 
-Measurement measure(const Solver& solver, const QuadraticProgram& program, const Reference& reference, double tolerance,
+Measurement measure(const Solver& solver, const QuadraticProgram& program, const Reference& reference,
                     const Patience& patience) {
-  constexpr double least = 1e-14;
+  constexpr double loosest = 1e-6, tightest = 1e-14;
   const NaturalResidual residual(program);
   const std::size_t unknowns = program.b.size();
   double left = patience.seconds;
   Measurement out;
+  double tolerance = loosest;
   for (;; tolerance /= 10) {
     Measurement next = run_apart(solver, unknowns, tolerance, left);
     left = std::max(left - next.attempt.seconds, 1.0);
@@ -127,7 +128,7 @@ Measurement measure(const Solver& solver, const QuadraticProgram& program, const
     if (gave_nothing) return out;
     out = std::move(next);
     judge(out, residual, program.A, reference);
-    if (out.solved() || out.attempt.x.empty() || tolerance <= 1.5 * least) break;
+    if (out.solved() || out.attempt.x.empty() || tolerance <= 1.5 * tightest) break;
   }
   if (out.too_slow) out.failure = fmt::format("> {:.0f} s", patience.seconds);
   for (int run = 1; run < patience.repeats && out.solved() && out.attempt.seconds < patience.is_short; ++run) {

@@ -28,9 +28,9 @@ Measurement run_apart(const Solver& solver, std::size_t size, double tolerance, 
 /// The accuracy that counts: ||x - x*||_A / ||x*||_A and the natural residual.
 inline constexpr double demanded_error = 1e-6, demanded_residual = 1e-8;
 
-/// Runs a solver in processes of its own, from `tolerance` on with tighter and tighter ones until the result is
+/// Runs a solver in processes of its own, from a tolerance of 1e-6 on with tighter and tighter ones until the result is
 /// accurate enough. Only the last run counts; where it was short it is repeated and the best time taken.
-Measurement measure(const Solver& solver, const QuadraticProgram& program, const Reference& reference, double tolerance,
+Measurement measure(const Solver& solver, const QuadraticProgram& program, const Reference& reference,
                     const Patience& patience);
 
 }  // namespace signorini::bench

@@ -9,9 +9,6 @@
 namespace signorini::bench {
 namespace {
 
-constexpr double nonlinear_tolerance = 1e-8;  // of the natural residual
-constexpr double linear_tolerance = 1e-7;     // of the residual's 2-norm
-
 const PetscPreconditioner gamg{"-pc_type gamg"}, ml{"-pc_type ml"};
 const PetscPreconditioner rigid_gamg{"-pc_type gamg", false, true};
 const PetscPreconditioner grid{
@@ -26,14 +23,14 @@ class Listing {
     with_meshes(benchmark);
     without_bounds(benchmark);
     with_matrix();
-    add("signorini AMG-CG", Given::matrix, false, 1e-8, algebraic_cg(instance_));
+    add("signorini AMG-CG", Given::matrix, false, algebraic_cg(instance_));
   }
 
   std::vector<Contestant> take() { return std::move(out_); }
 
  private:
   void with_meshes(const Benchmark& benchmark) {
-    add("signorini", Given::meshes, true, nonlinear_tolerance, benchmark.nested);
+    add("signorini", Given::meshes, true, benchmark.nested);
     newton("multigrid", grid, true);
     newton("BoomerAMG", boomeramg_, true);
     if (elastic_) newton("ML", ml, true);
@@ -48,21 +45,21 @@ class Listing {
   }
 
   void without_bounds(const Benchmark& benchmark) {
-    add("signorini multigrid-CG", Given::meshes, false, 1e-8, benchmark.multigrid_cg);
+    add("signorini multigrid-CG", Given::meshes, false, benchmark.multigrid_cg);
     cg("multigrid", grid);
     cg("BoomerAMG", boomeramg_);
     cg("GAMG", gamg);
     if (elastic_) cg("GAMG with rigid modes", rigid_gamg);
     cg("ML", ml);
 #ifdef SIGNORINI_AMGCL
-    add("AMGCL-CG", Given::meshes, false, linear_tolerance,
+    add("AMGCL-CG", Given::meshes, false,
         [this_instance = &instance_, make = amgcl()](double t) { return linear(*this_instance, make, t); });
 #endif
   }
 
   void with_matrix() {
     const ActiveSetOptions renewed{1e-2, 1, false}, lagged{1e-1, 10, false};
-    add("signorini black box", Given::matrix, true, nonlinear_tolerance, black_box(instance_));
+    add("signorini black box", Given::matrix, true, black_box(instance_));
     newton("BoomerAMG", boomeramg_, false);
     if (elastic_) newton("ML", ml, false);
     sets("BoomerAMG", boomeramg_, renewed);
@@ -72,34 +69,33 @@ class Listing {
 #endif
     sets("CHOLMOD", cholmod_solver, renewed, Given::matrix);
 #ifdef SIGNORINI_IPOPT
-    add("IPOPT", Given::matrix, true, nonlinear_tolerance,
-        [this_instance = &instance_](double t) { return ipopt(*this_instance, t); });
+    add("IPOPT", Given::matrix, true, [this_instance = &instance_](double t) { return ipopt(*this_instance, t); });
 #endif
   }
 
-  void add(std::string name, Given given, bool bounded, double tolerance, Solver solver) {
-    out_.push_back({std::move(name), given, bounded, tolerance, std::move(solver)});
+  void add(std::string name, Given given, bool bounded, Solver solver) {
+    out_.push_back({std::move(name), given, bounded, std::move(solver)});
   }
 
   void newton(const std::string& name, const PetscPreconditioner& by, bool nested) {
     add(std::string("PETSc SNESVI, ") + (nested ? "grid sequencing, " : "") + name,
-        nested ? Given::meshes : Given::matrix, true, nonlinear_tolerance,
+        nested ? Given::meshes : Given::matrix, true,
         [&instance = instance_, by, nested](double t) { return petsc_newton(instance, by, nested, t); });
   }
 
   void cg(const std::string& name, const PetscPreconditioner& by) {
-    add("PETSc CG, " + name, Given::meshes, false, linear_tolerance,
+    add("PETSc CG, " + name, Given::meshes, false,
         [&instance = instance_, by](double t) { return petsc_cg(instance, by, t); });
   }
 
   void sets(const std::string& name, const PetscPreconditioner& by, const ActiveSetOptions& options = {}) {
     add((options.nested ? "nested active sets, " : "active sets, ") + name,
-        options.nested ? Given::meshes : Given::matrix, true, nonlinear_tolerance,
+        options.nested ? Given::meshes : Given::matrix, true,
         [&instance = instance_, by, options](double t) { return petsc_active_set(instance, by, options, t); });
   }
 
   void sets(const std::string& name, const MakeLinearSolver& make, const ActiveSetOptions& options, Given given) {
-    add((options.nested ? "nested active sets, " : "active sets, ") + name, given, true, nonlinear_tolerance,
+    add((options.nested ? "nested active sets, " : "active sets, ") + name, given, true,
         [&instance = instance_, make, options](double t) { return active_set(instance, make, options, t); });
   }
 

@@ -13,8 +13,7 @@ PetscPreconditioner boomeramg(const std::string& problem);
 struct Contestant {
   std::string name;
   Given given;
-  bool bounded;            ///< false: the problem without bounds
-  double first_tolerance;  ///< of the solver's own kind
+  bool bounded;  ///< false: the problem without bounds
   Solver solve;
 };
 
