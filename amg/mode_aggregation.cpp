@@ -14,6 +14,9 @@ namespace {
 
 constexpr int power_steps = 10;
 constexpr double underestimate = 1.1;  // of the largest eigenvalue by so many steps of the power method
+// What a coarse vector that moves its nodes by one may do to a row for weakly coupled neighbours, over the row's
+// diagonal: modes that only rounding tells from others would be blown up without limit.
+constexpr double most_motion = 10;
 
 /// An upper bound, about, for the eigenvalues of D^-1 A with the diagonal blocks D, on the components that are free.
 template <int B>
@@ -44,7 +47,8 @@ double largest_eigenvalue(const Level<B>& level) {
 }
 
 /// One row at a time of (I - omega D^-1 A) P0, where weakly coupled neighbours count as if they moved with the
-/// aggregate of the row: the near null space stays exact, and weak couplings do not widen the interpolation.
+/// aggregate of the row: the near null space stays exact, but for modes that the aggregate cannot tell apart, and weak
+/// couplings do not widen the interpolation.
 template <int B>
 class SmoothedRows {
  public:
@@ -116,7 +120,7 @@ class SmoothedRows {
         for (int i = 0; i < B * B; ++i) sum[m + i] += product[i];
       }
     }
-    if (any_weak) move_with(own);
+    if (any_weak) move_with(own, most_motion * size(A.diagonal(p)));
     std::ranges::sort(found_);
   }
 
@@ -131,8 +135,14 @@ class SmoothedRows {
     }
   }
 
+  static double size(const double* block) {
+    double largest = 0;
+    for (int i = 0; i < B * B; ++i) largest = std::max(largest, std::abs(block[i]));
+    return largest;
+  }
+
   // The modes in terms of the coarse vectors of an aggregate, by its triangular factor.
-  void move_with(Index a) {
+  void move_with(Index a, double limit) {
     const Offset first = Offset{a} * tentative_.per_aggregate * B;
     double* sum = place(a);
     for (int i = 0; i < B; ++i) {
@@ -140,7 +150,7 @@ class SmoothedRows {
       for (Index mode = 0; mode < modes_.modes; ++mode) {
         for (Index k = 0; k < mode; ++k) y[mode] -= y[k] * tentative_.coarse.at(first + k)[mode];
         const double pivot = tentative_.coarse.at(first + mode)[mode];
-        y[mode] = pivot > 0 ? y[mode] / pivot : 0;
+        y[mode] = std::abs(y[mode]) < limit * pivot ? y[mode] / pivot : 0;
         sum[(mode / B * B + i) * B + mode % B] += y[mode];
       }
     }

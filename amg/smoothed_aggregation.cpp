@@ -24,7 +24,7 @@ Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Fla
     found.clear();
     const auto add = [&](Index q, double weight) {
       const Index a = aggregates.of[q];
-      if (a < 0) return;
+      if (a < 0 || weight == 0) return;
       if (sum[a] == 0) found.push_back(a);
       sum[a] += weight;
     };

@@ -30,6 +30,19 @@ void clear_fixed(const DiscreteProblem<B>& problem, std::vector<double>& x) {
     if (problem.fixed[k / B] >> (k % B) & 1) x[k] = 0;
 }
 
+// Whether each coarse vector has the frame of its twin, which is the one that a solver gives it.
+template <int B>
+bool same_frames(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
+  constexpr double equal = 1e-12;
+  const std::vector<Index> twins = prolongation.twins();
+  for (Index q = 0; q < prolongation.coarse; ++q) {
+    const double *Q = coarse.frames.at(q), *twin = fine.frames.at(twins[q]);
+    if (!Q != !twin) return false;
+    if (Q && !std::equal(Q, Q + B * B, twin, [](double a, double b) { return std::abs(a - b) <= equal; })) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Prolongation prolongation(const Refinement& refinement, Index coarse_vertices) {
@@ -68,6 +81,7 @@ std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vec
 
 template <int B>
 bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
+  if (!same_frames(coarse, prolongation, fine)) return false;
   std::vector<double> z(Offset{prolongation.coarse} * B);
   std::minstd_rand random;
   for (double& value : z) value = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;

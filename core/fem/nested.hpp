@@ -16,7 +16,8 @@ std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vec
                                 const Prolongation& prolongation, const DiscreteProblem<B>& fine);
 
 /// Whether the matrix of the coarse problem is the Galerkin product P'AP of the fine one, as for nested elements with
-/// the same coefficients: compares the energies of one random vector on both levels.
+/// the same coefficients, in the frames that a solver gives its coarser levels: compares the energies of one random
+/// vector on both levels.
 template <int B>
 bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine);
 

@@ -111,6 +111,8 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   double elsewhere = 0;
   Level<B>& level = levels_[k];
   const bool finest = k + 1 == levels_.size();
+  report_.levels[k].critical = 0;
+  report_.levels[k].contact = {};
   Passes down, up;
   if (before) down.add(before);
   if (k == 0) {
@@ -232,7 +234,6 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     s.obstacle->distance(view, begin, end, level.lower.data(), level.upper.data(), level.critical.data());
   });
   LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
-  if (first == 0) report.critical = 0, report.contact = {};
   const auto [from, to] = slots_between(level.constraints, first, last);
   for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];

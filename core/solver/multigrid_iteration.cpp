@@ -13,17 +13,13 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
-// Cycles after which "auto" lets corrections without bounds take turns while phases change: where bounds are tight, as
-// on algebraic levels, contact spreads too slowly with them alone. (Weights that are blocks share a distance among so
-// many components that it does so from the first cycle on, and now and then while phases rest.) And after which it
-// takes to a direct solver: more than it needs where multigrid does its work.
-constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
+// Cycles after which "auto" takes to a direct solver: more than it needs where multigrid does its work.
+constexpr int patience_with_cycles = 60;
 // What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
 constexpr Index most_unknowns_for_direct = 150'000;
 
-bool has_blocks(std::span<const Prolongation> prolongations) {
-  return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
-}
+// A cycle that changes so few phases is nearly a linear one.
+bool rests(const LevelReport& finest) { return 100 * finest.changed <= finest.critical; }
 
 }  // namespace
 
@@ -36,7 +32,6 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
       recombination_(problem.constraints),
-      blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && settings_of<B>(options).truncate != Truncation::none) {}
 
 template <int B>
@@ -66,8 +61,8 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   this->refuse_nan(sums.natural_residual);
   add_gain();
   Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
-  changing_ = cycle.finest().changed > 0;
-  turned_ = turned_ || free;
+  rests_ = rests(cycle.finest());
+  bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
   if (method_ == Method::automatic && cycles_ == patience_with_cycles &&
       this->free_unknowns(finest()) <= most_unknowns_for_direct)
@@ -75,25 +70,25 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   return step;
 }
 
+// Bounds of coarse corrections keep contact from spreading too far, and where they are tight, as on algebraic levels,
+// from spreading at all: while phases change, "auto" makes corrections with and without them in turns.
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
-  if (method_ == Method::tnnmg) return true;
-  if (!may_turn_) return false;
-  if (blocks_) return cycles_ % (changing_ ? 2 : 4) == 0;
-  return changing_ && cycles_ >= patience_with_bounds && cycles_ % 2 == 0;
+  return method_ == Method::tnnmg || (may_turn_ && (rests_ || cycles_ % 2 == 0));
 }
 
 template <int B>
 std::string MultigridIteration<B>::method() const {
   if (method_ != Method::automatic) return this->options_.method;
-  return turned_ ? "monotone, then tnnmg in turns" : "monotone";
+  if (bounded_cycles_ == 0) return "tnnmg";
+  return bounded_cycles_ == cycles_ ? "monotone" : "tnnmg and monotone in turns";
 }
 
 // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
 // in. Returns whether the iterate is no longer the cycle's own.
 template <int B>
 bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
-  if (100 * cycle.finest().changed > cycle.finest().critical || !gaining) {
+  if (!rests(cycle.finest()) || !gaining) {
     recombination_.reset();
     return false;
   }

@@ -53,11 +53,28 @@ INSTANTIATE_TEST_SUITE_P(
                      testing::Values("forward", "backward", "symmetric", "adjoint", "surface_first", "patch")),
     name_of);
 
-TEST(Automatic, IsMonotoneMultigridAsLongAsThatIsFast) {
+// From zero the phases change in the first cycles: these are as many as one method alone would need, or one more.
+TEST(Automatic, TakesTurnsWhilePhasesChange) {
   const auto cases = scalar_cases();
   std::vector<double> x, y;
   SolverOptions options;
   EXPECT_EQ(options.method, "auto");
+  const Summary turns = solve_from_zero(cases.front().nested, x, options);
+  EXPECT_EQ(turns.options.method, "tnnmg and monotone in turns");
+  for (const char* method : {"tnnmg", "monotone"}) {
+    options.method = method;
+    const Summary alone = solve_from_zero(cases.front().nested, y, options);
+    EXPECT_EQ(alone.options.method, method);
+    EXPECT_LE(turns.iterations, alone.iterations + 1) << method;
+  }
+}
+
+// Without truncation corrections without bounds would be held where contact is.
+TEST(Automatic, IsMonotoneMultigridWithoutTruncation) {
+  const auto cases = scalar_cases();
+  std::vector<double> x, y;
+  SolverOptions options;
+  options.truncate = "none";
   EXPECT_EQ(solve_from_zero(cases.front().nested, x, options).options.method, "monotone");
   options.method = "monotone";
   solve_from_zero(cases.front().nested, y, options);
@@ -75,7 +92,7 @@ TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
   std::vector<double> x;
   const Summary summary = solve_from_zero(nested, x);
   EXPECT_TRUE(summary.converged()) << summary.reason;
-  EXPECT_EQ(summary.options.method, "monotone, then pdas");
+  EXPECT_EQ(summary.options.method, "tnnmg and monotone in turns, then pdas");
   EXPECT_EQ(summary.history.size(), static_cast<std::size_t>(summary.iterations));
   for (std::size_t k = 0; k < summary.history.size(); ++k) {
     EXPECT_EQ(summary.history[k].iteration, static_cast<int>(k) + 1);
