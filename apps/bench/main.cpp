@@ -32,14 +32,6 @@ std::vector<std::string> with(std::vector<std::string> overrides, int uniform) {
 
 void row(const std::string& text) { fmt::print("{}\n", text), std::fflush(stdout); }
 
-template <int D>
-std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy) {
-  std::vector<Prolongation> all;
-  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
-    all.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
-  return all;
-}
-
 // Whole nonlinear solve over linear multigrid-CG without the obstacle, both with set-up and without assembly of the
 // finest matrix, which they share.
 template <int D, int B>

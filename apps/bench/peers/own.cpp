@@ -109,10 +109,9 @@ template <int D, int B>
 class Own {
  public:
   Own(const std::string& name, int nodes)
-      : problem_(benchmark_problem(name, nodes)), hierarchy_(build_hierarchy<D>(problem_.scene, B)) {
-    for (std::size_t k = 0; k < hierarchy_.refinements.size(); ++k)
-      prolongations_.push_back(prolongation(hierarchy_.refinements[k], hierarchy_.levels[k].vertices()));
-  }
+      : problem_(benchmark_problem(name, nodes)),
+        hierarchy_(build_hierarchy<D>(problem_.scene, B)),
+        prolongations_(prolongations(hierarchy_)) {}
 
   Benchmark benchmark(const std::shared_ptr<const Own>& self) {
     Benchmark out;
