@@ -131,7 +131,7 @@ Measurement measure(const Solver& solver, const QuadraticProgram& program, const
     judge(out, residual, program.A, reference);
     if (out.solved() || out.too_slow || out.attempt.x.empty() || tolerance <= 1.5 * tightest) break;
   }
-  if (out.too_slow) out.failure = fmt::format("> {:.0f} s", patience.seconds);
+  if (out.too_slow) out.failure = fmt::format("> {:g} s", patience.seconds);
   for (int run = 1; run < patience.repeats && out.solved() && out.attempt.seconds < patience.is_short; ++run) {
     Measurement again = run_apart(solver, unknowns, tolerance, patience.seconds);
     judge(again, residual, program.A, reference);
