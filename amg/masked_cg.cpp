@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/algebra/dot.hpp"
 #include "core/algebra/products.hpp"
 
 namespace signorini {
 
 namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double s = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
-  return s;
-}
 
 // p'Dp with the diagonal D of A: the scale that energies are compared with.
 template <int B>

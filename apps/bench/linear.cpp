@@ -6,17 +6,12 @@
 #include "amg/hierarchy.hpp"
 #include "amg/registration.hpp"
 #include "apps/signorini/progress.hpp"
+#include "core/algebra/dot.hpp"
 #include "core/algebra/products.hpp"
 #include "core/solver/convergence.hpp"
 
 namespace signorini::bench {
 namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double s = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
-  return s;
-}
 
 // max over the vectors of ||A_pp^-1 r_p||
 template <int B>

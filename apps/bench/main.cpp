@@ -32,14 +32,6 @@ std::vector<std::string> with(std::vector<std::string> overrides, int uniform) {
 
 void row(const std::string& text) { fmt::print("{}\n", text), std::fflush(stdout); }
 
-template <int D>
-std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy) {
-  std::vector<Prolongation> all;
-  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
-    all.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
-  return all;
-}
-
 // Whole nonlinear solve over linear multigrid-CG without the obstacle, both with set-up and without assembly of the
 // finest matrix, which they share.
 template <int D, int B>
@@ -177,12 +169,14 @@ void run(bool quick) {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false;
+  std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
   app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
-  app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
+  CLI::Option* compared = app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
+  app.add_option("--only", only, "of these, problems with this text in their names")->needs(compared);
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
@@ -191,7 +185,7 @@ int main(int argc, char** argv) {
     if (boundary) signorini::bench::print_boundary(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
-    if (choice) signorini::bench::print_choice();
+    if (choice) signorini::bench::print_choice(only);
     if (!algebraic && !boundary && !memory && !variants && !choice) signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -87,7 +87,11 @@ template <int B>
 std::vector<Index> free_vectors(const DiscreteProblem<B>& problem) {
   std::vector<Index> number;
   Index next = 0;
-  for (const Flags fixed : problem.fixed) number.push_back(fixed == (1u << B) - 1 ? left_out : next++);
+  constexpr Flags all = (1u << B) - 1;
+  for (const Flags fixed : problem.fixed) {
+    if (fixed != 0 && fixed != all) input_error("fix", "prescribes a vector in part, expected all of its components");
+    number.push_back(fixed == all ? left_out : next++);
+  }
   return number;
 }
 

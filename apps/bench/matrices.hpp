@@ -10,13 +10,13 @@ struct MatrixProblem {
   std::vector<double> b, lower, upper;
 };
 
-/// Per vector its number among those that are not prescribed altogether, else -1.
+/// Per vector its number among those that are not prescribed, else -1.
+/// Error(Exit::input) for vectors prescribed in part.
 template <int B>
 std::vector<Index> free_vectors(const DiscreteProblem<B>& problem);
 
-/// What is left of a discrete problem in global coordinates without the vectors whose components are all prescribed.
-/// The columns of a row ascend.
-/// Error(Exit::input) for bounds along directions that are no coordinate axes.
+/// What is left of a discrete problem in global coordinates without prescribed vectors. The columns of a row
+/// ascend. Error(Exit::input) as above, and for bounds along directions that are no coordinate axes.
 template <int B>
 MatrixProblem matrix_problem(const DiscreteProblem<B>& problem);
 

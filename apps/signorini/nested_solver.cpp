@@ -51,8 +51,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         return !interrupted();
       }) {
   Stopwatch watch;
-  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
-    prolongations_.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
+  prolongations_ = prolongations(hierarchy);
   times_.setup += watch.elapsed();
 }
 

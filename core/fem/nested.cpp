@@ -64,6 +64,17 @@ Prolongation prolongation(const Refinement& refinement, Index coarse_vertices) {
   return out;
 }
 
+template <int D>
+std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy) {
+  std::vector<Prolongation> out;
+  for (std::size_t k = 0; k < hierarchy.refinements.size(); ++k)
+    out.push_back(prolongation(hierarchy.refinements[k], hierarchy.levels[k].vertices()));
+  return out;
+}
+
+template std::vector<Prolongation> prolongations(const MeshHierarchy<2>&);
+template std::vector<Prolongation> prolongations(const MeshHierarchy<3>&);
+
 template <int B>
 std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vector<double>& x,
                                 const Prolongation& prolongation, const DiscreteProblem<B>& fine) {

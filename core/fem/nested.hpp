@@ -8,6 +8,9 @@ namespace signorini {
 /// Interpolation of linear elements from a mesh to its refinement: weight 1 at common vertices, 1/2 at the ends of a
 /// divided edge.
 Prolongation prolongation(const Refinement& refinement, Index coarse_vertices);
+/// Between all levels of a hierarchy, coarsest first.
+template <int D>
+std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy);
 
 /// A solution of one level as a start for the next finer one, both in the local coordinates of their problems.
 /// Components that are prescribed on the fine level take their prescribed values.

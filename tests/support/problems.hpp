@@ -30,8 +30,7 @@ Nested<B> discretize_all(const Mesh<D>& coarsest, int refinements, const Model<B
   const MeshHierarchy<D> meshes = hierarchy<D>(coarsest, refinements);
   Nested<B> out;
   for (const Mesh<D>& mesh : meshes.levels) out.levels.push_back(discretize<D, B>(mesh, model).problem);
-  for (std::size_t k = 0; k < meshes.refinements.size(); ++k)
-    out.prolongations.push_back(prolongation(meshes.refinements[k], meshes.levels[k].vertices()));
+  out.prolongations = prolongations(meshes);
   out.stiffness = stiffness<D, B>(meshes.finest(), model);
   out.load = load_vector<D, B>(meshes.finest(), model);
   return out;

@@ -109,20 +109,16 @@ template <int D, int B>
 class Own {
  public:
   Own(const std::string& name, int nodes)
-      : problem_(benchmark_problem(name, nodes)), hierarchy_(build_hierarchy<D>(problem_.scene, B)) {
-    for (std::size_t k = 0; k < hierarchy_.refinements.size(); ++k)
-      prolongations_.push_back(prolongation(hierarchy_.refinements[k], hierarchy_.levels[k].vertices()));
-  }
+      : problem_(benchmark_problem(name, nodes)),
+        hierarchy_(build_hierarchy<D>(problem_.scene, B)),
+        prolongations_(prolongations(hierarchy_)) {}
 
   Benchmark benchmark(const std::shared_ptr<const Own>& self) {
     Benchmark out;
     out.instance.block = B;
     add_levels(out.instance);
-    out.assembly = assembly();
-    Model<B> free = model();
-    free.obstacles.clear();
-    if (B > 1) free.loads.push_back(downwards());
-    free_ = discretize<D, B>(hierarchy_.finest(), free).problem;
+    out.assembly = assembly_ = assembly_seconds<D, B>(model(), hierarchy_);
+    discretize_free();
     out.instance.free_load = matrix_problem(free_, numbering_).b;
     out.nested = [self](double tolerance) { return self->nested(tolerance); };
     out.multigrid_cg = [self](double tolerance) { return self->linear(tolerance); };
@@ -142,6 +138,23 @@ class Own {
     Load<B> load;
     load.value[B - 1] = -1;
     return load;
+  }
+
+  /// The coarse matrices, which all solvers are given, are those that multigrid would compute.
+  void discretize_free() {
+    Model<B> free = model();
+    free.obstacles.clear();
+    if (B > 1) free.loads.push_back(downwards());
+    for (std::size_t k = 0; k < hierarchy_.levels.size(); ++k) {
+      DiscreteProblem<B> problem = discretize<D, B>(hierarchy_.levels[k], free).problem;
+      if (k > 0) {
+        if (!is_galerkin(free_, prolongations_[k - 1], problem))
+          throw std::runtime_error(problem_.name + ": the coarse matrices are not the Galerkin products");
+        coarse_.push_back({std::move(free_.A), std::move(free_.fixed), false});
+      }
+      free_ = std::move(problem);
+    }
+    free_.galerkin = coarse_;
   }
 
   void add_levels(Instance& instance) {
@@ -187,8 +200,9 @@ class Own {
     Scene::Solver options = problem_.scene.solver;
     options.tolerance = tolerance;
     Times wall;
+    const Model<B> model = this->model();
     const ProcessorTime time;
-    Solution<B> solution = NestedSolver<D, B>(hierarchy_, options, problem_.registry, quiet, wall).solve(model());
+    Solution<B> solution = NestedSolver<D, B>(hierarchy_, options, problem_.registry, quiet, wall).solve(model);
     Attempt out;
     out.seconds = time.elapsed();
     out.iterations = solution.summary.iterations;
@@ -199,15 +213,8 @@ class Own {
   Attempt nested(double tolerance) const {
     auto [out, solution] = nested_solution(tolerance);
     out.x = free_values(solution.discretization.problem, solution.x);
-    out.seconds -= assembly();
+    out.seconds -= assembly_;
     return out;
-  }
-
-  /// Seconds that all levels take.
-  double assembly() const {
-    const ProcessorTime time;
-    for (const Mesh<D>& mesh : hierarchy_.levels) (void)discretize<D, B>(mesh, model());
-    return time.elapsed();
   }
 
   Attempt linear(double tolerance) const {
@@ -220,7 +227,9 @@ class Own {
   MeshHierarchy<D> hierarchy_;
   std::vector<Prolongation> prolongations_;
   Numbering numbering_;      // of the finest level
+  double assembly_ = 0;      // seconds that all levels take
   DiscreteProblem<B> free_;  // without the obstacle
+  std::vector<GalerkinMatrix<B>> coarse_;
 };
 
 template <int D, int B>

@@ -6,7 +6,7 @@ namespace signorini::bench {
 /// A preconditioner of PETSc.
 struct PetscPreconditioner {
   std::string options;  ///< of PETSc's data base: "-pc_type gamg"
-  bool grid = false;    ///< its multigrid with this project's interpolations and Galerkin matrices, smoothed by SOR
+  bool grid = false;    ///< its multigrid with this project's interpolations, smoothed by symmetric SOR
   bool rigid = false;   ///< rigid body modes for aggregation
 };
 

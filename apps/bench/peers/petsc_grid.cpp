@@ -75,11 +75,20 @@ std::vector<Index> GridMultigrid::free_twins(std::size_t level, const std::vecto
   return out;
 }
 
+void GridMultigrid::give_coarse_matrices() {
+  for (std::size_t k = 0; k < level_; ++k) {
+    KSP smoother = nullptr;
+    check(PCMGGetSmoother(multigrid_, static_cast<PetscInt>(k), &smoother));
+    const PetscMatrix A = petsc_matrix(instance_.levels[k].problem.A, instance_.block);
+    check(KSPSetOperators(smoother, A, A));  // which keeps it
+  }
+}
+
 void GridMultigrid::build(Mat A) {
   check(PCCreate(PETSC_COMM_SELF, multigrid_.fresh()));
   check(PCSetType(multigrid_, PCMG));
   check(PCMGSetLevels(multigrid_, static_cast<PetscInt>(level_ + 1), nullptr));
-  check(PCMGSetGalerkin(multigrid_, PC_MG_GALERKIN_BOTH));
+  check(PCMGSetGalerkin(multigrid_, newton_ ? PC_MG_GALERKIN_BOTH : PC_MG_GALERKIN_NONE));
   std::vector<Index> free = free_unknowns(newton_, instance_.levels[level_].problem.b.size());
   for (std::size_t k = level_; k > 0; --k) {
     std::vector<Index> coarse = free_twins(k, free);
@@ -89,6 +98,7 @@ void GridMultigrid::build(Mat A) {
     check(PCMGSetInterpolation(multigrid_, static_cast<PetscInt>(k), P));
     free = std::move(coarse);
   }
+  if (!newton_) give_coarse_matrices();
   check(PCSetOperators(multigrid_, A, A));
   check(PCSetFromOptions(multigrid_));
   check(PCSetUp(multigrid_));

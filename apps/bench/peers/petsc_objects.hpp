@@ -59,6 +59,7 @@ void set_rigid_modes(Mat A, const std::vector<double>& coordinates);
 
 /// Multigrid with the interpolations of an instance, on the unknowns that are free at the moment: those that Newton's
 /// method holds at a bound leave their level, and their coarser twins with them. Built anew with each matrix.
+/// Where nothing is held, the coarse matrices are those of the instance; of reduced matrices the products are computed.
 class GridMultigrid {
  public:
   /// @param level the finest one here
@@ -72,6 +73,7 @@ class GridMultigrid {
   static PetscErrorCode set_up(PC shell);
   static PetscErrorCode apply(PC shell, Vec r, Vec z);
   void build(Mat A);
+  void give_coarse_matrices();
   std::vector<Index> free_twins(std::size_t level, const std::vector<Index>& free) const;
 
   const Instance& instance_;

@@ -122,18 +122,20 @@ Measurement measure(const Solver& solver, const QuadraticProgram& program, const
   double tolerance = loosest;
   for (;; tolerance /= 10) {
     Measurement next = run_apart(solver, unknowns, tolerance, left);
-    left = std::max(left - next.attempt.seconds, 1.0);
+    left -= next.attempt.seconds;
+    next.too_slow = next.too_slow || left <= 0;
     // A tighter tolerance that cannot be reached leaves the last answer as the solver's best.
     const bool gave_nothing = next.attempt.x.empty() && !next.too_slow && !out.attempt.x.empty();
     if (gave_nothing) return out;
     out = std::move(next);
     judge(out, residual, program.A, reference);
-    if (out.solved() || out.attempt.x.empty() || tolerance <= 1.5 * tightest) break;
+    if (out.solved() || out.too_slow || out.attempt.x.empty() || tolerance <= 1.5 * tightest) break;
   }
-  if (out.too_slow) out.failure = fmt::format("> {:.0f} s", patience.seconds);
+  if (out.too_slow) out.failure = fmt::format("> {:g} s", patience.seconds);
   for (int run = 1; run < patience.repeats && out.solved() && out.attempt.seconds < patience.is_short; ++run) {
     Measurement again = run_apart(solver, unknowns, tolerance, patience.seconds);
-    if (again.solved() && again.attempt.seconds < out.attempt.seconds) out.attempt = std::move(again.attempt);
+    judge(again, residual, program.A, reference);
+    if (again.solved() && again.attempt.seconds < out.attempt.seconds) out = std::move(again);
   }
   return out;
 }
