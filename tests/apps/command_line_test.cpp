@@ -228,5 +228,39 @@ TEST_F(CommandLine, FixesThatContradictEachOtherAreAWarning) {
   EXPECT_EQ(signorini({"check", "membrane.toml", "--set", "fix.0.value=x", "--set", "obstacle.0.lower=-2"}).err, "");
 }
 
+/// Three triangles of a square, one of which has a vertex in the middle of another's edge.
+const std::string torn = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0.5 0.5 0
+$EndNodes
+$Elements
+3
+1 2 2 1 1 1 2 3
+2 2 2 1 1 1 5 4
+3 2 2 1 1 5 3 4
+$EndElements
+)";
+
+TEST_F(CommandLine, TornMeshesAndHingesAreAWarning) {
+  write("torn.msh", torn);
+  write("torn.toml",
+        "[[body]]\nname = \"m\"\nmesh = \"torn.msh\"\nequation = \"diffusion\"\n"
+        "[[fix]]\nbody = \"m\"\non = \"boundary\"\nvalue = 0\n[refine]\nuniform = 1\n");
+  const char* tear = "torn.toml:3: body.0.mesh: the vertex at (0.5, 0.5) lies inside the edge (";
+  const char* hinge = "torn.toml:3: body.0.mesh: elements hang together only by the vertex at (0, 0), and at 1 more";
+  for (const Ended& ended : {signorini({"check", "torn.toml"}), signorini({"solve", "torn.toml", "--out", "o"})}) {
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::AllOf(HasSubstr(tear), HasSubstr(hinge)));
+  }
+  EXPECT_THAT(report("o").at("warnings").dump(), testing::AllOf(HasSubstr(tear), HasSubstr(hinge)));
+}
+
 }  // namespace
 }  // namespace signorini::test
