@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/signorini/mesh_warnings.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
 
@@ -72,10 +71,9 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
   return summary;
 }
 
-namespace {
-
 template <int D>
-std::vector<std::string> locking_warnings(const Scene::Body& body, const Mesh<D>& mesh) {
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh) {
+  const Scene::Body& body = scene.bodies.front();
   if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
   double poisson = body.poisson.constant().value_or(0);
   if (!body.poisson.constant())
@@ -83,17 +81,6 @@ std::vector<std::string> locking_warnings(const Scene::Body& body, const Mesh<D>
       poisson = std::max(poisson, body.poisson(site<D>(centroid<D>(mesh, element), 1)));
   if (poisson <= 0.45) return {};
   return {fmt::format("linear elements lock for nearly incompressible material (poisson = {})", poisson)};
-}
-
-}  // namespace
-
-template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh) {
-  const Scene::Body& body = scene.bodies.front();
-  std::vector<std::string> warnings = locking_warnings(body, mesh);
-  if (std::holds_alternative<Scene::MeshFile>(body.shape))
-    for (std::string& warning : joint_warnings(mesh, body.source.of("mesh"))) warnings.push_back(std::move(warning));
-  return warnings;
 }
 
 template <int D, int B>
