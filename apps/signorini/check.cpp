@@ -65,7 +65,8 @@ void print_solver(const SolverOptions& options) {
 
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry) {
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B);
+  std::vector<std::string> warnings;
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings);
   locate_probes(hierarchy.finest(), scene);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
   Model<B> model;
@@ -81,6 +82,7 @@ void check(const Scene& scene, const Registry& registry) {
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
   print_solver(scene.solver);
+  print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));
   print_warnings(fix_warnings(scene, hierarchy.finest(), model));
 }

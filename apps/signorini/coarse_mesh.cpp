@@ -6,6 +6,7 @@
 
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/memory.hpp"
+#include "apps/signorini/mesh_warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
@@ -33,10 +34,20 @@ constexpr bool is_free_shape =
 /// One overload per kind of shape; those of the other dimension are never reached.
 template <int D>
 struct Mesher {
+  const Scene& scene;
   const Scene::Body& body;
   int block;
+  std::vector<std::string>* warnings;
 
-  Mesh<D> operator()(const Scene::MeshFile& mesh) const { return read_mesh<D>(mesh.file); }
+  Mesh<D> operator()(const Scene::MeshFile& given) const {
+    FileGroups groups;
+    Mesh<D> mesh = read_mesh<D>(given.file, &groups);
+    refuse_lost_groups(scene, mesh, groups);
+    if (warnings)
+      for (std::string& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
+        warnings->push_back(std::move(warning));
+    return mesh;
+  }
   Mesh<D> operator()(const Scene::Block<D>& cells) const {
     check_memory(cells, block, body.source.of("cells"));
     return structured(cells);
@@ -71,12 +82,12 @@ int dimension_of(const Scene& scene) {
 }
 
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block) {
+Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings) {
   const Scene::Body& body = scene.bodies.front();
-  return std::visit(Mesher<D>{body, block}, body.shape);
+  return std::visit(Mesher<D>{scene, body, block, warnings}, body.shape);
 }
 
-template Mesh<2> coarsest_mesh(const Scene&, int);
-template Mesh<3> coarsest_mesh(const Scene&, int);
+template Mesh<2> coarsest_mesh(const Scene&, int, std::vector<std::string>*);
+template Mesh<3> coarsest_mesh(const Scene&, int, std::vector<std::string>*);
 
 }  // namespace signorini

@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
 
@@ -9,7 +12,8 @@ int dimension_of(const Scene& scene);
 
 /// The coarsest mesh of the scene's body: structured, meshed from its shape, or read from its file.
 /// @param block unknowns per vertex, to refuse meshes that would not fit into memory
+/// @param warnings where there are any, what is odd about the mesh is added
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block);
+Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings);
 
 }  // namespace signorini

@@ -6,9 +6,23 @@
 
 #include "core/base/error.hpp"
 #include "core/component/plugin_loader.hpp"
+#include "core/solver/configuration.hpp"
 
 namespace signorini {
 namespace {
+
+/// What the solver refuses of its options it names by key only, "solver.transfer: ...": that is completed by the place.
+void refuse_options(const Scene& scene) {
+  try {
+    check_options(scene.solver);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    for (const auto& [key, place] : scene.solver.source.keys)
+      if (const std::string start = "solver." + key + ": "; message.starts_with(start))
+        input_error(place, message.substr(start.size()));
+    input_error(scene.file.string(), message);
+  }
+}
 
 /// Obstacle types of the interface that a later version brings; a plugin of this id may be there all the same.
 bool is_later_type(const std::string& id) { return id == "coulomb" || id == "elastic" || id == "elastic_coulomb"; }
@@ -43,6 +57,7 @@ void check_components(const Scene& scene, const Registry& registry) {
       input_error(scene.solver.source.of(key), error.what());
     }
   };
+  refuse_options(scene);
   check("smoother", "smoother", scene.solver.smoother);
   check("transfer", "transfer", scene.solver.transfer);
   check("coarse", "coarse", scene.solver.coarse);

@@ -125,9 +125,13 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
   stop_if_interrupted();
   if (level == 0) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
-  solution.summary =
-      signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
-                          solution.x, finest ? options_ : loose(options_), registry_, monitor_);
+  try {
+    solution.summary =
+        signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
+                            solution.x, finest ? options_ : loose(options_), registry_, monitor_);
+  } catch (const Error& error) {  // the solver knows no scene
+    throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
+  }
   solution.discretization.problem.galerkin = {};
   if (finest) galerkin_.clear();
   solution.summary.finest_level = static_cast<int>(level);

@@ -1,7 +1,9 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/signorini/coarse_mesh.hpp"
 #include "core/base/error.hpp"
@@ -31,7 +33,8 @@ void at_step(const Scene& scene, double t, const Work& work) {
 }
 
 /// The scene's meshes, after making sure that a problem with B unknowns per vertex on them fits into memory.
+/// @param warnings where there are any, what is odd about the mesh of a file is added
 template <int D>
-MeshHierarchy<D> build_hierarchy(const Scene& scene, int block);
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace signorini

@@ -42,9 +42,10 @@ class SolveRun {
     Stopwatch watch;
     progress_.phase("meshing");
     report_.dimension = D;
-    hierarchy_ = build_hierarchy<D>(scene_, B);
+    hierarchy_ = build_hierarchy<D>(scene_, B, &report_.warnings);
     probes_ = locate_probes(hierarchy_.finest(), scene_);
-    report_.warnings = scene_warnings(scene_, hierarchy_.levels.front());
+    for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
+      report_.warnings.push_back(std::move(warning));
     report_.time.mesh = watch.elapsed();
   }
 

@@ -5,6 +5,7 @@
 #include "core/algebra/local_coordinates.hpp"
 #include "core/algebra/products.hpp"
 #include "core/fem/assemble.hpp"
+#include "core/fem/magnitude.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -25,9 +26,11 @@ class Discretizer {
     localise();
     add_segments();
     problem().A = stiffness(mesh, model);
+    check_stiffness(mesh, model, problem().A);
     problem().b = load_vector(mesh, model);
     rotate(problem().A, problem().b, problem().frames);
     if (!fixes_.empty()) eliminate(problem());
+    check_load(mesh, model, problem());
   }
 
   Discretization<B> take() { return std::move(out_); }

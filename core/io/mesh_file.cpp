@@ -8,24 +8,24 @@
 #include "core/io/vtu_reader.hpp"
 
 namespace signorini {
-AnyMesh parse_mesh(std::string_view content, std::string_view place) {
+AnyMesh parse_mesh(std::string_view content, std::string_view place, FileGroups* groups) {
   std::size_t first = content.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;  // byte order mark
   first = content.find_first_not_of(" \t\r\n", first);
   if (first == std::string_view::npos) input_error(place, "the mesh file is empty");
-  if (content[first] == '$') return read_msh(content, place);
-  if (content[first] == '<') return read_vtu(content.substr(first), place);
+  if (content[first] == '$') return read_msh(content, place, groups);
+  if (content[first] == '<') return read_vtu(content.substr(first), place, groups);
   input_error(place, fmt::format("neither a Gmsh MSH file, which starts with '$MeshFormat', nor a VTU file, which is "
                                  "XML; found byte 0x{:02x} first",
                                  static_cast<unsigned char>(content[first])));
 }
 
-AnyMesh read_any_mesh(const std::filesystem::path& path) {
-  return parse_mesh(read_file(path, "mesh file"), path.string());
+AnyMesh read_any_mesh(const std::filesystem::path& path, FileGroups* groups) {
+  return parse_mesh(read_file(path, "mesh file"), path.string(), groups);
 }
 
 template <int D>
-Mesh<D> read_mesh(const std::filesystem::path& path) {
-  AnyMesh mesh = read_any_mesh(path);
+Mesh<D> read_mesh(const std::filesystem::path& path, FileGroups* groups) {
+  AnyMesh mesh = read_any_mesh(path, groups);
   if (auto* found = std::get_if<Mesh<D>>(&mesh)) return std::move(*found);
   input_error(path.string(), fmt::format("found a mesh of dimension {}, expected {}", 5 - D, D));
 }
@@ -34,7 +34,7 @@ int mesh_dimension(const std::filesystem::path& path) {
   return std::holds_alternative<Mesh<2>>(read_any_mesh(path)) ? 2 : 3;
 }
 
-template Mesh<2> read_mesh<2>(const std::filesystem::path&);
-template Mesh<3> read_mesh<3>(const std::filesystem::path&);
+template Mesh<2> read_mesh<2>(const std::filesystem::path&, FileGroups*);
+template Mesh<3> read_mesh<3>(const std::filesystem::path&, FileGroups*);
 
 }  // namespace signorini

@@ -4,16 +4,53 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/base/error.hpp"
 #include "core/mesh/build.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
 
+/// Names of the groups of all cells.
+template <int Corners>
+std::vector<std::string> all_names(const FileCells<Corners>& cells, const GroupNames& names) {
+  const std::set<Index> entities(cells.group.begin(), cells.group.end());
+  std::set<std::string> all;
+  for (const Index entity : entities)
+    for (const std::string& name : names(Corners - 1, entity)) all.insert(name);
+  return {all.begin(), all.end()};
+}
+
+template <int D>
+std::size_t count_distinct(std::vector<std::array<Index, D>> faces) {
+  for (auto& face : faces) face = sorted(face);
+  std::ranges::sort(faces);
+  return static_cast<std::size_t>(std::unique(faces.begin(), faces.end()) - faces.begin());
+}
+
+/// Groups with faces that did not become boundary faces of the mesh.
+template <int D>
+std::vector<FileGroups::OffBoundary> off_boundary(const std::vector<FaceGroup<D>>& groups, const Mesh<D>& mesh) {
+  std::map<std::string, std::vector<std::array<Index, D>>> faces;
+  for (const FaceGroup<D>& group : groups)
+    faces[group.name].insert(faces[group.name].end(), group.faces.begin(), group.faces.end());
+  std::vector<FileGroups::OffBoundary> found;
+  for (auto& [name, all] : faces) {
+    const auto part = std::ranges::find(mesh.parts, name, &Part::name);
+    const std::size_t kept = part == mesh.parts.end() ? 0 : part->faces.size();
+    if (all.size() == kept) continue;
+    if (const std::size_t given = count_distinct<D>(std::move(all)); given > kept)
+      found.push_back({name, given, given - kept});
+  }
+  return found;
+}
+
 template <int D>
 Mesh<D> build(std::vector<Point<D>> points, FileCells<D + 1> cells, const FileCells<D>& faces, const GroupNames& names,
-              std::string_view place) {
+              std::string_view place, FileGroups* file_groups) {
+  if (file_groups) file_groups->of_elements = all_names(cells, names);
   RawMesh<D> raw{std::move(points), std::move(cells.vertices), std::move(cells.group), std::move(cells.label), {}};
   std::map<Index, std::vector<std::size_t>> groups_of;  // per entity, positions in raw.groups
   for (std::size_t f = 0; f < faces.vertices.size(); ++f) {
@@ -25,7 +62,11 @@ Mesh<D> build(std::vector<Point<D>> points, FileCells<D + 1> cells, const FileCe
       }
     for (const std::size_t g : entry->second) raw.groups[g].faces.push_back(faces.vertices[f]);
   }
-  return build_mesh<D>(std::move(raw), place);
+  if (!file_groups) return build_mesh<D>(std::move(raw), place);
+  const auto groups = raw.groups;
+  Mesh<D> mesh = build_mesh<D>(std::move(raw), place);
+  file_groups->off_boundary = off_boundary(groups, mesh);
+  return mesh;
 }
 
 std::vector<Point<2>> flatten(const MeshFileData& data, std::string_view place) {
@@ -49,12 +90,12 @@ std::vector<Point<2>> flatten(const MeshFileData& data, std::string_view place) 
 
 }  // namespace
 
-AnyMesh make_mesh(MeshFileData data, const GroupNames& names, std::string_view place) {
+AnyMesh make_mesh(MeshFileData data, const GroupNames& names, std::string_view place, FileGroups* groups) {
   if (!data.tetrahedra.vertices.empty())
-    return build<3>(std::move(data.points), std::move(data.tetrahedra), data.triangles, names, place);
+    return build<3>(std::move(data.points), std::move(data.tetrahedra), data.triangles, names, place, groups);
   if (data.triangles.vertices.empty()) input_error(place, "the mesh has neither triangles nor tetrahedra");
   std::vector<Point<2>> points = flatten(data, place);
-  return build<2>(std::move(points), std::move(data.triangles), data.lines, names, place);
+  return build<2>(std::move(points), std::move(data.triangles), data.lines, names, place, groups);
 }
 
 }  // namespace signorini

@@ -30,10 +30,11 @@ struct MeshFileData {
   FileCells<4> tetrahedra;
 };
 
-/// Names of the physical groups that the boundary cells of entity `group` belong to; `dimension` is that of the cells.
+/// Names of the physical groups that the cells of entity `group` belong to; `dimension` is that of the cells.
 using GroupNames = std::function<std::vector<std::string>(int dimension, Index group)>;
 
 /// The mesh of highest dimension, with the cells one dimension lower as its parts.
-AnyMesh make_mesh(MeshFileData data, const GroupNames& names, std::string_view place);
+/// @param groups as read_any_mesh(), or null
+AnyMesh make_mesh(MeshFileData data, const GroupNames& names, std::string_view place, FileGroups* groups);
 
 }  // namespace signorini

@@ -63,7 +63,7 @@ class MshReader {
  public:
   MshReader(std::string_view content, std::string_view place) : in_(content, place) {}
 
-  AnyMesh read() {
+  AnyMesh read(FileGroups* groups) {
     while (!in_.at_end()) read_section();
     for (const char* needed : {"MeshFormat", "Nodes", "Elements"})
       if (!done_.contains(needed)) in_.fail(fmt::format("the file ends without ${}", needed));
@@ -75,7 +75,7 @@ class MshReader {
         drop_repeated(data_.tetrahedra, n);
     }
     return make_mesh(
-        std::move(data_), [this](int dimension, Index e) { return names(dimension, e); }, in_.place());
+        std::move(data_), [this](int dimension, Index e) { return names(dimension, e); }, in_.place(), groups);
   }
 
  private:
@@ -311,6 +311,8 @@ class MshReader {
 
 }  // namespace
 
-AnyMesh read_msh(std::string_view content, std::string_view place) { return MshReader(content, place).read(); }
+AnyMesh read_msh(std::string_view content, std::string_view place, FileGroups* groups) {
+  return MshReader(content, place).read(groups);
+}
 
 }  // namespace signorini

@@ -50,12 +50,12 @@ class VtuReader {
     read_format();
   }
 
-  AnyMesh read() {
+  AnyMesh read(FileGroups* groups) {
     const pugi::xml_node piece = only_piece();
     read_points(piece);
     read_cells(piece);
     return make_mesh(
-        std::move(data_), [this](int, Index group) { return names(group); }, format_.place);
+        std::move(data_), [this](int, Index group) { return names(group); }, format_.place, groups);
   }
 
  private:
@@ -223,6 +223,8 @@ class VtuReader {
 
 }  // namespace
 
-AnyMesh read_vtu(std::string_view content, std::string_view place) { return VtuReader(content, place).read(); }
+AnyMesh read_vtu(std::string_view content, std::string_view place, FileGroups* groups) {
+  return VtuReader(content, place).read(groups);
+}
 
 }  // namespace signorini

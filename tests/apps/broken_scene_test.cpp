@@ -111,6 +111,14 @@ INSTANTIATE_TEST_SUITE_P(
                "found 'tnmg', did you mean 'tnnmg'?"},
         Broken{"ProbeLittleOutside", membrane, "at = [0, 0]", "at = [0, 1.05]", 2,
                "probe.0.at: point (0, 1.05) lies outside the body; the nearest point of the body is (0, 1)"},
+        Broken{"TransferNone", membrane, "[refine]", "[solver]\ntransfer = \"none\"\n[refine]", 2,
+               "scene.toml:18: solver.transfer: found 'none', expected a monotone restriction, or method 'tnnmg'"},
+        Broken{"StiffnessOverflows", membrane, "equation =", "diffusion = 1e308\nequation =", 2,
+               "scene.toml:2: body.0: the stiffness overflows or vanishes by underflow at ("},
+        Broken{"StiffnessUnderflows", punch, "young = 1.0", "young = 1e-320", 2,
+               "scene.toml:2: body.0: the stiffness overflows or vanishes by underflow at ("},
+        Broken{"LoadOverflows", membrane, "[refine]", "[[load]]\nbody = \"m\"\nvalue = 1e300\n[refine]", 2,
+               "scene.toml:2: body.0: the energy of the load overflows at ("},
         Broken{"Quadratic", punch, "young = 1.0", "young = 1.0\norder = 2", 2, "not available in this version"}),
     [](const auto& test) { return std::string(test.param.name); });
 

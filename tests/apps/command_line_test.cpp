@@ -228,5 +228,87 @@ TEST_F(CommandLine, FixesThatContradictEachOtherAreAWarning) {
   EXPECT_EQ(signorini({"check", "membrane.toml", "--set", "fix.0.value=x", "--set", "obstacle.0.lower=-2"}).err, "");
 }
 
+/// Three triangles of a square, one of which has a vertex in the middle of another's edge.
+const std::string torn = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0.5 0.5 0
+$EndNodes
+$Elements
+3
+1 2 2 1 1 1 2 3
+2 2 2 1 1 1 5 4
+3 2 2 1 1 5 3 4
+$EndElements
+)";
+
+TEST_F(CommandLine, TornMeshesAndHingesAreAWarning) {
+  write("torn.msh", torn);
+  write("torn.toml",
+        "[[body]]\nname = \"m\"\nmesh = \"torn.msh\"\nequation = \"diffusion\"\n"
+        "[[fix]]\nbody = \"m\"\non = \"boundary\"\nvalue = 0\n[refine]\nuniform = 1\n");
+  const char* tear = "torn.toml:3: body.0.mesh: the vertex at (0.5, 0.5) lies inside the edge (";
+  const char* hinge = "torn.toml:3: body.0.mesh: elements hang together only by the vertex at (0, 0), and at 1 more";
+  for (const Ended& ended : {signorini({"check", "torn.toml"}), signorini({"solve", "torn.toml", "--out", "o"})}) {
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_THAT(ended.err, testing::AllOf(HasSubstr(tear), HasSubstr(hinge)));
+  }
+  EXPECT_THAT(report("o").at("warnings").dump(), testing::AllOf(HasSubstr(tear), HasSubstr(hinge)));
+}
+
+/// Two triangles; the diagonal between them is a group, as are they.
+const std::string grouped = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "rim"
+1 2 "diagonal"
+2 3 "plate"
+$EndPhysicalNames
+$Nodes
+4
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+$EndNodes
+$Elements
+5
+1 1 2 1 1 1 2
+2 1 2 1 1 1 3
+3 1 2 2 2 1 3
+4 2 2 3 1 1 2 3
+5 2 2 3 1 1 3 4
+$EndElements
+)";
+
+TEST_F(CommandLine, GroupsOffTheBoundaryAreAWarningAndNoParts) {
+  write("grouped.msh", grouped);
+  write("grouped.toml",
+        "[[body]]\nname = \"m\"\nmesh = \"grouped.msh\"\nequation = \"diffusion\"\n"
+        "[[fix]]\nbody = \"m\"\non = \"rim\"\nvalue = 0\n[refine]\nuniform = 1\n");
+  const std::string place = "grouped.toml:3: body.0.mesh: ";
+  const Ended ended = signorini({"solve", "grouped.toml", "--out", "o"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr(place + "1 of the 2 edges of the physical group 'rim' are not on the boundary"));
+  EXPECT_THAT(ended.err,
+              HasSubstr(place + "1 of the 1 edges of the physical group 'diagonal' are not on the boundary"));
+  EXPECT_EQ(report("o").at("warnings").size(), 2u);
+  const Ended plate = signorini({"check", "grouped.toml", "--set", "fix.0.on=plate"});
+  EXPECT_EQ(plate.status, 2);
+  EXPECT_THAT(plate.err, HasSubstr("fix.0.on=plate: 'plate' is a physical group of triangles, expected one of boundary "
+                                   "edges (the parts are: boundary, rim)"));
+  const Ended diagonal = signorini({"check", "grouped.toml", "--set", "fix.0.on=diagonal"});
+  EXPECT_EQ(diagonal.status, 2);
+  EXPECT_THAT(diagonal.err, HasSubstr("no edge of the physical group 'diagonal' is on the boundary"));
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -13,6 +13,7 @@ using test::area;
 using test::input_error_of;
 using test::MshVariant;
 using test::MshWriter;
+using test::Sample;
 using test::sample_of;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -40,6 +41,24 @@ void expect_read_back(const Mesh<D>& mesh, MshVariant variant) {
 
 TEST_P(Msh, GivesBackAPlate) { expect_read_back(plate(), GetParam()); }
 TEST_P(Msh, GivesBackABrick) { expect_read_back(brick(), GetParam()); }
+
+TEST_P(Msh, TellsGroupsThatAreNoParts) {
+  Sample sample = sample_of(plate());
+  FileGroups groups;
+  read_msh(MshWriter(sample, GetParam()).write(), "file.msh", &groups);
+  EXPECT_THAT(groups.of_elements, testing::Contains("the body"));
+  EXPECT_THAT(groups.off_boundary, testing::IsEmpty());
+  sample.points.push_back({9, 9, 0.5});
+  const auto loose = static_cast<Index>(sample.points.size()) - 1;
+  sample.blocks[0].cells.push_back({4, 5});      // between two cells
+  sample.blocks[0].cells.push_back({0, loose});  // of no element
+  sample.blocks[0].cells.push_back(sample.blocks[0].cells[0]);
+  read_msh(MshWriter(sample, GetParam()).write(), "file.msh", &groups);
+  ASSERT_EQ(groups.off_boundary.size(), 2u);  // the first block is in two groups
+  EXPECT_EQ(groups.off_boundary[0].name, "9");
+  EXPECT_EQ(groups.off_boundary[0].elsewhere, 2u);
+  EXPECT_EQ(groups.off_boundary[0].faces, sample.blocks[0].cells.size() - 1);
+}
 
 TEST_P(Msh, CutOffAnywhereIsAnError) {
   const std::string file = MshWriter(sample_of(smallest()), GetParam()).write();

@@ -1,0 +1,93 @@
+#include "apps/signorini/mesh_warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/base/error.hpp"
+#include "core/mesh/joints.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D, std::size_t N>
+std::string points(const Mesh<D>& mesh, const std::array<Index, N>& vertices) {
+  std::string all;
+  for (const Index v : vertices)
+    all += fmt::format("{}({})", all.empty() ? "" : " - ", fmt::join(mesh.points[v], ", "));
+  return all;
+}
+
+std::string and_others(std::size_t count) { return count > 1 ? fmt::format(", and at {} more", count - 1) : ""; }
+
+template <int D>
+void add_joints(const Mesh<D>& mesh, const std::string& place, std::vector<std::string>& warnings) {
+  const Hinges hinges = find_hinges(mesh);
+  if (const auto& all = hinges.vertices; !all.empty())
+    warnings.push_back(fmt::format("{}: elements hang together only by the vertex at {}{}: the body has a hinge there",
+                                   place, points(mesh, std::array{all[0]}), and_others(all.size())));
+  if (const auto& all = hinges.edges; !all.empty())
+    warnings.push_back(fmt::format("{}: elements hang together only by the edge {}{}: the body has a hinge there",
+                                   place, points(mesh, all[0]), and_others(all.size())));
+  if (const auto all = find_hanging_vertices(mesh); !all.empty())
+    warnings.push_back(
+        fmt::format("{}: the vertex at {} lies inside the {} {} of an element that it is no vertex of{}: "
+                    "the body is torn there",
+                    place, points(mesh, std::array{all[0].vertex}), D == 2 ? "edge" : "face",
+                    points(mesh, mesh.boundary[all[0].face].vertices), and_others(all.size())));
+}
+
+/// Of the scene's fixes, loads and obstacles.
+std::vector<Selection> selections(const Scene& scene) {
+  std::vector<Selection> all;
+  for (const auto& fix : scene.fixes) all.push_back(fix.on);
+  for (const auto& load : scene.loads)
+    if (load.on) all.push_back(*load.on);
+  for (const auto& obstacle : scene.obstacles)
+    if (obstacle.on) all.push_back(*obstacle.on);
+  return all;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::string> mesh_warnings(const Mesh<D>& mesh, const FileGroups& groups, const std::string& place) {
+  std::vector<std::string> warnings;
+  for (const auto& [name, faces, elsewhere] : groups.off_boundary)
+    warnings.push_back(
+        fmt::format("{}: {} of the {} {} of the physical group '{}' are not on the boundary: they are left "
+                    "out of the part of that name",
+                    place, elsewhere, faces, D == 2 ? "edges" : "faces", name));
+  add_joints(mesh, place, warnings);
+  return warnings;
+}
+
+template <int D>
+void refuse_lost_groups(const Scene& scene, const Mesh<D>& mesh, const FileGroups& groups) {
+  std::vector<std::string> parts{"boundary"};
+  for (const Part& part : mesh.parts) parts.push_back(part.name);
+  for (const Selection& selection : selections(scene)) {
+    if (!selection.part || std::ranges::count(parts, *selection.part) > 0) continue;
+    if (std::ranges::count(groups.of_elements, *selection.part) > 0)
+      input_error(selection.origin,
+                  fmt::format("'{}' is a physical group of {}, expected one of boundary {} (the parts "
+                              "are: {})",
+                              *selection.part, D == 2 ? "triangles" : "tetrahedra", D == 2 ? "edges" : "faces",
+                              fmt::join(parts, ", ")));
+    for (const auto& group : groups.off_boundary)
+      if (group.name == *selection.part)
+        input_error(selection.origin,
+                    fmt::format("no {} of the physical group '{}' is on the boundary (the parts are: {})",
+                                D == 2 ? "edge" : "face", group.name, fmt::join(parts, ", ")));
+  }
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                                                          \
+  template std::vector<std::string> mesh_warnings(const Mesh<D>&, const FileGroups&, const std::string&); \
+  template void refuse_lost_groups(const Scene&, const Mesh<D>&, const FileGroups&);
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

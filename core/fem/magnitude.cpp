@@ -1,0 +1,58 @@
+#include "core/fem/magnitude.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D, int B>
+[[noreturn]] void refuse(const Mesh<D>& mesh, const Model<B>& model, Index vertex, const char* what,
+                         const char* quantities) {
+  input_error(model.origin, fmt::format("{} at ({}), expected {} in units that keep it within the range of numbers",
+                                        what, fmt::join(mesh.points[vertex], ", "), quantities));
+}
+
+}  // namespace
+
+template <int D, int B>
+void check_stiffness(const Mesh<D>& mesh, const Model<B>& model, const BlockMatrix<B>& A) {
+  const char* moduli = B == 1 ? "lengths and 'diffusion'" : "lengths and 'young'";
+  for (Index p = 0; p < A.size(); ++p) {
+    bool good = A.row[p] < A.row[p + 1] && A.column[A.row[p]] == p;
+    for (int k = 0; good && k < B; ++k) {
+      const double d = A.diagonal(p)[k * (B + 1)];
+      good = std::isfinite(d) && std::isfinite(1 / d);
+    }
+    if (!good) refuse<D, B>(mesh, model, p, "the stiffness overflows or vanishes by underflow", moduli);
+  }
+}
+
+template <int D, int B>
+void check_load(const Mesh<D>& mesh, const Model<B>& model, const DiscreteProblem<B>& problem) {
+  double squares = 0, energy = 0;
+  for (Index p = 0; p < problem.A.size(); ++p) {
+    for (int k = 0; k < B; ++k) {
+      const double b = problem.b[Offset{p} * B + k];
+      squares += b * b;
+      energy += b * (b / problem.A.diagonal(p)[k * (B + 1)]);
+    }
+    if (!std::isfinite(squares) || !std::isfinite(energy))
+      refuse<D, B>(mesh, model, p, "the energy of the load overflows", "lengths, loads and prescribed values");
+  }
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                      \
+  template void check_stiffness(const Mesh<D>&, const Model<B>&, const BlockMatrix<B>&); \
+  template void check_load(const Mesh<D>&, const Model<B>&, const DiscreteProblem<B>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

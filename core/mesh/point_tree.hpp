@@ -1,0 +1,84 @@
+#pragma once
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+namespace signorini {
+
+/// A balanced tree of points, to find those near something.
+template <int D>
+class PointTree {
+ public:
+  /// An axis-parallel one.
+  struct Box {
+    Point<D> low, high;
+  };
+
+  /// Keeps a reference to `points`; holds those whose numbers are given. O(n log n).
+  PointTree(const std::vector<Point<D>>& points, std::vector<Index> numbers)
+      : points_(points), numbers_(std::move(numbers)) {
+    if (!numbers_.empty()) build(0, numbers_.size());
+  }
+
+  /// Calls visit(number) for every point of every leaf all of whose boxes up to the root pass `may_hold(box)`.
+  template <class MayHold, class Visit>
+  void search(const MayHold& may_hold, const Visit& visit) const {
+    if (!nodes_.empty()) search(0, may_hold, visit);
+  }
+
+ private:
+  static constexpr std::size_t leaf = 8;
+  struct Node {
+    Box box;
+    std::size_t first, last;
+    Index right;  ///< the left child follows its parent; -1 for leaves
+  };
+
+  Box box_of(std::size_t first, std::size_t last) const {
+    Box box{points_[numbers_[first]], points_[numbers_[first]]};
+    for (std::size_t i = first; i < last; ++i)
+      for (int k = 0; k < D; ++k) {
+        box.low[k] = std::min(box.low[k], points_[numbers_[i]][k]);
+        box.high[k] = std::max(box.high[k], points_[numbers_[i]][k]);
+      }
+    return box;
+  }
+
+  Index build(std::size_t first, std::size_t last) {
+    const auto here = static_cast<Index>(nodes_.size());
+    nodes_.push_back({box_of(first, last), first, last, -1});
+    if (last - first <= leaf) return here;
+    const Box box = nodes_[here].box;
+    int widest = 0;
+    for (int k = 1; k < D; ++k)
+      if (box.high[k] - box.low[k] > box.high[widest] - box.low[widest]) widest = k;
+    const std::size_t middle = first + (last - first) / 2;
+    const auto begin = numbers_.begin();
+    std::nth_element(begin + first, begin + middle, begin + last,
+                     [&](Index a, Index b) { return points_[a][widest] < points_[b][widest]; });
+    build(first, middle);
+    const Index right = build(middle, last);
+    nodes_[here].right = right;
+    return here;
+  }
+
+  template <class MayHold, class Visit>
+  void search(Index n, const MayHold& may_hold, const Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (!may_hold(node.box)) return;
+    if (node.right < 0) {
+      for (std::size_t i = node.first; i < node.last; ++i) visit(numbers_[i]);
+      return;
+    }
+    search(n + 1, may_hold, visit);
+    search(node.right, may_hold, visit);
+  }
+
+  const std::vector<Point<D>>& points_;
+  std::vector<Index> numbers_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace signorini
