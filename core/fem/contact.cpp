@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/algebra/products.hpp"
+#include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 
 namespace signorini {
@@ -12,16 +13,41 @@ namespace {
 constexpr double positive_force = 1e-8;  // of the largest force
 constexpr double on_bound = 1e-12;       // of the numbers compared
 
-// Tributary measure per vertex of the mesh.
+// Cosine of the angle up to which a face counts as one that the obstacle pushes against: 60 degrees, less rounding.
+constexpr double facing = 0.5 - 1e-9;
+
+// Measures of the contact at vertices, see ContactNode::area.
 template <int D, int B>
-std::vector<double> tributary(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t) {
-  if (B == 1 && !term.on) return vertex_volumes(mesh);
-  const Surface<D> faces = term.on ? surface(mesh, select_faces(mesh, *term.on, t)) : surface(mesh);
-  const std::vector<double> area = vertex_areas(mesh, faces);
-  std::vector<double> out(mesh.points.size());
-  for (std::size_t v = 0; v < area.size(); ++v) out[faces.vertices[v]] = area[v];
-  return out;
-}
+class TributaryAreas {
+ public:
+  TributaryAreas(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t) : mesh_(mesh) {
+    if (B == 1 && !term.on)
+      volumes_ = vertex_volumes(mesh);
+    else
+      faces_ = term.on ? surface(mesh, select_faces(mesh, *term.on, t)) : surface(mesh);
+  }
+
+  double at(const ContactNode<B>& node) const {
+    if (!volumes_.empty()) return volumes_[node.vertex];
+    const auto found = std::lower_bound(faces_.vertices.begin(), faces_.vertices.end(), node.vertex);
+    if (found == faces_.vertices.end() || *found != node.vertex) return 0;
+    const auto v = static_cast<std::size_t>(found - faces_.vertices.begin());
+    double all = 0, pushed = 0;
+    for (Offset k = faces_.first[v]; k < faces_.first[v + 1]; ++k) {
+      const Point<D> n = area_normal(mesh_, mesh_.boundary[faces_.around[k]]);
+      const double measure = std::sqrt(dot(n, n));
+      all += measure;
+      if constexpr (B == D)
+        if (-dot(n, node.direction) >= facing * measure) pushed += measure;
+    }
+    return (pushed > 0 ? pushed : all) / D;
+  }
+
+ private:
+  const Mesh<D>& mesh_;
+  Surface<D> faces_;
+  std::vector<double> volumes_;  // per vertex of the mesh, where the obstacle acts on the body
+};
 
 template <int B>
 class NodeReader {
@@ -48,9 +74,10 @@ class NodeReader {
     const bool below = discretization_.upper_obstacle[at] < 0 || nearer_to_lower(at, x, r, at_lower, at_upper);
     const bool contact = at_lower || at_upper;
     const Index obstacle = (below ? discretization_.lower_obstacle : discretization_.upper_obstacle)[at];
-    ContactNode<B> node{p, obstacle, contact, below ? x - lower : upper - x, 0, below ? r : -r, {}};
+    ContactNode<B> node{p, obstacle, contact, below ? x - lower : upper - x, 0, below ? r : -r, {}, {}};
+    add_along(p, k, below ? 1 : -1, node.direction);
     if (!contact) node.pressure = 0;
-    if (contact) add_force(p, k, r, node.force);
+    if (contact) add_along(p, k, r, node.force);
     return node;
   }
 
@@ -66,9 +93,10 @@ class NodeReader {
     return std::isfinite(bound) && gap <= on_bound * std::max(size_, std::fabs(bound));
   }
 
-  void add_force(Index p, int k, double r, std::array<double, B>& force) const {
+  // Adds r times the direction that local component k measures.
+  void add_along(Index p, int k, double r, std::array<double, B>& to) const {
     const double* N = problem_.frames.dual_at(p);
-    for (int i = 0; i < B; ++i) force[i] += N ? N[i * B + k] * r : (i == k ? r : 0);
+    for (int i = 0; i < B; ++i) to[i] += N ? N[i * B + k] * r : (i == k ? r : 0);
   }
 
   const DiscreteProblem<B>& problem_;
@@ -104,10 +132,10 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
         force = std::max(force, state.nodes.back().pressure);
       }
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle) {
-    const std::vector<double> area = tributary(mesh, model.obstacles[obstacle], model.t);
+    const TributaryAreas<D, B> areas(mesh, model.obstacles[obstacle], model.t);
     for (ContactNode<B>& node : state.nodes) {
       if (node.obstacle != static_cast<Index>(obstacle)) continue;
-      node.area = area[node.vertex];
+      node.area = areas.at(node);
       node.pressure = node.area > 0 ? node.pressure / node.area : 0;
       add_to(state.obstacles[obstacle], node, positive_force * largest[obstacle]);
     }

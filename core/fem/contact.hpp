@@ -10,10 +10,13 @@ struct ContactNode {
   Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
   bool contact;    ///< the unknown lies on the bound
   double gap;      ///< distance to the nearer bound
-  double area;     ///< integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle
-                   ///< without faces over the body
-  double pressure;              ///< consistent nodal force over area, positive where the obstacle pushes
-  std::array<double, B> force;  ///< exerted by the obstacle, global coordinates; zero without contact
+  /// Integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle without faces
+  /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
+  /// degrees of -direction; where there is none all do.
+  double area;
+  double pressure;                  ///< consistent nodal force over area, positive where the obstacle pushes
+  std::array<double, B> force;      ///< exerted by the obstacle, global coordinates; zero without contact
+  std::array<double, B> direction;  ///< in which the bound pushes, and the gap is measured; of length 1, global
 };
 
 /// What one obstacle does to the body.

@@ -189,7 +189,13 @@ constexpr TableSpec tables[] = {
     {"body", true, "The body to be deformed, or the domain of a scalar equation.", body},
     {"fix", true, "A Dirichlet condition at the nodes of the faces picked by `on` or `where`.", fix},
     {"load", true, "A force.", load},
-    {"obstacle", true, "What the body may not penetrate. Every key not listed here belongs to the plugin.", obstacle},
+    {"obstacle", true,
+     "What the body may not penetrate. Every key not listed here belongs to the plugin. `on` and `where` may pick more "
+     "faces than come into contact: the contact area of a node, and its pressure, which is force over area, count only "
+     "those of the picked faces whose outer normal is within 60 degrees of the direction to the obstacle (at a tip "
+     "that "
+     "is sharper than that, all).",
+     obstacle},
     {"solver", false, "How the algebraic problem is solved.", solver},
     {"refine", false, "The mesh.", refine},
     {"steps", false, "Quasi-static loading.", steps},

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <numeric>
+
 #include "core/fem/nested.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
@@ -9,10 +12,12 @@
 namespace signorini::testing {
 namespace {
 
+using std::numbers::pi;
+
 // A block pressed by the traction p onto a plane under its bottom, turned in space: uniform stress. Symmetry planes
-// hold it sideways.
+// hold it sideways. Its sides may touch the plane as well, but do so at edges only.
 template <int D>
-void expect_flat_punch(bool turned, double gap) {
+void expect_flat_punch(bool turned, double gap, const std::string& part) {
   const double p = 0.2;
   Mesh<D> mesh = distorted_mesh<D>(2);
   using Matrix = Eigen::Matrix<double, D, D>;
@@ -20,9 +25,9 @@ void expect_flat_punch(bool turned, double gap) {
   if (turned) rotate_mesh(mesh);
   Model<D> model;
   model.poisson = 0.3;
-  for (const std::string part : {"left", "front"})
-    if (part == "left" || D == 3) {
-      model.fixes.push_back(fix<D>(part, {}, Frame::normal));
+  for (const std::string side : {"left", "front"})
+    if (side == "left" || D == 3) {
+      model.fixes.push_back(fix<D>(side, {}, Frame::normal));
       model.fixes.back().value[0] = 0;
     }
   Load<D> press{Selection{"top", {}, ""}, {}};
@@ -32,17 +37,24 @@ void expect_flat_punch(bool turned, double gap) {
     press.value[i] = -p * up[i];
   }
   model.loads.push_back(press);
-  model.obstacles = {term<D>([=](const SurfaceVertex&) { return bound<D>(up, -gap, infinity); }, "bottom")};
+  const auto plane = [=](const SurfaceVertex& v) {
+    return bound<D>(up, -gap - std::inner_product(up.begin(), up.end(), v.position, 0.0), infinity);
+  };
+  model.obstacles = {term<D>(plane, part)};
   const auto discrete = discretize(mesh, model);
   const auto x = solve_bounded(discrete.problem);
   const auto state = contact_state(mesh, model, discrete, x);
   ASSERT_EQ(state.obstacles.size(), 1u);
-  EXPECT_EQ(state.obstacles[0].nodes, static_cast<Index>(state.nodes.size()));
+  EXPECT_EQ(state.obstacles[0].nodes, D == 2 ? 3 : 12);
   EXPECT_NEAR(state.obstacles[0].area, 1, 1e-13);
   EXPECT_NEAR(state.obstacles[0].max_pressure, p, 1e-11);
   for (int i = 0; i < D; ++i) EXPECT_NEAR(state.obstacles[0].force[i], p * up[i], 1e-12);
   for (const auto& node : state.nodes) {
-    EXPECT_TRUE(node.contact);
+    for (int i = 0; i < D; ++i) EXPECT_NEAR(node.direction[i], up[i], 1e-15);
+    if (!node.contact) {
+      EXPECT_GT(node.gap, 0.1);
+      continue;
+    }
     EXPECT_NEAR(node.pressure, p, 1e-11);
     EXPECT_NEAR(node.gap, 0, 1e-15);
   }
@@ -50,10 +62,40 @@ void expect_flat_punch(bool turned, double gap) {
 
 TEST(Contact, FlatPunchHasUniformPressure) {
   for (const bool turned : {false, true})
-    for (const double gap : {0.0, 0.01}) {
-      expect_flat_punch<2>(turned, gap);
-      expect_flat_punch<3>(turned, gap);
+    for (const double gap : {0.0, 0.01})
+      for (const char* part : {"bottom", "boundary"}) {
+        SCOPED_TRACE(part);
+        expect_flat_punch<2>(turned, gap, part);
+        expect_flat_punch<3>(turned, gap, part);
+      }
+}
+
+// A square that stands on a corner, and on a needle's tip: sides at `angle` to the axis, so that their normals are
+// 90 degrees less from the obstacle.
+TEST(Contact, SidesCountUpTo60DegreesAndAtSharperTipsAllOfThem) {
+  const auto area = [](double left, double right) {  // angles between the sides at the tip and the axis, in degrees
+    const auto side = [](double angle) { return std::array{std::sin(angle * pi / 180), std::cos(angle * pi / 180)}; };
+    Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {1, 1});
+    for (Point<2>& x : mesh.points) {
+      const auto a = side(-left), b = side(right);
+      x = {x[1] * a[0] + x[0] * b[0], x[1] * a[1] + x[0] * b[1]};
     }
+    Model<2> model;
+    model.fixes = {fix<2>("top", {0.0, -0.1})};
+    model.obstacles = {term<2>(
+        [](const SurfaceVertex& v) {
+          return bound<2>({0, 1}, -v.position[1], infinity);
+        },
+        "boundary")};
+    const auto discrete = discretize(mesh, model);
+    const auto state = contact_state(mesh, model, discrete, solve_bounded(discrete.problem));
+    EXPECT_EQ(state.obstacles[0].nodes, 1);
+    return state.obstacles[0].area;
+  };
+  EXPECT_NEAR(area(45, 45), 1, 1e-13);
+  EXPECT_NEAR(area(31, 31), 1, 1e-13);
+  EXPECT_NEAR(area(20, 70), 0.5, 1e-13);
+  EXPECT_NEAR(area(20, 20), 1, 1e-13);
 }
 
 // -u'' = -1 on (0, 1), u >= -psi: by hand, in a strip of squares.
