@@ -76,10 +76,10 @@ TEST_F(CommandLine, NamesTheNearestOptionAndValue) {
   }
 }
 
-TEST_F(CommandLine, UnknownPathOfSetIsWrongUsage) {
+TEST_F(CommandLine, AnUnknownPathOfSetIsBadInputAsAWrongValueIs) {
   write("membrane.toml", membrane);
   const Ended ended = signorini({"solve", "membrane.toml", "--set", "solver.tolerence=1e-3"});
-  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.err, HasSubstr("tolerance"));
   EXPECT_THAT(written(), IsEmpty());
 }
