@@ -149,6 +149,23 @@ TEST_F(Program, AnElementWithoutAreaNamesItsBody) {
   EXPECT_THAT(ended.err, testing::HasSubstr("scene.toml:2: body.0: element with area 0"));
 }
 
+TEST_F(Program, UnreadableSurfacesNameTheirLine) {
+  write("nan.off", "OFF\n4 4 0\n0 0 0\n1 0 nan\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  std::string obstacle = punch;
+  const std::string plane = "shape = \"plane\"\npoint = [0, 0, \"1 - 0.01 * t\"]\nnormal = [0, 0, -1]";
+  obstacle.replace(obstacle.find(plane), plane.size(), "shape = \"surface\"\nfile = \"nan.off\"");
+  write("obstacle.toml", obstacle);
+  std::string body = punch;
+  const std::string box = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]";
+  body.replace(body.find(box), box.size(), "shape = \"solid\"\nfile = \"nan.off\"\nsize = 0.5");
+  write("body.toml", body);
+  for (const char* scene : {"obstacle.toml", "body.toml"}) {
+    const Ended ended = signorini({"check", scene});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, testing::HasSubstr("line 4: found 'nan', expected z of vertex 1 of 4, a finite number"));
+  }
+}
+
 TEST_F(Program, MissingSceneIsBadInput) {
   const Ended ended = signorini({"solve", "none.toml"});
   EXPECT_EQ(ended.status, 2);
