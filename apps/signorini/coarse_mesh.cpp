@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
+#include "core/io/surface_complaint.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
 
@@ -68,7 +69,9 @@ struct Mesher {
     try {
       return geometry::engine().mesh(shape, target_size<D>(body));
     } catch (const geometry::ShapeError& error) {
-      input_error(body.source.of(error.key()), error.complaint());
+      std::string more;
+      if constexpr (std::is_same_v<Shape, geometry::Solid>) more = surface_complaint(shape.file);
+      input_error(body.source.of(error.key()), error.complaint() + (more.empty() ? "" : "; ") + more);
     }
   }
 };

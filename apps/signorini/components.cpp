@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/component/plugin_loader.hpp"
+#include "core/scene/specs.hpp"
 #include "core/solver/configuration.hpp"
 
 namespace signorini {
@@ -24,9 +25,6 @@ void refuse_options(const Scene& scene) {
   }
 }
 
-/// Obstacle types of the interface that a later version brings; a plugin of this id may be there all the same.
-bool is_later_type(const std::string& id) { return id == "coulomb" || id == "elastic" || id == "elastic_coulomb"; }
-
 }  // namespace
 
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
@@ -38,7 +36,7 @@ std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
     try {
       loader.require(obstacle.type);
     } catch (const Error& error) {
-      if (is_later_type(obstacle.type))
+      if (is_later_obstacle(obstacle.type))
         input_error(obstacle.source.of("type"),
                     fmt::format("type = '{}' is not available in this version", obstacle.type));
       throw Error(error.status(), obstacle.source.of("type") + ": " + error.what());

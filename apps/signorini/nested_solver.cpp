@@ -60,7 +60,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   stop_if_interrupted();
   Stopwatch watch;
   const Mesh<D>& mesh = hierarchy_.levels[level];
-  progress_.phase(fmt::format("level {}: {} unknowns", level, Offset{mesh.vertices()} * B));
+  progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
   Solution<B> solution{discretize<D, B>(mesh, model), {}, {}};
   solution.x = solution.discretization.problem.start;
   times_.assemble += watch.elapsed();

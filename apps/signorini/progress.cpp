@@ -15,12 +15,24 @@ namespace signorini {
 
 Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
 
+Progress::~Progress() { clear(); }
+
+void Progress::clear() const {
+  if (open_) std::fputs("\r\x1b[K", stderr);
+  open_ = false;
+}
+
 void Progress::phase(const std::string& what) const {
-  if (shown_) fmt::print(stderr, "{}\n", what);
+  if (!shown_) return;
+  clear();
+  fmt::print(stderr, "{}\n", what);
 }
 
 void Progress::cycle(const IterationRecord& record) const {
-  if (shown_) fmt::print(stderr, "{}\n", convergence_row(record));
+  if (!shown_) return;
+  clear();
+  fmt::print(stderr, "{}", convergence_row(record));
+  open_ = true;
 }
 
 void print_summary(const Summary& summary, bool solved) {

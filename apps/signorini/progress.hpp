@@ -7,16 +7,23 @@
 
 namespace signorini {
 
-/// Lines on standard error while long work goes on, if that is a terminal.
+/// Lines on standard error while long work goes on, if that is a terminal. Those of cycles take each other's place and
+/// go at the end: the table of results has them all.
 class Progress {
  public:
   explicit Progress(bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
   void phase(const std::string& what) const;
   void cycle(const IterationRecord& record) const;
 
  private:
+  void clear() const;
+
   bool shown_;
+  mutable bool open_ = false;  // a cycle's line is the last one
 };
 
 /// What a solve did: the convergence table, why it stopped, and its size.

@@ -142,6 +142,7 @@ class QpRun {
   }
 
   void write() {
+    progress_.phase("writing");
     if (wants_solution_) write_text(out_, matrix_market(result_.x));
     time_.total = watch_.elapsed();
     if (!report_.empty()) write_text(report_, report_text());

@@ -93,8 +93,10 @@ class Collector {
     if (std::isnan(bound.lower) || std::isnan(bound.upper))
       input_error(origin, fmt::format("bound that is not a number at {}", position(mesh_, vertex)));
     if (bound.lower == infinity || bound.upper == -infinity)
-      throw Error(Exit::no_solution, fmt::format("{}: no solution: bounds [{}, {}] at {} leave nothing admissible",
-                                                 origin, bound.lower, bound.upper, position(mesh_, vertex)));
+      throw Error(Exit::no_solution,
+                  fmt::format("{}: no solution: the {} at {} leaves nothing admissible", origin,
+                              bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
+                              position(mesh_, vertex)));
     if (bound.lower > -infinity || bound.upper < infinity) bounds_.push_back(bound);
   }
 
@@ -170,8 +172,9 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
   const double violation = std::max(bound.lower - prescribed, prescribed - bound.upper);
   if (violation > 0 && violation > rounding(bound.obstacle))
     no_solution(bound.obstacle, bound.vertex,
-                fmt::format("obstacle beyond the fixed boundary: the fixed value {} lies outside the bounds [{}, {}]",
-                            prescribed, bound.lower, bound.upper));
+                fmt::format("obstacle beyond the fixed boundary: the fixed value {} lies {} the obstacle's bound {}",
+                            prescribed, prescribed < bound.lower ? "below" : "above",
+                            (prescribed < bound.lower ? bound.lower : bound.upper) + 0.0));  // no -0
 }
 
 // Takes a bound into the combined ones; false where it fits with none of them.

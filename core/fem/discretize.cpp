@@ -25,6 +25,7 @@ class Discretizer {
     problem().constraints.slot.assign(n, -1);
     localise();
     add_segments();
+    check_lengths(mesh, model);
     problem().A = stiffness(mesh, model);
     check_stiffness(mesh, model, problem().A);
     problem().b = load_vector(mesh, model);

@@ -20,6 +20,14 @@ template <int D, int B>
 }  // namespace
 
 template <int D, int B>
+void check_lengths(const Mesh<D>& mesh, const Model<B>& model) {
+  constexpr double limit = 1e100;  // its cube is finite with room for factors
+  for (Index p = 0; p < mesh.vertices(); ++p)
+    for (const double x : mesh.points[p])
+      if (!(std::fabs(x) <= limit)) refuse<D, B>(mesh, model, p, "too large a coordinate", "lengths");
+}
+
+template <int D, int B>
 void check_stiffness(const Mesh<D>& mesh, const Model<B>& model, const BlockMatrix<B>& A) {
   const char* moduli = B == 1 ? "lengths and 'diffusion'" : "lengths and 'young'";
   for (Index p = 0; p < A.size(); ++p) {
@@ -47,6 +55,7 @@ void check_load(const Mesh<D>& mesh, const Model<B>& model, const DiscreteProble
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                      \
+  template void check_lengths(const Mesh<D>&, const Model<B>&);                          \
   template void check_stiffness(const Mesh<D>&, const Model<B>&, const BlockMatrix<B>&); \
   template void check_load(const Mesh<D>&, const Model<B>&, const DiscreteProblem<B>&);
 SIGNORINI_INSTANTIATE(2, 1)

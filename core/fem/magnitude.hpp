@@ -6,6 +6,10 @@
 /// Numbers so large or small that no solver can compute with them: an Error(Exit::input) names the body and a vertex.
 namespace signorini {
 
+/// Coordinates whose powers, as in areas and volumes, are not finite.
+template <int D, int B>
+void check_lengths(const Mesh<D>& mesh, const Model<B>& model);
+
 /// A diagonal entry that is not stored, not finite or has no finite inverse.
 template <int D, int B>
 void check_stiffness(const Mesh<D>& mesh, const Model<B>& model, const BlockMatrix<B>& A);

@@ -79,8 +79,9 @@ double MshInput::coordinate() {
 }
 
 Offset MshInput::count(Offset n, Offset least_text, Offset least_binary, const char* meaning) const {
+  if (n < 0) fail(fmt::format("found {} {}, expected 0 or more", n, meaning));
   const Offset left = static_cast<Offset>(content_.size() - position_);
-  if (n < 0 || n > left / (binary ? least_binary : least_text) + 1)
+  if (n > left / (binary ? least_binary : least_text) + 1)
     fail(fmt::format("found {} {}, more than the remaining {} bytes of the file can hold", n, meaning, left));
   return n;
 }

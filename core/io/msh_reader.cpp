@@ -260,7 +260,8 @@ class MshReader {
       const int type = in_.binary ? first : second;
       const int size = in_.binary ? second : 1;
       if (tags < 0 || size < 1 || size > n - i)
-        in_.fail(fmt::format("found a block of {} elements, {} tags", size, tags));
+        in_.fail(fmt::format("found a block of {} elements with {} tags, expected 1 to {} elements with 0 or more tags",
+                             size, tags, n - i));
       for (int k = 0; k < size; ++k, ++i)
         read_tagged_cell(type, tags, in_.binary ? in_.number<std::int32_t>("an element's number") : first);
     }

@@ -37,7 +37,7 @@ class Override {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const { throw Error(Exit::usage, place_ + ": " + message); }
+  [[noreturn]] void fail(const std::string& message) const { input_error(place_, message); }
 
   static std::string clipped(const std::string& text) {
     const std::string line = in_quotes(text);

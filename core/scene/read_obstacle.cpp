@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/table_reader.hpp"
@@ -22,15 +24,24 @@ Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std
   return given;
 }
 
+/// Their keys are no fault of the user's: what is missing is the type.
+void refuse_later_type(const TableReader& reader, const std::string& type) {
+  if (type.empty()) input_error(reader.origin("type"), "the type is empty, expected one of `signorini list obstacles`");
+  for (const char* key : {"friction", "other", "other_on", "other_where"})
+    if (is_later_obstacle(type) && reader.given(key))
+      input_error(reader.origin("type"), fmt::format("type = '{}' is not available in this version", type));
+}
+
 }  // namespace
 
 Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder) {
   TableReader reader(table, find_table("obstacle")->keys, folder);
   Scene::Obstacle obstacle;
   const ShapeSpec* spec = reader.given("shape") ? &reader.use_shape(obstacle_shapes()) : nullptr;
+  obstacle.type = reader.text("type");
+  refuse_later_type(reader, obstacle.type);
   obstacle.options = reader.check_known_keys();
   obstacle.source = reader.source();
-  obstacle.type = reader.text("type");
   obstacle.body = reader.text("body");
   obstacle.on = reader.selection();
   if (!spec) return obstacle;

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/shapes.hpp"
+#include "core/io/surface_complaint.hpp"
 
 namespace signorini {
 namespace {
@@ -26,7 +27,8 @@ struct Converter {
     try {
       return geometry::engine().surface(s.file.string());
     } catch (const Error& error) {
-      throw Error(error.status(), fmt::format("{}: {}", origin, error.what()));
+      const std::string more = surface_complaint(s.file);
+      throw Error(error.status(), fmt::format("{}: {}{}{}", origin, error.what(), more.empty() ? "" : "; ", more));
     }
   }
   Result operator()(const Scene::ExpressionShape& s) const {

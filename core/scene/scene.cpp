@@ -76,7 +76,7 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
 }
 
 std::string read_file(const std::filesystem::path& file) {
-  check_file(file, file.string());
+  if (const std::string complaint = file_complaint(file); !complaint.empty()) throw Error(Exit::input, complaint);
   std::ifstream stream(file, std::ios::binary);
   std::string text;
   char chunk[65536];

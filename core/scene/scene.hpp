@@ -156,8 +156,8 @@ struct Scene {
 
 /// Reads and validates a scene. Errors are Error(Exit::input) naming file and line, key, what was found, what was
 /// expected and the nearest valid name; file names in it are relative to its folder.
-/// @param overrides "refine.uniform=3": a dotted path and a TOML value (or a bare text), as `--set` takes them; an
-///   unknown path is an Error(Exit::usage)
+/// @param overrides "refine.uniform=3": a dotted path and a TOML value (or a bare text), as `--set` takes them;
+///   errors in them begin with "--set ASSIGNMENT"
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same for a scene held in memory.

@@ -11,7 +11,7 @@ namespace signorini {
 namespace {
 
 void refuse(const RawValue& value, const std::string& expected) {
-  throw Error(Exit::usage, fmt::format("{}: expected {}", value.origin, expected));
+  input_error(value.origin, fmt::format("expected {}", expected));
 }
 
 }  // namespace

@@ -33,19 +33,22 @@ void check_folder(const std::filesystem::path& folder, const std::string& place)
     input_error(place, fmt::format("there is no folder {}", in_quotes(folder.string())));
 }
 
-void check_file(const std::filesystem::path& file, const std::string& place) {
+std::string file_complaint(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    input_error(place, fmt::format("{} is a folder", in_quotes(file.string())));
-  if (std::filesystem::is_regular_file(file, error)) return;
+  if (std::filesystem::is_directory(file, error)) return fmt::format("{} is a folder", in_quotes(file.string()));
+  if (std::filesystem::is_regular_file(file, error)) return {};
   if (std::filesystem::exists(file, error))
-    input_error(place, fmt::format("{} is a pipe or a device, expected a regular file", in_quotes(file.string())));
+    return fmt::format("{} is a pipe or a device, expected a regular file", in_quotes(file.string()));
   std::vector<std::string> neighbours;
   const std::filesystem::path folder = file.parent_path().empty() ? "." : file.parent_path();
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     neighbours.push_back(entry->path().filename().string());
-  input_error(place, fmt::format("there is no file {}{}", in_quotes(file.string()),
-                                 did_you_mean(file.filename().string(), neighbours)));
+  return fmt::format("there is no file {}{}", in_quotes(file.string()),
+                     did_you_mean(file.filename().string(), neighbours));
+}
+
+void check_file(const std::filesystem::path& file, const std::string& place) {
+  if (const std::string complaint = file_complaint(file); !complaint.empty()) input_error(place, complaint);
 }
 
 TableReader::TableReader(const RawTable& table, std::span<const KeySpec> keys, const std::filesystem::path& folder)

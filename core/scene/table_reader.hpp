@@ -74,7 +74,10 @@ class TableReader {
 /// Error(Exit::input) unless `folder` is an existing folder.
 void check_folder(const std::filesystem::path& folder, const std::string& place);
 
-/// Error(Exit::input) unless `file` is an existing file; names the nearest one of its folder.
+/// What is wrong unless `file` is an existing file, with the nearest one of its folder; empty otherwise.
+std::string file_complaint(const std::filesystem::path& file);
+
+/// Error(Exit::input) with that complaint.
 void check_file(const std::filesystem::path& file, const std::string& place);
 
 }  // namespace signorini

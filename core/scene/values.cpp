@@ -54,7 +54,10 @@ auto each(const RawValue& raw, std::string_view expected, Convert convert) {
 std::string describe(const RawValue& raw) {
   if (const auto* flag = std::get_if<bool>(&raw.value)) return *flag ? "true" : "false";
   if (const auto* integer = std::get_if<std::int64_t>(&raw.value)) return fmt::format("{}", *integer);
-  if (const auto* number = std::get_if<double>(&raw.value)) return fmt::format("{}", *number);
+  if (const auto* number = std::get_if<double>(&raw.value)) {
+    const std::string digits = fmt::format("{}", *number);
+    return digits.find_first_not_of("-0123456789") == std::string::npos ? digits + ".0" : digits;  // as it was written
+  }
   if (const auto* text = std::get_if<std::string>(&raw.value)) return "the text " + in_quotes(*text);
   return fmt::format("a list of {}", std::get<RawValue::List>(raw.value).size());
 }

@@ -84,6 +84,14 @@ INSTANTIATE_TEST_SUITE_P(
                "obstacle.0.lower: 'nx - 2' uses nx, ny or nz"},
         Broken{"LaterObstacle", punch, "\"contact\"", "\"elastic_coulomb\"", 2,
                "obstacle.0.type: type = 'elastic_coulomb' is not available in this version"},
+        Broken{"LaterObstacleWithItsKeys", punch, "\"contact\"", "\"coulomb\"\nfriction = 0.3", 2,
+               "obstacle.0.type: type = 'coulomb' is not available in this version"},
+        Broken{"EmptyObstacleType", punch, "\"contact\"", "\"\"", 2, "obstacle.0.type: the type is empty"},
+        Broken{"FixedBeyondTheObstacle", punch, "on = \"left\"\nvalue = [0, \"free\", \"free\"]",
+               "on = \"top\"\nvalue = [0, 0, 0]", 4,
+               "obstacle beyond the fixed boundary: the fixed value 0 lies below the obstacle's bound 0.01"},
+        Broken{"HugeCoordinates", punch, "to = [1, 1, 1]", "to = [1e300, 1, 1]", 2,
+               "scene.toml:2: body.0: too large a coordinate at ("},
         Broken{"NoPluginFolder", membrane, "[refine]", "[plugins]\npath = \"nowhere\"\n[refine]", 2,
                "scene.toml:18: plugins.path: there is no folder 'nowhere'"},
         Broken{"NarrowPolygon", membrane, "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]",
@@ -139,6 +147,23 @@ TEST_F(Program, AnElementWithoutAreaNamesItsBody) {
                                  "body.0.to=[1e-300, 1e-300]", "--set", "obstacle.0.lower=-1"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.err, testing::HasSubstr("scene.toml:2: body.0: element with area 0"));
+}
+
+TEST_F(Program, UnreadableSurfacesNameTheirLine) {
+  write("nan.off", "OFF\n4 4 0\n0 0 0\n1 0 nan\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  std::string obstacle = punch;
+  const std::string plane = "shape = \"plane\"\npoint = [0, 0, \"1 - 0.01 * t\"]\nnormal = [0, 0, -1]";
+  obstacle.replace(obstacle.find(plane), plane.size(), "shape = \"surface\"\nfile = \"nan.off\"");
+  write("obstacle.toml", obstacle);
+  std::string body = punch;
+  const std::string box = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]";
+  body.replace(body.find(box), box.size(), "shape = \"solid\"\nfile = \"nan.off\"\nsize = 0.5");
+  write("body.toml", body);
+  for (const char* scene : {"obstacle.toml", "body.toml"}) {
+    const Ended ended = signorini({"check", scene});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_THAT(ended.err, testing::HasSubstr("line 4: found 'nan', expected z of vertex 1 of 4, a finite number"));
+  }
 }
 
 TEST_F(Program, MissingSceneIsBadInput) {

@@ -1,9 +1,12 @@
 #include "program.hpp"
 
 #include <fmt/format.h>
+#include <pty.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <chrono>
+#include <regex>
 #include <thread>
 
 namespace signorini::test {
@@ -73,10 +76,10 @@ TEST_F(CommandLine, NamesTheNearestOptionAndValue) {
   }
 }
 
-TEST_F(CommandLine, UnknownPathOfSetIsWrongUsage) {
+TEST_F(CommandLine, AnUnknownPathOfSetIsBadInputAsAWrongValueIs) {
   write("membrane.toml", membrane);
   const Ended ended = signorini({"solve", "membrane.toml", "--set", "solver.tolerence=1e-3"});
-  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.err, HasSubstr("tolerance"));
   EXPECT_THAT(written(), IsEmpty());
 }
@@ -308,6 +311,49 @@ TEST_F(CommandLine, GroupsOffTheBoundaryAreAWarningAndNoParts) {
   const Ended diagonal = signorini({"check", "grouped.toml", "--set", "fix.0.on=diagonal"});
   EXPECT_EQ(diagonal.status, 2);
   EXPECT_THAT(diagonal.err, HasSubstr("no edge of the physical group 'diagonal' is on the boundary"));
+}
+
+/// What a terminal shows in the end of what was written to it.
+std::string shown(const std::string& written) {
+  const std::string erase = "\r\x1b[K";
+  std::string screen;
+  for (std::size_t at = 0; at < written.size(); ++at)
+    if (written.compare(at, erase.size(), erase) == 0) {
+      screen.erase(screen.rfind('\n') + 1);
+      at += erase.size() - 1;
+    } else {
+      screen += written[at];
+    }
+  return screen;
+}
+
+/// Rows of convergence tables: a number, three in exponential form, two more.
+std::ptrdiff_t count_rows(const std::string& text) {
+  static const std::regex row(R"(\d+ +\d\.\d+e\S+ +\d\.\d+e\S+ +-?\d\.\d+e\S+ +\d+ +\d+)");
+  return std::distance(std::sregex_iterator(text.begin(), text.end(), row), std::sregex_iterator());
+}
+
+TEST_F(CommandLine, ATerminalShowsProgressAndInTheEndEveryCycleOnce) {
+  write("membrane.toml", membrane);
+  const std::string program = SIGNORINI_BINARY_DIR "/bin/signorini";
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    if (chdir(folder_.c_str()) == 0) execl(program.c_str(), program.c_str(), "solve", "membrane.toml", nullptr);
+    _exit(127);
+  }
+  std::string written;
+  char chunk[4096];
+  for (ssize_t n; (n = ::read(terminal, chunk, sizeof chunk)) > 0;) written.append(chunk, n);
+  close(terminal);
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  const std::string screen = shown(written);
+  EXPECT_THAT(screen, HasSubstr("level 3: 1089 vertices"));
+  const std::string csv = read(folder_ / "membrane/convergence.csv");
+  EXPECT_EQ(count_rows(screen), std::count(csv.begin(), csv.end(), '\n') - 1);
+  EXPECT_GT(count_rows(written), count_rows(screen)) << "no progress was shown";
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ TEST_F(Qp, BadInputIsNamedAndNothingIsWritten) {
   matrix("1\n-0.9\n-0.9\n-0.9\n1\n-0.9\n-0.9\n-0.9\n1\n", "indefinite: d'Ad is -");
 }
 
-TEST_F(Qp, WrongUsageIsStatusOne) {
+TEST_F(Qp, WrongUsageIsStatusOneButForSet) {
   write_chain(3);
   write_constant("b.mtx", 3, 1);
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--block", "4"},
@@ -204,15 +204,13 @@ TEST_F(Qp, WrongUsageIsStatusOne) {
                                                                                     {"--tol", "x"},
                                                                                     {"--method", "magic"},
                                                                                     {"--out", ""},
-                                                                                    {"--set", "solver.reech=all"},
-                                                                                    {"--set", "solver.start=zero"},
-                                                                                    {"--set", "refine.uniform=1"},
-                                                                                    {"--set", "title=x"},
                                                                                     {"--uper", "b.mtx"}}) {
     std::vector<std::string> arguments{"qp", "A.mtx", "b.mtx"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_failure(arguments, 1, more[0]);
   }
+  for (const char* set : {"solver.reech=all", "solver.start=zero", "refine.uniform=1", "title=x"})
+    expect_failure({"qp", "A.mtx", "b.mtx", "--set", set}, 2, "--set");
   expect_failure({"qp", "A.mtx"}, 1, "LOAD");
   expect_failure({"qp", "A.mtx", "b.mtx", "--out", "x", "--report", "./x"}, 1, "both --out and --report");
 }

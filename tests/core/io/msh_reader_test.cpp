@@ -223,6 +223,7 @@ TEST(MshErrors, NameTheLineAndWhatIsWrong) {
   EXPECT_THAT(complaint(with(gmsh_22, "$Nodes\n4", "$Nodes\n5")), HasSubstr("$EndNodes"));
   EXPECT_THAT(complaint(with(gmsh_22, "$EndNodes", "$EndNodse")), HasSubstr("$EndNodes"));
   EXPECT_THAT(complaint(with(gmsh_41, "3 6 1 6", "3 7 1 6")), HasSubstr("announced were 7"));
+  EXPECT_THAT(complaint(with(gmsh_41, "3 6 1 6", "3 -7 1 6")), HasSubstr("found -7 elements, expected 0 or more"));
   EXPECT_THAT(complaint("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"), HasSubstr("without $Nodes"));
 }
 

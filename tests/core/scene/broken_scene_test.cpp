@@ -146,7 +146,7 @@ const std::vector<Broken> broken = {
     {ball, "1e-8", "1e-8\nstart = \"nestd\"", {"scene.toml:33: solver.start", "did you mean 'nested'?"}},
     {ball, "1e-8", "1e-8\nthreads = 0", {"scene.toml:33: solver.threads", "found 0"}},
     {ball, "uniform = 2", "uniform = -1", {"scene.toml:35: refine.uniform", "[0, 30]", "found -1"}},
-    {ball, "uniform = 2", "uniform = 2.0", {"scene.toml:35: refine.uniform", "whole number"}},
+    {ball, "uniform = 2", "uniform = 2.0", {"scene.toml:35: refine.uniform", "whole number in [0, 30], found 2.0"}},
     {ball, "uniform = 2", "uniform = 99999999999999", {"scene.toml:35: refine.uniform", "[0, 30]"}},
     {ball, "uniform = 2", "adaptive = 1", {"scene.toml:35: refine.adaptive", "true or false", "found 1"}},
     {ball, "[solver]", "[steps]\ncount = 0\n[solver]", {"scene.toml:32: steps.count", "found 0"}},

@@ -56,7 +56,7 @@ struct Wrong {
   const char* message;
 };
 
-TEST(Override, UnknownPathsAreWrongUsage) {
+TEST(Override, UnknownPathsAreBadInputAsInTheScene) {
   const Wrong wrong[] = {{"refine.unifrom=3", "unknown key 'unifrom' in 'refine', did you mean 'uniform'?"},
                          {"slover.tolerance=1", "unknown table 'slover', did you mean 'solver'?"},
                          {"body.0.raduis=1", "did you mean 'radius'?"},
@@ -73,7 +73,7 @@ TEST(Override, UnknownPathsAreWrongUsage) {
                          {"refine..uniform=1", "single dots"}};
   for (const Wrong& w : wrong) {
     const test::Outcome result = test::outcome([&] { parse(ball, {w.assignment}); });
-    EXPECT_EQ(result.status, Exit::usage) << w.assignment;
+    EXPECT_EQ(result.status, Exit::input) << w.assignment;
     EXPECT_THAT(result.message, HasSubstr(w.message));
     EXPECT_THAT(result.message, HasSubstr(std::string("--set ") + w.assignment));
   }
