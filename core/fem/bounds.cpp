@@ -139,8 +139,9 @@ const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>
   reduced_.clear();
   combined_.clear();
   for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed);
-  std::stable_sort(reduced_.begin(), reduced_.end(),
-                   [](const Reduced& a, const Reduced& b) { return a.distance() < b.distance(); });
+  if (reduced_.size() > 1)  // it takes memory
+    std::stable_sort(reduced_.begin(), reduced_.end(),
+                     [](const Reduced& a, const Reduced& b) { return a.distance() < b.distance(); });
   for (const Reduced& bound : reduced_)
     if (!merge(bound)) dropped.push_back(*bound.from);
   for (CombinedBound<B>& bound : combined_) check_order(bound, first->vertex);

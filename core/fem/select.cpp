@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
@@ -46,29 +47,24 @@ std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection,
 
 template <int D>
 Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces) {
-  struct Corner {
-    Index vertex, face;
-    bool operator<(const Corner& other) const {
-      return vertex != other.vertex ? vertex < other.vertex : face < other.face;
-    }
-  };
-  std::vector<Corner> corners;
-  corners.reserve(faces.size() * D);
+  std::vector<Offset> next(mesh.points.size(),
+                           0);  // first how many faces, then where the next one around a vertex goes
   for (const Index f : faces)
-    for (const Index p : mesh.boundary[f].vertices) corners.push_back({p, f});
-  std::sort(corners.begin(), corners.end());
+    for (const Index p : mesh.boundary[f].vertices) ++next[p];
 
   Surface<D> out;
-  out.faces = std::move(faces);
-  out.around.reserve(corners.size());
-  for (const Corner& corner : corners) {
-    if (out.vertices.empty() || out.vertices.back() != corner.vertex) {
-      out.vertices.push_back(corner.vertex);
-      out.first.push_back(static_cast<Offset>(out.around.size()));
-    }
-    out.around.push_back(corner.face);
+  Offset sum = 0;
+  for (Index p = 0; p < mesh.vertices(); ++p) {
+    if (next[p] == 0) continue;
+    out.vertices.push_back(p);
+    out.first.push_back(sum);
+    sum += std::exchange(next[p], sum);
   }
-  out.first.push_back(static_cast<Offset>(out.around.size()));
+  out.first.push_back(sum);
+  out.around.resize(static_cast<std::size_t>(sum));
+  for (const Index f : faces)
+    for (const Index p : mesh.boundary[f].vertices) out.around[next[p]++] = f;
+  out.faces = std::move(faces);
   return out;
 }
 

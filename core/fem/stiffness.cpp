@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
-#include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
-#include "core/fem/element.hpp"
+#include "core/fem/checked_element.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/stiffness_scalar.hpp"
 
 namespace signorini {
 namespace {
@@ -26,13 +23,6 @@ struct Adjacency {
       for (const Index p : mesh.elements[e]) element[next[p]++] = static_cast<Index>(e);
   }
 };
-
-// Euler's formula, up to the number of handles.
-template <int D>
-std::size_t estimated_edges(const Mesh<D>& mesh) {
-  const std::size_t elements = mesh.elements.size(), faces = mesh.boundary.size();
-  return D == 2 ? (3 * elements + faces) / 2 : mesh.points.size() + elements + faces / 2;
-}
 
 // A matrix whose pattern is known, and where the columns above the diagonal begin in each row.
 template <int B>
@@ -76,12 +66,6 @@ Assembly<B> pattern(const Mesh<D>& mesh) {
 
 // entry += measure * (block of the hat functions with gradients g, row, and h, column)
 template <int D>
-inline void add_block(const Material<1>& material, double measure, const Point<D>& g, const Point<D>& h,
-                      double* entry) {
-  *entry += measure * material.diffusion * dot(g, h);
-}
-
-template <int D>
 inline void add_block(const Material<D>& material, double measure, const Point<D>& g, const Point<D>& h,
                       double* entry) {
   const double lambda = measure * material.lambda, mu = measure * material.mu, shear = mu * dot(g, h);
@@ -89,15 +73,6 @@ inline void add_block(const Material<D>& material, double measure, const Point<D
     for (int j = 0; j < D; ++j) entry[i * D + j] += lambda * g[i] * h[j] + mu * g[j] * h[i];
     entry[i * D + i] += shear;
   }
-}
-
-template <int D>
-LinearElement<D> checked_element(const Mesh<D>& mesh, const Simplex<D>& vertices, const std::string& origin) {
-  const LinearElement<D> out = linear_element(mesh, vertices);
-  if (out.measure > 0) return out;
-  const Site where = site<D>(centroid<D>(mesh, vertices), 0);
-  input_error(origin, fmt::format("element with {} {} around ({}, {}, {}), expected a positive one",
-                                  D == 2 ? "area" : "volume", out.measure, where.x[0], where.x[1], where.x[2]));
 }
 
 // Adds the diagonal blocks and those above the diagonal.
@@ -141,33 +116,18 @@ void mirror(Assembly<B>& out) {
   }
 }
 
-// Leaves out what vanishes but for rounding: right angles uncouple many neighbours in scalar problems.
-void drop_zeros(BlockMatrix<1>& A) {
-  constexpr double zero = 1e-15;
-  std::vector<double> scale(static_cast<std::size_t>(A.size()));
-  for (Index p = 0; p < A.size(); ++p) scale[p] = std::sqrt(zero * std::abs(*A.diagonal(p)));
-  Offset kept = 0, k = 0;
-  for (Index p = 0; p < A.size(); ++p) {
-    for (const Offset end = A.row[p + 1]; k < end; ++k) {
-      if (!(std::abs(A.value[k]) > scale[p] * scale[A.column[k]])) continue;
-      A.column[kept] = A.column[k];
-      A.value[kept++] = A.value[k];
-    }
-    A.row[p + 1] = kept;
-  }
-  A.column.resize(static_cast<std::size_t>(kept));
-  A.value.resize(static_cast<std::size_t>(kept));
-}
-
 }  // namespace
 
 template <int D, int B>
 BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model) {
-  Assembly<B> out = pattern<D, B>(mesh);
-  add_upper_half(mesh, model, out);
-  mirror(out);
-  if constexpr (B == 1) drop_zeros(out.A);
-  return std::move(out.A);
+  if constexpr (B == 1) {
+    return scalar_stiffness(mesh, model);
+  } else {
+    Assembly<B> out = pattern<D, B>(mesh);
+    add_upper_half(mesh, model, out);
+    mirror(out);
+    return std::move(out.A);
+  }
 }
 
 template BlockMatrix<1> stiffness(const Mesh<2>&, const Model<1>&);
