@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <random>
+
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
 #include "tests/core/fem/support.hpp"
@@ -69,6 +72,32 @@ void expect_layout_and_symmetry() {
   }
   const Eigen::MatrixXd M = dense(A);
   EXPECT_EQ((M - M.transpose()).norm(), 0);
+}
+
+// Numbers far apart, elements in any order: rows wait long for their last element.
+template <int D, int B>
+void expect_independence_of_numbers() {
+  const Mesh<D> mesh = distorted_mesh<D>(4);
+  std::vector<Index> number(mesh.points.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::mt19937 random(1);
+  std::shuffle(number.begin(), number.end(), random);
+  Mesh<D> shuffled = mesh;
+  std::shuffle(shuffled.elements.begin(), shuffled.elements.end(), random);
+  for (std::size_t p = 0; p < number.size(); ++p) shuffled.points[number[p]] = mesh.points[p];
+  for (auto& element : shuffled.elements)
+    for (Index& p : element) p = number[p];
+  const Eigen::MatrixXd A = dense(stiffness(mesh, Model<B>{})), other = dense(stiffness(shuffled, Model<B>{}));
+  for (Index p = 0; p < mesh.vertices(); ++p)
+    for (Index q = 0; q < mesh.vertices(); ++q)
+      EXPECT_LT((A.block<B, B>(p * B, q * B) - other.block<B, B>(number[p] * B, number[q] * B)).norm(),
+                1e-14 * A.norm());
+}
+
+TEST(Stiffness, DoesNotDependOnTheNumbersOfVerticesAndElements) {
+  expect_independence_of_numbers<2, 1>();
+  expect_independence_of_numbers<3, 1>();
+  expect_independence_of_numbers<3, 3>();
 }
 
 TEST(Stiffness, RowsStartWithTheDiagonalAndTheMatrixIsSymmetric) {
