@@ -61,9 +61,9 @@ class Engine {
  public:
   virtual ~Engine() = default;
   /// Meshes with the parts and curves that the shape promises; the boundary vertices of curved shapes lie on the true
-  /// surface. Meshes of other shapes than solids depend on no units: those in other ones are scaled. What is wrong is a
-  /// ShapeError: unreadable file, surface not closed, self-intersecting polygon, bad size, details that would take
-  /// very many elements.
+  /// surface. Meshes depend neither on units nor on the place: those of the same shape in other units are scaled, up to
+  /// rounding, and sizes count to six digits. What is wrong is a ShapeError: unreadable file, surface not closed,
+  /// self-intersecting polygon, bad size, details that would take very many elements.
   virtual Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const = 0;
   virtual Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const = 0;
   /// Distance to a triangle surface file: negative inside a closed one. The normal of an open surface is oriented by

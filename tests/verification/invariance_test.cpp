@@ -1,4 +1,5 @@
 // The same scene turned in space, in other units, and with its vertices numbered otherwise: the same answer.
+#include <functional>
 #include <map>
 
 #include "core/geometry/geometry.hpp"
@@ -6,6 +7,7 @@
 #include "mesh_file.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
+#include "tests/core/geometry/surfaces.hpp"
 #include "tests/support/random.hpp"
 
 namespace signorini::test {
@@ -121,38 +123,88 @@ TEST(Invariance, Units) {
     }
 }
 
-/// The same with a shape that the program meshes itself. The mesher compares lengths that differ by rounding in other
-/// units, so that the mesh is the same where units differ by a power of two only.
-TEST(Invariance, UnitsOfAMeshedShape) {
-  const auto scene = [](double l) -> SceneText {
-    return {.body = fmt::format(R"(
-shape = "half_disk"
-center = [0, 0]
-radius = {:.17g}
-size = {:.17g}
-young = 2e5
-poisson = 0.3)",
-                                l, 0.2 * l),
-            .fixes = {fmt::format("on = \"flat\"\nvalue = [0, {:.17g}]", -0.01 * l)},
-            .obstacle = fmt::format(R"(
-type = "contact"
-on = "curved"
-shape = "plane"
-point = [0, {:.17g}]
-normal = [0, 1])",
-                                    -l),
-            .refinements = 3};
-  };
-  const std::vector<std::string> settings{"solver.tolerance=1e-10"};
-  const auto one = run<2, 2>(scene(1), settings);
-  for (const double l : {0x1p-10, 0x1p10, 0x1p20}) {
-    SCOPED_TRACE(l);
-    const auto other = run<2, 2>(scene(l), settings);
-    ASSERT_EQ(other.mesh().points.size(), one.mesh().points.size());
+/// A body that the program meshes itself, in a scene whose lengths are all multiples of l: held where it is high, and
+/// pressed on a plane under its lowest point.
+struct MeshedShape {
+  std::string name;
+  std::function<std::string(double l)> keys;
+  double low, held;  ///< heights, in units of l
+};
+
+template <int D>
+SceneText pressed(const MeshedShape& shape, double l) {
+  const char up = D == 2 ? 'y' : 'z';
+  Point<D> down{}, point{}, normal{};
+  down[D - 1] = -0.02 * l;
+  point[D - 1] = shape.low * l;
+  normal[D - 1] = 1;
+  // Small below the body.
+  const std::string size = fmt::format("\"{:.17g} + 0.3*sqrt({}({} + {:.17g})^2)\"", (D == 2 ? 0.03 : 0.15) * l,
+                                       D == 2 ? "x^2 + " : "x^2 + y^2 + ", up, -shape.low * l);
+  return {
+      .body = fmt::format("shape = \"{}\"\n{}\nsize = {}\nyoung = 2e5\npoisson = 0.3", shape.name, shape.keys(l), size),
+      .fixes = {fmt::format("where = \"{} > {:.17g}\"\nvalue = {}", up, shape.held * l, text(down))},
+      .obstacle = fmt::format("type = \"contact\"\non = \"boundary\"\nshape = \"plane\"\npoint = {}\nnormal = {}",
+                              text(point), text(normal)),
+      .refinements = 1};
+}
+
+/// The mesh has the same elements, and the solution is the same.
+template <int D>
+void expect_independent_of_units(const MeshedShape& shape) {
+  const std::vector<std::string> settings{"solver.tolerance=1e-11"};
+  const auto one = run<D, D>(pressed<D>(shape, 1), settings);
+  EXPECT_GT(one.contact().nodes, 3);
+  for (const double l : {1e-3, 1e3, 1e6}) {
+    SCOPED_TRACE(fmt::format("{}, lengths by {}", shape.name, l));
+    const auto other = run<D, D>(pressed<D>(shape, l), settings);
+    ASSERT_TRUE(other.mesh().elements == one.mesh().elements);
     EXPECT_NEAR(other.summary().iterations, one.summary().iterations, 1);
-    EXPECT_NEAR(other.contact().force[1], l * one.contact().force[1], 1e-8 * l * one.contact().force[1]);
-    EXPECT_NEAR(other.contact().area, l * one.contact().area, 1e-8 * l * one.contact().area);
+    EXPECT_EQ(other.contact().nodes, one.contact().nodes);
+    const double area = std::pow(l, D - 1) * one.contact().area,
+                 force = std::pow(l, D - 1) * one.contact().force[D - 1];
+    EXPECT_NEAR(other.contact().area, area, 1e-8 * area);
+    EXPECT_NEAR(other.contact().force[D - 1], force, 1e-8 * force);
+    EXPECT_NEAR(other.contact().max_pressure, one.contact().max_pressure, 1e-8 * one.contact().max_pressure);
+    double difference = 0, size = 0;
+    for (std::size_t i = 0; i < one.u().size(); ++i) {
+      difference = std::max(difference, std::abs(other.u()[i] / l - one.u()[i]));
+      size = std::max(size, std::abs(one.u()[i]));
+    }
+    EXPECT_LE(difference, 1e-8 * size);
+    show("{} by {}: {} vertices, difference {:.1e}\n", shape.name, l, one.mesh().points.size(), difference / size);
   }
+}
+
+TEST(Invariance, UnitsOfAMeshedShape) {
+  const auto round = [](double l) {
+    return fmt::format("center = {}\nradius = {:.17g}", text(Point<2>{0, 0.2 * l}), l);
+  };
+  expect_independent_of_units<2>({"disk", round, -0.8, 0.9});
+  expect_independent_of_units<2>({"half_disk", round, -0.8, 0.199});
+  const auto quadrangle = [](double l) {
+    return fmt::format("points = [{}, {}, {}, {}]", text(Point<2>{-0.9 * l, -0.7 * l}), text(Point<2>{l, -0.7 * l}),
+                       text(Point<2>{1.3 * l, 0.2 * l}), text(Point<2>{-0.7 * l, 0.9 * l}));
+  };
+  expect_independent_of_units<2>({"polygon", quadrangle, -0.7, 0.5});
+}
+
+TEST(Invariance, UnitsOfAMeshedSolidShape) {
+  const auto ball = [](double l) {
+    return fmt::format("center = {}\nradius = {:.17g}", text(Point<3>{0, 0.1 * l, 0.2 * l}), l);
+  };
+  const auto cylinder = [](double l) {
+    return fmt::format("center = {}\nradius = {:.17g}\nheight = {:.17g}", text(Point<3>{0, 0, 0.1 * l}), 0.7 * l,
+                       1.6 * l);
+  };
+  expect_independent_of_units<3>({"ball", ball, -0.8, 0.9});
+  expect_independent_of_units<3>({"half_ball", ball, -0.8, 0.199});
+  expect_independent_of_units<3>({"cylinder", cylinder, -0.7, 0.899});
+  const TemporaryFolder folder;
+  const auto solid = [&](double l) {
+    return "file = \"" + folder.write("cube.off", cube(-0.3 * l, 0.8 * l).off()) + '"';
+  };
+  expect_independent_of_units<3>({"solid", solid, -0.3, 0.799});
 }
 
 /// A position by which vertices of two files are matched.

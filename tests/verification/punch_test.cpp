@@ -3,6 +3,7 @@
 #include "mesh_file.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
+#include "tests/core/geometry/surfaces.hpp"
 #include "tests/support/random.hpp"
 
 namespace signorini::test {
@@ -19,7 +20,7 @@ Mesh<D> block(Index cells) {
   if constexpr (D == 2)
     return rectangle({}, to, n);
   else
-    return box({}, to, n);
+    return signorini::box({}, to, n);
 }
 
 /// Moves the vertices by up to a fifth of a cell, those on the boundary along it.
@@ -100,6 +101,27 @@ TEST(Punch, UniformStressOfATurnedBlock) {
   space.shift = {3, -2, 5};
   expect_uniform<3>("structured box", block<3>(2), space);
   expect_uniform<3>("irregular box", irregular(block<3>(3), 3), space);
+}
+
+/// A solid has no part but its boundary, so that faces may be picked that the obstacle cannot push against.
+TEST(Punch, UniformPressureUnderASolid) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("cube.off", cube(0, 1).off());
+  const SceneText scene{
+      .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = 0.4\nyoung = 1\npoisson = 0", file),
+      .fixes = {"where = \"z > 0.999\"\nvalue = [0, 0, -0.01]"},
+      .obstacle = R"(
+type = "contact"
+on = "boundary"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1])",
+      .refinements = 1};
+  const auto r = run<3, 3>(scene, {"solver.tolerance=1e-12"});
+  EXPECT_NEAR(r.contact().area, 1, 1e-9);
+  EXPECT_GT(r.contact().nodes, 30);
+  for (const auto& node : r.results.contact.nodes)
+    if (node.contact) ASSERT_NEAR(node.pressure, 0.01, 1e-11);
 }
 
 }  // namespace

@@ -131,16 +131,17 @@ class Walk {
 
 }  // namespace
 
-void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing, double unit) {
+void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing) {
   const std::vector<Polyline> creases = domain.creases();
   const Walk walk(creases, sizing, static_cast<double>(sizing.most_vertices()));
   if (walk.close <= spare_edges + most_per_edge * walk.asked) return;
-  const auto& [x, y, z] = walk.place;
+  const double unit = domain.units().unit;
+  const auto [x, y, z] = domain.units().given(walk.place);
   throw ShapeError(
       domain.name(), "size",
       fmt::format("sharp edges of the shape are only {:.3g} apart near [{:.6g}, {:.6g}, {:.6g}], where the size is "
                   "{:.3g}; expected a shape without gaps and angles so narrow, or a smaller size there",
-                  walk.closest * unit, x * unit, y * unit, z * unit, sizing.asked(walk.place) * unit));
+                  walk.closest * unit, x, y, z, sizing.asked(walk.place) * unit));
 }
 
 }  // namespace signorini::geometry

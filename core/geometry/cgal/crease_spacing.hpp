@@ -6,7 +6,6 @@ namespace signorini::geometry {
 
 /// Throws ShapeError where creases of the domain are so close to each other that they need very many more edges than
 /// the size asks for. Call it when the elements to be expected are known.
-/// @param unit of the domain in the user's
-void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing, double unit);
+void check_crease_spacing(const Domain& domain, const Sizing<3>& sizing);
 
 }  // namespace signorini::geometry

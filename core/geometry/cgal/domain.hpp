@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/cgal/own_units.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace signorini::geometry {
@@ -13,12 +14,13 @@ struct Box {
 
 using Polyline = std::vector<Point<3>>;
 
-/// What the mesher asks of a solid. Points are inside, on the surface or outside; the surface is a closed manifold,
-/// smooth but for creases.
+/// What the mesher asks of a solid, in coordinates of its own. Points are inside, on the surface or outside; the
+/// surface is a closed manifold, smooth but for creases.
 class Domain {
  public:
   virtual ~Domain() = default;
   virtual std::string name() const = 0;  ///< for messages
+  virtual const OwnUnits<3>& units() const = 0;
   virtual Box box() const = 0;
   virtual double volume() const = 0;
   virtual bool inside(const Point<3>& p) const = 0;
@@ -35,8 +37,8 @@ class Domain {
   virtual double coarsest_size() const = 0;
   /// How far faces may be from the surface, relative to the size.
   virtual double flatness() const = 0;
-  /// Moves boundary vertices exactly onto the surface (`on_crease` per vertex tells those on creases), and names the
-  /// parts and curves of the boundary faces.
+  /// Takes the mesh to the user's coordinates, boundary vertices exactly onto the surface there (`on_crease` per vertex
+  /// tells those on creases), and names the parts and curves of the boundary faces.
   virtual void finish(Mesh<3>& mesh, const std::vector<bool>& on_crease) const = 0;
 };
 

@@ -6,7 +6,6 @@
 #include "core/geometry/cgal/solid.hpp"
 #include "core/geometry/cgal/surface_distance.hpp"
 #include "core/geometry/cgal/tetrahedra.hpp"
-#include "core/geometry/cgal/unit_shape.hpp"
 #include "core/geometry/geometry.hpp"
 
 namespace signorini::geometry {
@@ -28,10 +27,7 @@ void check(const Cylinder& cylinder) {
 template <class Round>
 Mesh<3> mesh_of(const Round& round, const Size<3>& size) {
   check(round);
-  const auto own = unit_shape(round);
-  Mesh<3> mesh = tetrahedralize(RoundDomain(own.shape), size, own.unit);
-  scale(mesh, own.unit);
-  return mesh;
+  return tetrahedralize(RoundDomain(round), size);
 }
 
 SolidDomain domain_of(const Solid& solid) {
@@ -42,7 +38,7 @@ SolidDomain domain_of(const Solid& solid) {
   }
 }
 
-Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(domain_of(solid), size, 1); }
+Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(domain_of(solid), size); }
 
 /// The condition that failed, or the first line of what CGAL says instead of one.
 std::string reason(const CGAL::Failure_exception& failure) {

@@ -9,12 +9,14 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/cgal/checks.hpp"
 #include "core/geometry/cgal/outline.hpp"
-#include "core/geometry/cgal/unit_shape.hpp"
+#include "core/geometry/cgal/own_units.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
@@ -133,8 +135,16 @@ Mesh<2> extract(const Triangulation& triangulation) {
   return mesh;
 }
 
+/// The point of a straight side that is nearest to one beside it by rounding.
+Point<2> onto(const Side& side, const Point<2>& p) {
+  const Point<2> along = difference<2>(side.to, side.from);
+  const std::size_t k = std::abs(along[0]) > std::abs(along[1]) ? 0 : 1;
+  const double t = (p[k] - side.from[k]) / along[k];
+  return {std::lerp(side.from[0], side.to[0], t), std::lerp(side.from[1], side.to[1], t)};
+}
+
 /// Walks once around the boundary, which passes the starts of the sides in their order: every face on the way belongs
-/// to the side last started. New vertices on arcs are moved onto them.
+/// to the side last started. Vertices are moved exactly onto the sides.
 void name_sides(Mesh<2>& mesh, const Outline& outline, const std::vector<Index>& starts) {
   std::vector<Index> face_from(mesh.points.size(), -1);
   for (std::size_t f = 0; f < mesh.boundary.size(); ++f)
@@ -147,12 +157,9 @@ void name_sides(Mesh<2>& mesh, const Outline& outline, const std::vector<Index>&
     do {
       part.faces.push_back(face_from[vertex]);
       Face<2>& face = mesh.boundary[face_from[vertex]];
-      if (side.curved) {
-        face.curve = 0;
-        if (vertex != starts[s]) mesh.points[vertex] = project<2>(*outline.circle, mesh.points[vertex]);
-      } else if (side.from[1] == side.to[1]) {
-        mesh.points[vertex][1] = side.from[1];
-      }
+      if (side.curved) face.curve = 0;
+      Point<2>& p = mesh.points[vertex];
+      p = vertex == starts[s] ? side.from : side.curved ? project<2>(*outline.circle, p) : onto(side, p);
       vertex = face.vertices[1];
     } while (vertex != starts[(s + 1) % starts.size()]);
     std::sort(part.faces.begin(), part.faces.end());
@@ -174,31 +181,32 @@ void refine(Triangulation& triangulation, Sizing<2>& sizing) {
   }
 }
 
-Mesh<2> in_own_units(const Outline& outline, const Size<2>& size, double unit, const std::string& narrowest) {
-  Sizing<2> sizing(size, outline.coarsest_size, outline.diameter, unit, outline.shape, narrowest);
-  Triangulation triangulation;
-  const auto starts = insert(triangulation, outline, sizing);
-  refine(triangulation, sizing);
-  Mesh<2> mesh = extract(triangulation);
-  std::vector<Index> numbers;
-  for (const auto vertex : starts) numbers.push_back(vertex->info());
-  name_sides(mesh, outline, numbers);
-  require_valid(outline.shape, mesh);
-  return mesh;
+OwnUnits<2> units_of(const Disk& disk) { return {disk.center, disk.radius}; }
+OwnUnits<2> units_of(const Polygon& polygon) { return own_units<2>(polygon.points); }
+
+Disk in_own_units(const Disk& disk, const OwnUnits<2>&) { return {{0, 0}, 1, disk.lower_half}; }
+Polygon in_own_units(Polygon polygon, const OwnUnits<2>& units) {
+  for (Point<2>& p : polygon.points) p = units.own(p, shape_digits);
+  return polygon;
 }
 
 }  // namespace
 
 Mesh<2> triangulate(const Shape2& shape, const Size<2>& size) {
-  const std::string narrowest = outline(shape).narrowest;  // what is wrong is told in the user's units
-  return std::visit(
-      [&](const auto& s) {
-        const auto own = unit_shape(s);
-        Mesh<2> mesh = in_own_units(outline(own.shape), size, own.unit, narrowest);
-        scale(mesh, own.unit);
-        return mesh;
-      },
-      shape);
+  const Outline given = outline(shape);  // what is wrong is told in the user's units
+  const OwnUnits<2> units = std::visit([](const auto& s) { return units_of(s); }, shape);
+  const Outline own = outline(std::visit([&](const auto& s) { return Shape2(in_own_units(s, units)); }, shape));
+  Sizing<2> sizing(size, own.coarsest_size, own.diameter, units, own.shape, given.narrowest);
+  Triangulation triangulation;
+  const auto starts = insert(triangulation, own, sizing);
+  refine(triangulation, sizing);
+  Mesh<2> mesh = extract(triangulation);
+  for (Point<2>& p : mesh.points) p = units.given(p);
+  std::vector<Index> numbers;
+  for (const auto vertex : starts) numbers.push_back(vertex->info());
+  name_sides(mesh, given, numbers);
+  require_valid(own.shape, mesh);
+  return mesh;
 }
 
 }  // namespace signorini::geometry

@@ -4,14 +4,27 @@
 
 namespace signorini::geometry {
 
-/// A ball or an upright circular cylinder, cut by horizontal planes: ball, half ball and cylinder are one convex
-/// domain, whose queries are answered in closed form.
+/// A ball or an upright circular cylinder, cut by horizontal planes.
+struct RoundShape {
+  Curve<3> curve;
+  std::vector<double> planes;  ///< their z
+
+  /// Squared distance to the centre of the ball or to the axis of the cylinder.
+  double square(const Point<3>& p) const;
+  /// Index into `planes`, or -1.
+  int nearest_plane(const Point<3>& p, double within) const;
+  /// Moves a point that is near the surface, or near a rim, exactly onto it.
+  Point<3> onto_surface(Point<3> p, bool on_crease) const;
+};
+
+/// Ball, half ball and cylinder as one convex domain, whose queries are answered in closed form. Units are the radius.
 class RoundDomain : public Domain {
  public:
   explicit RoundDomain(const Ball& ball);
   explicit RoundDomain(const Cylinder& cylinder);
 
   std::string name() const override { return name_; }
+  const OwnUnits<3>& units() const override { return units_; }
   Box box() const override;
   double volume() const override { return volume_; }
   bool inside(const Point<3>& p) const override;
@@ -25,20 +38,12 @@ class RoundDomain : public Domain {
   void finish(Mesh<3>& mesh, const std::vector<bool>& on_crease) const override;
 
  private:
-  struct Plane {
-    double z;
-    std::string part;
-  };
-  // Squared distance to the centre of the ball or to the axis of the cylinder.
-  double square(const Point<3>& p) const;
-  Point<3> onto_surface(Point<3> p, bool on_crease) const;
-  int nearest_plane(const Point<3>& p, double within) const;  // index into planes_, or -1
-
   std::string name_;
-  Curve<3> curve_;
-  std::string curved_part_;  // "" if it is all of the boundary
-  std::vector<Plane> planes_;
-  double low_, high_;  // range of z
+  OwnUnits<3> units_;
+  RoundShape given_, own_;                // in the user's coordinates, and in its own
+  std::vector<std::string> plane_parts_;  // per plane
+  std::string curved_part_;               // "" if it is all of the boundary
+  double low_, high_;                     // range of z
   double volume_, coarsest_size_;
 };
 

@@ -29,6 +29,13 @@ constexpr double least_spacings = 8;
 // A shape thinner than any size asked for may take so many elements by itself; some ten seconds.
 constexpr double most_unasked = 2e5, most_stretch = 2;
 
+// Decimal ones: sizes are usually given with fewer, and stay what they are then.
+double to_six_digits(double x) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const double scale = std::pow(10.0, 5 - std::floor(std::log10(x)));
+  return std::round(x * scale) / scale;
+}
+
 double available_bytes() {
   if (const auto bytes = proc_bytes("/proc/meminfo", "MemAvailable")) return *bytes;
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -37,30 +44,29 @@ double available_bytes() {
 }  // namespace
 
 template <int D>
-Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, double unit, std::string shape,
+Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, const OwnUnits<D>& units, std::string shape,
                   std::string narrowest)
     : size_(size),
       ceiling_(ceiling),
       floor_(1e-6 * diameter),
-      unit_(unit),
+      units_(units),
       shape_(std::move(shape)),
       narrowest_(std::move(narrowest)) {}
 
 template <int D>
 double Sizing<D>::asked(Point<D> p) const {
-  for (double& x : p) x *= unit_;
-  last_ = p;
-  const double h = size_(p) / unit_;
-  if (!std::isfinite(h) || h <= 0)
-    fail(fmt::format("found {} at [{:g}], expected a positive length", h * unit_, fmt::join(p, ", ")));
+  p = last_ = units_.given(p);
+  const double found = size_(p), h = to_six_digits(found / units_.unit);
+  if (!std::isfinite(found) || found <= 0)
+    fail(fmt::format("found {} at [{:g}], expected a positive length", found, fmt::join(p, ", ")));
   if (h < floor_)
-    fail(fmt::format("found {:g} at [{:g}], too small for this shape (the least is {:g})", h * unit_,
-                     fmt::join(p, ", "), floor_ * unit_));
+    fail(fmt::format("found {:g} at [{:g}], too small for this shape (the least is {:g})", found, fmt::join(p, ", "),
+                     floor_ * units_.unit));
   double farthest = 0;
   for (const double x : p) farthest = std::max(farthest, std::abs(x));
-  if (const double spacing = std::numeric_limits<double>::epsilon() * farthest; h * unit_ < least_spacings * spacing)
+  if (const double spacing = std::numeric_limits<double>::epsilon() * farthest; found < least_spacings * spacing)
     fail(fmt::format("found {:g} at [{:g}], where numbers are {:.2g} apart; expected a shape nearer to the origin",
-                     h * unit_, fmt::join(p, ", "), spacing));
+                     found, fmt::join(p, ", "), spacing));
   if (++evaluations_ > limit_) no_end();
   smallest_ = std::min(smallest_, h);
   return h;
@@ -104,7 +110,7 @@ void Sizing<D>::check_thickness(double measure) const {
   fail(
       fmt::format("the shape is only {0:.3g} thick, about {1:.1g} elements no larger than that would fill it, and the "
                   "least size is {2:.3g}; expected a thicker shape, or size = {0:.3g} if so many are meant",
-                  ceiling_ * unit_, elements, smallest_ * unit_));
+                  ceiling_ * units_.unit, elements, smallest_ * units_.unit));
 }
 
 template <int D>

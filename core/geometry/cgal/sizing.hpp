@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/geometry/cgal/own_units.hpp"
 #include "core/geometry/geometry.hpp"
 
 namespace signorini::geometry {
@@ -12,16 +13,16 @@ namespace signorini::geometry {
 template <int D>
 class Sizing {
  public:
-  /// @param ceiling, diameter in units of `unit`, as the points asked for and the values; sizes below 1e-6 of the
+  /// @param ceiling, diameter in the shape's own units, as the points asked for and the values; sizes below 1e-6 of the
   ///   diameter are errors
-  /// @param unit of the mesher in the user's
+  /// @param units of the mesher in the user's
   /// @param shape names it in messages, which are in the user's units
   /// @param narrowest says where the shape is that, for messages; "" if unknown
-  Sizing(const Size<D>& size, double ceiling, double diameter, double unit, std::string shape,
+  Sizing(const Size<D>& size, double ceiling, double diameter, const OwnUnits<D>& units, std::string shape,
          std::string narrowest = "");
 
   double operator()(const Point<D>& p) const { return std::min(asked(p), ceiling_); }
-  /// The same, but not cut.
+  /// The same, but not cut; rounded to six decimal digits, so that it is the same in all units, see own_units.hpp.
   double asked(Point<D> p) const;
   /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
   void poll() const { size_(last_); }
@@ -43,7 +44,8 @@ class Sizing {
   [[noreturn]] void fail(const std::string& complaint) const;
 
   const Size<D>& size_;
-  double ceiling_, floor_, unit_;
+  double ceiling_, floor_;
+  OwnUnits<D> units_;
   std::string shape_, narrowest_;
   mutable Point<D> last_{};
   double limit_ = 1e7, query_limit_ = 1e7;

@@ -7,16 +7,17 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/cgal/creases.hpp"
+#include "core/geometry/cgal/nearest.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
-SolidDomain::SolidDomain(const std::string& file) : surface_(file) {
+SolidDomain::SolidDomain(const std::string& file) : surface_(file, TriangleSurface::Coordinates::own) {
   if (!surface_.closed())
     input_error(file, fmt::format("the surface is not closed, it has {} border edges; expected a closed surface",
                                   surface_.border_edges()));
   if (const auto pair = surface_.self_intersection()) {
-    const auto at = surface_.points()[surface_.triangles()[pair->first][0]];
+    const auto at = surface_.given_points()[surface_.triangles()[pair->first][0]];
     input_error(file, fmt::format("the surface intersects itself, near [{:g}, {:g}, {:g}]", at[0], at[1], at[2]));
   }
   const auto nesting = surface_.nesting();
@@ -62,6 +63,26 @@ std::vector<Polyline> SolidDomain::creases() const { return find_creases(surface
 double SolidDomain::coarsest_size() const {
   const auto [low, high] = box();
   return std::min({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+}
+
+// What is at a vertex, or on a flat face along the axes, is exactly so in the user's coordinates too.
+Point<3> SolidDomain::given_on_surface(const Point<3>& p) const {
+  const auto &own = surface_.points(), &points = surface_.given_points();
+  const auto& triangle = surface_.triangles()[surface_.nearest_triangle(p)];
+  const auto weights = nearest_weights(p, std::array{own[triangle[0]], own[triangle[1]], own[triangle[2]]});
+  const auto base = static_cast<std::size_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+  Point<3> q = points[triangle[base]];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) q[k] += weights[i] * (points[triangle[i]][k] - points[triangle[base]][k]);
+  return q;
+}
+
+void SolidDomain::finish(Mesh<3>& mesh, const std::vector<bool>&) const {
+  std::vector<bool> on_surface(mesh.points.size(), false);
+  for (const Face<3>& face : mesh.boundary)
+    for (const Index v : face.vertices) on_surface[v] = true;
+  for (std::size_t v = 0; v < on_surface.size(); ++v)
+    mesh.points[v] = on_surface[v] ? given_on_surface(mesh.points[v]) : units().given(mesh.points[v]);
 }
 
 }  // namespace signorini::geometry

@@ -3,13 +3,15 @@
 
 namespace signorini::geometry {
 
-/// The inside of a closed triangle surface, hollow where the surface has components within.
+/// The inside of a closed triangle surface, hollow where the surface has components within. Units are the longest edge
+/// of its box.
 class SolidDomain : public Domain {
  public:
   /// Throws Error(Exit::input) unless the file's surface is closed, free of self-intersections and bounds one piece.
   explicit SolidDomain(const std::string& file);
 
   std::string name() const override { return surface_.file(); }
+  const OwnUnits<3>& units() const override { return surface_.units(); }
   Box box() const override { return surface_.box(); }
   double volume() const override;
   bool inside(const Point<3>& p) const override { return surface_.inside(p); }
@@ -19,9 +21,11 @@ class SolidDomain : public Domain {
   std::vector<Polyline> creases() const override;
   double coarsest_size() const override;
   double flatness() const override { return 0.1; }
-  void finish(Mesh<3>&, const std::vector<bool>&) const override {}  // all vertices lie on the triangles already
+  void finish(Mesh<3>& mesh, const std::vector<bool>& on_crease) const override;
 
  private:
+  Point<3> given_on_surface(const Point<3>& p) const;
+
   TriangleSurface surface_;
 };
 

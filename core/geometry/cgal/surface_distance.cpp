@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/geometry/cgal/nearest.hpp"
 #include "core/geometry/cgal/triangle_surface.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -25,32 +26,6 @@ void add(Point<3>& sum, double factor, const Point<3>& a) {
 Point<3> unit(const Point<3>& a) {
   const double l = length<3>(a);
   return l > 0 ? Point<3>{a[0] / l, a[1] / l, a[2] / l} : Point<3>{};
-}
-
-/// The point of a triangle nearest to another point, as weights of the corners; a weight is exactly zero unless the
-/// point is off the opposite edge. C. Ericson, Real-Time Collision Detection, 5.1.5.
-std::array<double, 3> nearest_weights(const Point<3>& p, const std::array<Point<3>, 3>& corner) {
-  const auto& [a, b, c] = corner;
-  const Point<3> ab = difference<3>(b, a), ac = difference<3>(c, a), ap = difference<3>(p, a);
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const Point<3> bp = difference<3>(p, b);
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const Point<3> cp = difference<3>(p, c);
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 >= d3 && d5 >= d6) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
 }
 
 /// Signs by the inside of a closed surface, and for an open one by pseudonormals: the faces' normals at an edge, and

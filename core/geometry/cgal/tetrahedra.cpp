@@ -335,14 +335,14 @@ std::vector<double> sampled_sizes(const Domain& domain, const Sizing<3>& sizing)
 
 }  // namespace
 
-Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size, double unit) {
+Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
   const auto [low, high] = domain.box();
-  Sizing<3> sizing(size, domain.coarsest_size(), std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]), unit,
-                   domain.name());
+  Sizing<3> sizing(size, domain.coarsest_size(), std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]),
+                   domain.units(), domain.name());
   const auto sizes = sampled_sizes(domain, sizing);
   sizing.check_thickness(domain.volume());
   sizing.expect(expected_elements<3>(domain.volume(), sizes));
-  check_crease_spacing(domain, sizing, unit);
+  check_crease_spacing(domain, sizing);
 
   Complex complex = refine(domain, sizing);
   exude(complex, sizing);

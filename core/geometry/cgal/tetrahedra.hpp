@@ -4,8 +4,8 @@
 
 namespace signorini::geometry {
 
-/// Fills a domain with tetrahedra by Delaunay refinement, mean edge about `size`. The domain and the mesh are in units
-/// of `unit`, the points that the size is asked for and its values are in the user's.
-Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size, double unit);
+/// Fills a domain with tetrahedra by Delaunay refinement, mean edge about `size`. The mesh, the points that the size is
+/// asked for and its values are in the user's coordinates.
+Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size);
 
 }  // namespace signorini::geometry

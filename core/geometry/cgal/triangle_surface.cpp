@@ -84,7 +84,6 @@ void read(const std::string& file, SurfaceMesh& mesh) {
   if (polygons.empty()) input_error(file, "all faces are degenerate; expected a triangle surface");
   if (!PMP::is_polygon_soup_a_polygon_mesh(polygons)) input_error(file, "the faces do not form a surface");
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
-  if (!PMP::triangulate_faces(mesh)) input_error(file, "a face cannot be divided into triangles; expected triangles");
 }
 
 }  // namespace
@@ -95,13 +94,21 @@ struct TriangleSurface::Tree {
   std::optional<Side> side;
 };
 
-TriangleSurface::TriangleSurface(const std::string& file) : file_(file), tree_(std::make_unique<Tree>()) {
+TriangleSurface::TriangleSurface(const std::string& file, Coordinates coordinates)
+    : file_(file), tree_(std::make_unique<Tree>()) {
   SurfaceMesh& mesh = tree_->mesh;
   read(file, mesh);
+  for (const auto v : mesh.vertices()) given_points_.push_back(plain(mesh.point(v)));
+  points_ = given_points_;
+  if (coordinates == Coordinates::own) {
+    units_ = own_units<3>(given_points_);
+    for (Point<3>& p : points_) p = units_.own(p, surface_digits);
+    for (const auto v : mesh.vertices()) mesh.point(v) = cgal(points_[v.idx()]);
+  }
+  if (!PMP::triangulate_faces(mesh)) input_error(file, "a face cannot be divided into triangles; expected triangles");
   closed_ = CGAL::is_closed(mesh);
   if (closed_) PMP::orient_to_bound_a_volume(mesh);
 
-  for (const auto v : mesh.vertices()) points_.push_back(plain(mesh.point(v)));
   for (const auto f : mesh.faces()) {
     auto& triangle = triangles_.emplace_back();
     auto& neighbour = neighbours_.emplace_back();

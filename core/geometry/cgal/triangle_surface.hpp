@@ -15,14 +15,20 @@ namespace signorini::geometry {
 /// Queries are thread-safe and deterministic.
 class TriangleSurface {
  public:
+  /// Where points and queries are: in the file's coordinates, or in the surface's own, see own_units().
+  enum class Coordinates { given, own };
+
   /// Reads OFF, OBJ, STL or PLY. Equal vertices are merged, duplicate faces dropped, faces of more than three vertices
   /// divided into triangles, and neighbours oriented alike; a closed surface is oriented outwards. Throws
   /// Error(Exit::input) when the file cannot be read or holds no faces.
-  explicit TriangleSurface(const std::string& file);
+  explicit TriangleSurface(const std::string& file, Coordinates coordinates = Coordinates::given);
   ~TriangleSurface();
 
   const std::string& file() const { return file_; }
+  const OwnUnits<3>& units() const { return units_; }
   const std::vector<Point<3>>& points() const { return points_; }
+  /// The same in the file's coordinates, exactly.
+  const std::vector<Point<3>>& given_points() const { return given_points_; }
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   /// Per triangle the neighbour across each edge, -1 at a border.
   const std::vector<std::array<Index, 3>>& neighbours() const { return neighbours_; }
@@ -46,7 +52,8 @@ class TriangleSurface {
   struct Tree;
   std::string file_;
   std::unique_ptr<Tree> tree_;
-  std::vector<Point<3>> points_;
+  OwnUnits<3> units_;
+  std::vector<Point<3>> points_, given_points_;
   std::vector<std::array<Index, 3>> triangles_, neighbours_;
   bool closed_ = false;
 };
