@@ -57,7 +57,7 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
 
 void print_solver(const SolverOptions& options) {
   const std::string method = options.method == "auto"
-                                 ? "auto: tnnmg, in turns with monotone while phases change, then pdas where that is slow"
+                                 ? "auto: monotone, tnnmg while phases rest, then pdas where that is slow"
                                  : options.method;
   fmt::print("solver: method {}\n        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n",
              method, options.cycle, options.pre, options.post, options.smoother, options.coarse);

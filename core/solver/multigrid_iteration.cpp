@@ -13,10 +13,17 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
-// Cycles after which "auto" takes to a direct solver: more than it needs where multigrid does its work.
-constexpr int patience_with_cycles = 60;
+// Cycles after which "auto" lets corrections without bounds take turns while phases change, and after which it takes to
+// a direct solver: more than it needs where multigrid does its work. (Weights that are blocks share a distance among so
+// many components that corrections without bounds take turns from the first cycle on; but what they spread too far
+// comes back slowly, so that they have fewer turns while phases rest.)
+constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
 // What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
 constexpr Index most_unknowns_for_direct = 150'000;
+
+bool has_blocks(std::span<const Prolongation> prolongations) {
+  return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
+}
 
 // A cycle that changes so few phases is nearly a linear one.
 bool rests(const LevelReport& finest) { return 100 * finest.changed <= finest.critical; }
@@ -32,6 +39,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
       recombination_(problem.constraints),
+      blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && settings_of<B>(options).truncate != Truncation::none) {}
 
 template <int B>
@@ -70,18 +78,21 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   return step;
 }
 
-// Bounds of coarse corrections keep contact from spreading too far, and where they are tight, as on algebraic levels,
-// from spreading at all: while phases change, "auto" makes corrections with and without them in turns.
+// Bounds of coarse corrections keep contact from spreading too far; where it rests they only hold back, and where they
+// are tight, as on algebraic levels, it spreads too slowly with them alone.
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
-  return method_ == Method::tnnmg || (may_turn_ && (rests_ || cycles_ % 2 == 0));
+  if (method_ == Method::tnnmg) return true;
+  if (!may_turn_) return false;
+  if (blocks_) return cycles_ % (rests_ ? 4 : 2) == 0;
+  return rests_ || (cycles_ >= patience_with_bounds && cycles_ % 2 == 0);
 }
 
 template <int B>
 std::string MultigridIteration<B>::method() const {
   if (method_ != Method::automatic) return this->options_.method;
   if (bounded_cycles_ == 0) return "tnnmg";
-  return bounded_cycles_ == cycles_ ? "monotone" : "tnnmg and monotone in turns";
+  return bounded_cycles_ == cycles_ ? "monotone" : "monotone and tnnmg in turns";
 }
 
 // Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring

@@ -31,6 +31,7 @@ class MultigridIteration final : public Iteration<B> {
   Method method_;
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
+  bool blocks_;         // among the interpolations' weights
   bool may_turn_;       // "auto" may make corrections without bounds
   bool rests_ = false;  // few phases changed in the last cycle
   int cycles_ = 0, bounded_cycles_ = 0;

@@ -16,8 +16,9 @@ struct TwoMeshes {
   DiscreteProblem<B> coarse, fine;
   std::vector<Prolongation> P;
 
-  TwoMeshes(const char* file, std::vector<std::string> overrides) {
-    const Scene scene = read_scene(shipped_scenes / file, overrides);
+  TwoMeshes(const char* file, std::vector<std::string> overrides)
+      : TwoMeshes(read_scene(shipped_scenes / file, overrides)) {}
+  explicit TwoMeshes(const Scene& scene) {
     load_plugins(scene, registry);
     meshes = build_hierarchy<D>(scene, B);
     const Model<B> model = build_model<B>(scene, D, registry, 1);
@@ -42,6 +43,36 @@ TEST(NestedMatrices, AreNoneOnCurvedMeshesAndWithVaryingCoefficients) {
   EXPECT_FALSE((TwoMeshes<3, 3>("ball_on_plane.toml", {"refine.uniform=1"}).galerkin()));
   EXPECT_FALSE(
       (TwoMeshes<3, 3>("cube_on_bump.toml", {"refine.uniform=2", "body.0.young='x < 0.3 ? 1 : 100'"}).galerkin()));
+}
+
+// Faces are picked by their vertices, so on the finer mesh other common vertices have frames.
+TEST(NestedMatrices, AreNoneInOtherFrames) {
+  const auto picked = [](const std::string& where) {
+    return TwoMeshes<3, 3>(parse_scene(fmt::format(R"(
+[[body]]
+name = "cube"
+shape = "box"
+from = [0, 0, 0]
+to = [1, 1, 1]
+cells = [4, 4, 4]
+[[fix]]
+body = "cube"
+on = "top"
+value = [0, 0, -0.05]
+[[obstacle]]
+type = "contact"
+body = "cube"
+where = 'z < 1e-9 && ({})'
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+[refine]
+uniform = 2)",
+                                                   where),
+                                       "test.toml", ".", {}));
+  };
+  EXPECT_TRUE(picked("x < 0.6").galerkin());
+  EXPECT_FALSE(picked("x < 0.26 || abs(x * 4 - floor(x * 4 + 0.5)) < 0.26").galerkin());
 }
 
 /// The coarse matrix of a cycle in which contact truncates.

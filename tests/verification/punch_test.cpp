@@ -120,8 +120,9 @@ normal = [0, 0, 1])",
   const auto r = run<3, 3>(scene, {"solver.tolerance=1e-12"});
   EXPECT_NEAR(r.contact().area, 1, 1e-9);
   EXPECT_GT(r.contact().nodes, 30);
-  for (const auto& node : r.results.contact.nodes)
+  for (const auto& node : r.results.contact.nodes) {
     if (node.contact) ASSERT_NEAR(node.pressure, 0.01, 1e-11);
+  }
 }
 
 }  // namespace
