@@ -55,6 +55,8 @@ shape = "box"
 from = [0, 0, 0]
 to = [1, 1, 1]
 cells = [4, 4, 4]
+young = 1
+poisson = 0.3
 [[fix]]
 body = "cube"
 on = "top"
