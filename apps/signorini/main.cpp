@@ -215,11 +215,8 @@ int run(int argc, char** argv) {
   if (*list) list_command(arguments.list_kinds);
   return 0;
 }
-}  // namespace
-}  // namespace signorini
 
-int main(int argc, char** argv) {
-  using namespace signorini;
+int guarded_run(int argc, char** argv) {
   catch_interrupts();
   keep_freed_memory();
   try {
@@ -233,3 +230,7 @@ int main(int argc, char** argv) {
     return report_error(std::string("internal: ") + error.what(), Exit::input);
   }
 }
+}  // namespace
+}  // namespace signorini
+
+int main(int argc, char** argv) { return signorini::guarded_run(argc, argv); }

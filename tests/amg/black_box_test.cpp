@@ -175,7 +175,8 @@ TEST(BlackBox, SeesThatTheEnergyFallsForever) {
 // The coarse levels do not hold the direction without energy exactly: a scaled constant, a rotation.
 TEST(BlackBox, SeesThatTheEnergyFallsForeverAlongAnyDirection) {
   for (const int cells : {10, 60}) {
-    const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>((cells + 1) * (cells + 1)))).array() + 2;
+    const Eigen::VectorXd s =
+        vector(waves(static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1))).array() + 2;
     const Matrix A = s.asDiagonal() * neumann_laplacian(cells) * s.asDiagonal();
     const std::vector<double> b(static_cast<std::size_t>(A.rows()), 1.0);
     BlackBox solver(A);

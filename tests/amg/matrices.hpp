@@ -52,7 +52,7 @@ struct Given {
     const Constraints<B>& c = problem.constraints;
     for (Index slot = 0; slot < c.size(); ++slot)
       for (int k = 0; k < B; ++k) {
-        const auto i = static_cast<std::size_t>(c.vector[slot] * B + k);
+        const Offset i = Offset{c.vector[slot]} * B + k;
         if (problem.fixed[c.vector[slot]] >> k & 1u) continue;  // the row holds the value
         lower[i] = c.lower[slot * B + k];
         upper[i] = c.upper[slot * B + k];

@@ -35,7 +35,7 @@ class Obstruction final : public Box<B> {
 using Bound1 = std::function<double(const double* position)>;
 
 /// lower(x) <= u(x) <= upper(x)
-inline std::shared_ptr<const Obstacle<1>> between(Bound1 lower, Bound1 upper) {
+inline std::shared_ptr<const Obstacle<1>> between(const Bound1& lower, const Bound1& upper) {
   return std::make_shared<Obstruction<1>>([=](const SurfaceVertex& v) {
     LocalConstraint<1> c;
     c.directions = 1;

@@ -78,7 +78,7 @@ Summary solve_nested(const Nested<B>& p, std::vector<double>& x, const SolverOpt
 inline Selection on(std::string part) { return {std::move(part), {}, "test"}; }
 
 inline Field field(std::function<double(const double*)> f) {
-  return Field([f](const Site& s) { return f(s.x); }, "function", "test");
+  return Field([f = std::move(f)](const Site& s) { return f(s.x); }, "function", "test");
 }
 
 template <int D>
@@ -122,7 +122,7 @@ Model<1> radial_model() {
 }
 
 /// -Laplace u = source with u = 0 on the boundary and bounds.
-inline Model<1> membrane(double source, Bound1 lower, Bound1 upper) {
+inline Model<1> membrane(double source, const Bound1& lower, const Bound1& upper) {
   Model<1> model;
   model.fixes.push_back({on("boundary"), {Field(0)}});
   model.loads.push_back({{}, {Field(source)}});
@@ -144,7 +144,7 @@ Model<D> pressed_block(std::shared_ptr<const Obstacle<D>> obstacle, double push)
 
 /// An elastic unit block that only the plane holds vertically: its left (and front) side slides, a load presses it.
 template <int D>
-Model<D> resting_block(Point<D> traction, std::vector<std::string> sliding) {
+Model<D> resting_block(Point<D> traction, const std::vector<std::string>& sliding) {
   Model<D> model;
   model.poisson = 0.3;
   for (const std::string& side : sliding) {

@@ -86,12 +86,8 @@ bool run(const Arguments& arguments) {
   return good;
 }
 
-}  // namespace
-}  // namespace signorini::bench
-
-int main(int argc, char** argv) {
-  using namespace signorini;
-  bench::Arguments arguments;
+int run_program(int argc, char** argv) {
+  Arguments arguments;
   CLI::App app(
       "Solvers of others on the benchmark problems: tables in Markdown. Each solver runs with tighter and tighter "
       "tolerances until the relative error in the energy norm is at most 1e-6 and the natural residual at most 1e-8 of "
@@ -120,8 +116,8 @@ int main(int argc, char** argv) {
       "Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
-    if (arguments.setup) return bench::print_setup(arguments.quick, arguments.matrix), 0;
-    return bench::run(arguments) ? 0 : 3;
+    if (arguments.setup) return print_setup(arguments.quick, arguments.matrix), 0;
+    return run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const Error& error) {
@@ -132,3 +128,8 @@ int main(int argc, char** argv) {
     return 2;
   }
 }
+
+}  // namespace
+}  // namespace signorini::bench
+
+int main(int argc, char** argv) { return signorini::bench::run_program(argc, argv); }

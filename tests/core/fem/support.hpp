@@ -144,7 +144,7 @@ class TestObstacle : public BoxObstacle<B> {
 };
 
 template <int B>
-ObstacleTerm<B> term(typename TestObstacle<B>::Rule rule, std::optional<std::string> part,
+ObstacleTerm<B> term(typename TestObstacle<B>::Rule rule, const std::optional<std::string>& part,
                      std::string origin = "obstacle.0", int values = 2) {
   ObstacleTerm<B> out{std::make_shared<TestObstacle<B>>(std::move(rule), values), {}, origin};
   if (part) out.on = Selection{part, {}, std::move(origin)};
@@ -162,7 +162,8 @@ LocalConstraint<B> bound(std::array<double, B> direction, double lower, double u
 }
 
 template <int B>
-Fix<B> fix(std::optional<std::string> part, std::array<std::optional<Field>, B> value, Frame frame = Frame::global) {
+Fix<B> fix(const std::optional<std::string>& part, std::array<std::optional<Field>, B> value,
+           Frame frame = Frame::global) {
   return {Selection{part, {}, "fix.0"}, std::move(value), frame};
 }
 
