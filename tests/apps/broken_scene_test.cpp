@@ -15,6 +15,12 @@ void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
 
 class BrokenScene : public Program, public testing::WithParamInterface<Broken> {};
 
+/// The free memory that some messages tell changes from run to run.
+std::string without_figures(std::string text) {
+  std::erase_if(text, [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
+  return text;
+}
+
 TEST_P(BrokenScene, EndsWithItsStatusNamesThePlaceAndWritesNothing) {
   Broken broken = GetParam();
   const std::size_t at = broken.scene.find(broken.from);
@@ -28,7 +34,7 @@ TEST_P(BrokenScene, EndsWithItsStatusNamesThePlaceAndWritesNothing) {
   EXPECT_THAT(written(), testing::IsEmpty());
   const Ended checked = signorini({"check", "scene.toml"});
   EXPECT_EQ(checked.status, ended.status);
-  EXPECT_EQ(checked.err, ended.err);
+  EXPECT_EQ(without_figures(checked.err), without_figures(ended.err));
 }
 
 /// How often a text holds another one.
