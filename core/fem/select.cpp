@@ -47,8 +47,8 @@ std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection,
 
 template <int D>
 Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces) {
-  std::vector<Offset> next(mesh.points.size(),
-                           0);  // first how many faces, then where the next one around a vertex goes
+  // Per vertex: first how many faces are around it, then where the next of these goes.
+  std::vector<Offset> next(mesh.points.size(), 0);
   for (const Index f : faces)
     for (const Index p : mesh.boundary[f].vertices) ++next[p];
 
