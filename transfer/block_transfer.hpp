@@ -42,7 +42,7 @@ class BlockTransfer : public Transfer<B> {
     Offset entry;  // of the weights
   };
   const Prolongation* P_ = nullptr;
-  const Frames<B> no_frames_;
+  const Frames<B> no_frames_{};
   std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to
   std::vector<Child> child_;
   std::vector<Flags> prescribed_;  // per coarse vector: components off whatever is truncated

@@ -64,7 +64,7 @@ Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces) {
   out.around.resize(static_cast<std::size_t>(sum));
   for (const Index f : faces)
     for (const Index p : mesh.boundary[f].vertices) out.around[next[p]++] = f;
-  out.faces = std::move(faces);
+  faces.swap(out.faces);
   return out;
 }
 

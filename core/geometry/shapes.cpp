@@ -106,7 +106,8 @@ Point<3> gradient(const Field& distance, const Site& site, int dimension, double
 
 }  // namespace
 
-std::unique_ptr<DistanceFunction> plane(Vector point, Vector normal, double t, const std::string& origin) {
+std::unique_ptr<DistanceFunction> plane(const Vector& point, const Vector& normal, double t,
+                                        const std::string& origin) {
   if (constant(normal)) direction(normal, {}, "normal", origin);
   return std::make_unique<Shape>(
       [=](const Site& site) -> Distance {
@@ -116,7 +117,7 @@ std::unique_ptr<DistanceFunction> plane(Vector point, Vector normal, double t, c
       t);
 }
 
-std::unique_ptr<DistanceFunction> sphere(Vector center, Field radius, bool inside, double t,
+std::unique_ptr<DistanceFunction> sphere(const Vector& center, const Field& radius, bool inside, double t,
                                          const std::string& origin) {
   if (radius.constant()) positive(radius, {}, "radius", origin);
   return std::make_unique<Shape>(
@@ -127,8 +128,8 @@ std::unique_ptr<DistanceFunction> sphere(Vector center, Field radius, bool insid
       t);
 }
 
-std::unique_ptr<DistanceFunction> cylinder(Vector center, Vector axis, Field radius, bool inside, double t,
-                                           const std::string& origin) {
+std::unique_ptr<DistanceFunction> cylinder(const Vector& center, const Vector& axis, const Field& radius, bool inside,
+                                           double t, const std::string& origin) {
   if (radius.constant()) positive(radius, {}, "radius", origin);
   if (constant(axis)) direction(axis, {}, "axis", origin);
   return std::make_unique<Shape>(
@@ -141,8 +142,8 @@ std::unique_ptr<DistanceFunction> cylinder(Vector center, Vector axis, Field rad
       t);
 }
 
-std::unique_ptr<DistanceFunction> expression(Field distance, Vector normal, int dimension, double length, double t,
-                                             const std::string& origin) {
+std::unique_ptr<DistanceFunction> expression(const Field& distance, const Vector& normal, int dimension, double length,
+                                             double t, const std::string& origin) {
   if (!normal.empty() && constant(normal)) direction(normal, {}, "normal", origin);
   const double relative_step = std::cbrt(std::numeric_limits<double>::epsilon());  // balances truncation and rounding
   return std::make_unique<Shape>(

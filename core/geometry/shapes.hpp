@@ -12,22 +12,22 @@
 namespace signorini::geometry {
 
 /// A half space (2D: a half plane); `normal`, of any length, points out of it.
-std::unique_ptr<DistanceFunction> plane(std::vector<Field> point, std::vector<Field> normal, double t,
+std::unique_ptr<DistanceFunction> plane(const std::vector<Field>& point, const std::vector<Field>& normal, double t,
                                         const std::string& origin);
 
 /// A ball (2D: a disk), or with `inside` all but a ball: the body lies within.
-std::unique_ptr<DistanceFunction> sphere(std::vector<Field> center, Field radius, bool inside, double t,
+std::unique_ptr<DistanceFunction> sphere(const std::vector<Field>& center, const Field& radius, bool inside, double t,
                                          const std::string& origin);
 
 /// An infinitely long circular cylinder around the line through `center` along `axis`, of any length; or with `inside`
 /// all but that.
-std::unique_ptr<DistanceFunction> cylinder(std::vector<Field> center, std::vector<Field> axis, Field radius,
-                                           bool inside, double t, const std::string& origin);
+std::unique_ptr<DistanceFunction> cylinder(const std::vector<Field>& center, const std::vector<Field>& axis,
+                                           const Field& radius, bool inside, double t, const std::string& origin);
 
 /// A signed distance given by an expression; without `normal` the normal is its gradient, by central differences with
 /// the step 6e-6 `length`, about the diameter of the body (error: 4e-11 relative where the distance is smooth on that
 /// length). Where `length` is 0, the larger of the point's coordinates and its distance takes its place.
-std::unique_ptr<DistanceFunction> expression(Field distance, std::vector<Field> normal, int dimension, double length,
-                                             double t, const std::string& origin);
+std::unique_ptr<DistanceFunction> expression(const Field& distance, const std::vector<Field>& normal, int dimension,
+                                             double length, double t, const std::string& origin);
 
 }  // namespace signorini::geometry

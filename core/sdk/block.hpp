@@ -94,6 +94,9 @@ inline double norm(const double* x) {
   return std::sqrt(s);
 }
 
+/// NaN stays visible.
+inline double larger(double a, double b) { return a > b || std::isnan(a) ? a : b; }
+
 /// Solves M y = r on the components whose bit is set in `kept`, the others of y are zero. M is symmetric positive
 /// semidefinite; a component whose pivot falls below rounding is dropped as well, so that y always is a descent
 /// direction of 1/2 y'My - r'y.

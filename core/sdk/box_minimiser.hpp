@@ -9,7 +9,8 @@ template <int B>
 struct BoxMinimiser {
   /// The minimiser of a scalar problem, from that of the unbounded one. NaN stays visible.
   static double clamp(double x, double lower, double upper) requires(B == 1) {
-    return x < lower ? lower : x > upper ? upper : x;
+    const double above = x < lower ? lower : x;
+    return above > upper ? upper : above;
   }
 
   static void correct(const double* M, const double* inverse, const double* r, const double* lower, const double* upper,

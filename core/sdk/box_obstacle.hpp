@@ -1,4 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
 #include "core/sdk/box_minimiser.hpp"
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/projected_sweep.hpp"
@@ -31,25 +36,42 @@ class BoxObstacle : public Obstacle<B> {
   }
 
   double natural_residual(const LevelView<B>& level, Index first, Index last, const double* r) const noexcept override {
+    const auto [from, to] = slots_between(level, first, last);
+    if constexpr (scalar)
+      if (to - from == last - first) return dense_residual(level, from, first, last, r);
     double largest = 0;
-    Index slot = slots_between(level, first, last).first;
+    Index slot = from;
     for (Index p = first; p < last; ++p) {
       double d[B];
       if (slot < level.slots && level.constrained[slot] == p)
         project(level, slot++, r + Offset{p} * B, d);
       else
         block::product<B>(level.inverse + Offset{p} * B * B, r + Offset{p} * B, d);
-      const double size = block::norm<B>(d);
-      if (!(size <= largest)) largest = size;  // NaN stays visible
+      largest = block::larger(largest, block::norm<B>(d));
     }
     return largest;
   }
 
  private:
+  static constexpr bool scalar = B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); };
+
+  // Where every vector has a slot: no branches, so that several are projected at once.
+  static double dense_residual(const LevelView<B>& level, Index slot, Index first, Index last, const double* r) {
+    const double *x = level.x + first, *inverse = level.inverse + first;
+    const double *lower = level.lower + slot, *upper = level.upper + slot;
+    r += first;
+    std::int64_t largest = 0;  // bits of numbers >= 0 are ordered as the numbers are; NaN is the largest
+    for (Index i = 0; i < last - first; ++i) {
+      const double size = std::abs(Local::clamp(x[i] + inverse[i] * r[i], lower[i], upper[i]) - x[i]);
+      largest = std::max(largest, std::bit_cast<std::int64_t>(size));
+    }
+    return std::bit_cast<double>(largest);
+  }
+
   // Proj_K(x + A_pp^-1 r) - x in the scalar product of A_pp, in which it vanishes at the solution: the local minimiser.
   static void project(const LevelView<B>& level, Index slot, const double* r, double* d) {
     const Index p = level.constrained[slot];
-    if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
+    if constexpr (scalar) {
       const double x = level.x[p];
       *d = Local::clamp(x + level.inverse[p] * *r, level.lower[slot], level.upper[slot]) - x;
       return;

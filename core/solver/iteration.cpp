@@ -112,8 +112,7 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
   LevelView<B> view = level.view();
   view.x = x.data();
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    const double found = s.obstacle->natural_residual(view, begin, end, r.data());
-    if (!(found <= largest)) largest = found;  // NaN stays visible
+    largest = block::larger(largest, s.obstacle->natural_residual(view, begin, end, r.data()));
   });
 }
 

@@ -57,13 +57,17 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   multigrid_.search_lines(free);
   ++cycles_;
   sums = {};
+  recombination_.begin();
   const CycleReport cycle = multigrid_.cycle(
       this->x_.data(),
       [this](Index first, Index last) {
         std::copy(this->x_.begin() + Offset{first} * B, this->x_.begin() + Offset{last} * B,
                   this->x_before_.begin() + Offset{first} * B);
       },
-      [this](Index first, Index last) { this->evaluate(this->x_, this->r_, first, last, this->sums_); });
+      [this](Index first, Index last) {
+        this->evaluate(this->x_, this->r_, first, last, this->sums_);
+        recombination_.add(this->x_before_, this->x_, first, last);
+      });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
   const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
@@ -103,10 +107,14 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
     recombination_.reset();
     return false;
   }
-  return recombination_.propose(this->x_before_, this->r_before_, this->x_, this->r_) && take_combination();
+  if (recombination_.propose(this->x_before_, this->r_before_, this->x_, this->r_, this->sums_.gain) &&
+      take_combination())
+    return true;
+  recombination_.reset();
+  return false;
 }
 
-// If it has the lower energy.
+// If it is admissible and has the lower energy.
 template <int B>
 bool MultigridIteration<B>::take_combination() {
   x_trial_.resize(this->x_.size());
@@ -115,13 +123,10 @@ bool MultigridIteration<B>::take_combination() {
   const Chunks& chunks = multigrid_.finest().chunks;
   for (Index first = 0; first < chunks.vectors; first += chunks.size) {
     const Index last = std::min(chunks.vectors, first + chunks.size);
-    recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
+    if (!recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_)) return false;
     this->add_sums(x_trial_, r_trial_, first, last, sums);
   }
-  if (!(sums.gain >= this->sums_.gain)) {
-    recombination_.reset();
-    return false;
-  }
+  if (!(sums.gain >= this->sums_.gain)) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);
   this->sums_ = sums;

@@ -17,13 +17,18 @@ class Recombination {
 
   /// Forgets all directions: the phases have changed.
   void reset() { known_ = 0; }
-  /// From the result x and its residual r of a cycle that started from x_before: the new direction. Returns whether
-  /// the minimiser along it is within the bounds and should have a lower energy than x. Near rounding level that may
-  /// not be so: the caller compares, and resets where it was not.
+  /// A cycle begins.
+  void begin() { along_ = {}; }
+  /// Adds up what propose() needs of the step x - x_before at the vectors first <= p < last, while it is at hand.
+  void add(const std::vector<double>& x_before, const std::vector<double>& x, Index first, Index last);
+  /// From the result x and its residual r of a cycle that started from x_before and gained this much energy: the new
+  /// direction. Returns whether the minimiser along it should have a lower energy than x. Near rounding level that may
+  /// not be so: the caller compares. What is not taken has to be forgotten by reset().
   bool propose(const std::vector<double>& x_before, const std::vector<double>& r_before, const std::vector<double>& x,
-               const std::vector<double>& r);
-  /// Writes that minimiser and its residual, at the vectors first <= p < last.
-  void combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first, Index last,
+               const std::vector<double>& r, double cycle_gain);
+  /// Writes that minimiser and its residual, at the vectors first <= p < last. Returns whether it is within the bounds
+  /// there.
+  bool combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first, Index last,
                std::vector<double>& x, std::vector<double>& r) const;
 
  private:
@@ -33,14 +38,14 @@ class Recombination {
     double energy = 0;  // p'Ap
   };
 
-  bool admissible(const std::vector<double>& x_before) const;
-  Direction& newest() { return directions_[next_]; }
-  const Direction& newest() const { return directions_[next_]; }
-  const Direction& older(int age) const { return directions_[(next_ + depth + 1 - age) % (depth + 1)]; }
+  bool admissible(const std::vector<double>& x, Index first, Index last) const;
+  /// 0: the newest one
+  const Direction& aged(int age) const { return directions_[(next_ + depth + 1 - age) % (depth + 1)]; }
 
   const Constraints<B>& constraints_;
   std::array<Direction, depth + 1> directions_;  // a ring
   int known_ = 0, next_ = 0;
+  std::array<double, depth> along_{};  // (x - x_before)'Ap of the directions known before the cycle
   double step_ = 0;
 };
 

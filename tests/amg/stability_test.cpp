@@ -63,9 +63,9 @@ Matrix random_graph(Random& random, int nodes, double decades, double shift) {
   return A;
 }
 
-Problem random_box(Random& random, Matrix A) {
+Problem random_box(Random& random, const Matrix& A) {
   const auto n = static_cast<std::size_t>(A.rows());
-  Problem p{std::move(A), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
+  Problem p{A, std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t i = 0; i < n; ++i) {
     p.b[i] = random.between(-1, 1) * p.A.coeff(static_cast<Index>(i), static_cast<Index>(i));
     std::tie(p.lower[i], p.upper[i]) = random_interval(random, 0, 1);
@@ -149,7 +149,7 @@ TEST(Stability, FloatingBodies) {
     for (Matrix::InnerIterator entry(one, column); entry; ++entry)
       for (const Index first : {0, n}) entries.emplace_back(first + entry.row(), first + column, entry.value());
   two.setFromTriplets(entries.begin(), entries.end());
-  const auto size = static_cast<std::size_t>(2 * n);
+  const auto size = 2 * static_cast<std::size_t>(n);
   Problem p{two, std::vector<double>(size, -1), std::vector<double>(size, -infinity),
             std::vector<double>(size, infinity)};
   for (std::size_t i = 0; i < size; ++i)

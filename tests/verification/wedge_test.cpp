@@ -105,7 +105,7 @@ std::string polygon(const std::vector<Eigen::Vector2d>& points) {
 }
 
 /// A kite with the opening `inner` that stands with its corner in a groove with the opening `outer`, in degrees.
-Corner<2> groove(double inner, double outer, double turn, Eigen::Vector2d load = {0, -0.05}) {
+Corner<2> groove(double inner, double outer, double turn, const Eigen::Vector2d& load = {0, -0.05}) {
   const Eigen::Rotation2Dd R(turn);
   const double a = inner * pi / 360, o = outer * pi / 360;
   const Eigen::Vector2d left(-std::sin(a), std::cos(a)), right(std::sin(a), std::cos(a));
@@ -129,7 +129,7 @@ TEST(Wedge, LoadedFromTheSide) {
 }
 
 /// The corner of a block among three planes oblique to its sides and to each other.
-Corner<3> trihedral(double oblique, Eigen::Vector3d load) {
+Corner<3> trihedral(double oblique, const Eigen::Vector3d& load) {
   Corner<3> corner{"shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]", {}, load};
   for (int k = 0; k < 3; ++k) {
     Eigen::Vector3d n = Eigen::Vector3d::Constant(oblique);

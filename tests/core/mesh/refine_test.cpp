@@ -11,9 +11,7 @@ namespace signorini {
 namespace {
 
 using test::area;
-using test::input_error_of;
 using test::volume;
-using testing::HasSubstr;
 
 Mesh<2> plate() { return rectangle({0, 0}, {3, 2}, {3, 2}); }
 Mesh<3> brick() { return box({0, 0, 0}, {1, 2, 3}, {1, 2, 3}); }

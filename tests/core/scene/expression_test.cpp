@@ -322,6 +322,7 @@ TEST(Expression, LengthAndNestingAreLimited) {
 TEST(Expression, CopiesMayBeUsedFromSeveralThreads) {
   const Field field = compile("x*x + y");
   std::vector<std::thread> threads;
+  threads.reserve(4);
   std::atomic<int> wrong = 0;
   for (int k = 0; k < 4; ++k)
     threads.emplace_back([copy = field, k, &wrong] {

@@ -88,7 +88,7 @@ TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
   model.obstacles.front() = {plane<2>({0, -0.5}, {0, 1}), on("bottom"), "test"};
   Mesh<2> mesh = cube<2>(0, 1, 4);
   for (auto& point : mesh.points) point[0] *= 100;
-  const auto nested = discretize_all<2, 2>(std::move(mesh), 4, model);
+  const auto nested = discretize_all<2, 2>(mesh, 4, model);
   std::vector<double> x;
   const Summary summary = solve_from_zero(nested, x);
   EXPECT_TRUE(summary.converged()) << summary.reason;
