@@ -39,7 +39,8 @@ template <int B>
 /// The keys of a shape that was forgotten are no unknown options.
 void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
   const std::span options(type.options, type.option_count);
-  for (const auto& [key, raw] : scene.options.entries) {
+  for (const auto& [entry, raw] : scene.options.entries) {
+    const std::string& key = entry;  // a binding cannot be captured everywhere
     if (std::ranges::any_of(options, [&](const OptionSpec& option) { return key == option.name; })) continue;
     for (const ShapeSpec& shape : obstacle_shapes())
       if (find_key(shape.keys, key))

@@ -7,9 +7,11 @@
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
+#include "apps/signorini/nested_solver.hpp"
 #include "apps/signorini/problem.hpp"
 #include "apps/signorini/results.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
 
 namespace signorini {
@@ -55,12 +57,19 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
                candidates[k].size());
 }
 
-void print_solver(const SolverOptions& options) {
-  const std::string method = options.method == "auto"
-                                 ? "auto: monotone, tnnmg while phases rest, then pdas where that is slow"
-                                 : options.method;
-  fmt::print("solver: method {}\n        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n",
-             method, options.cycle, options.pre, options.post, options.smoother, options.coarse);
+void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, Offset unknowns) {
+  const bool blocks = below == Coarsening::aggregation;
+  fmt::print("solver: method {}\n",
+             options.method == "auto" ? "auto: " + automatic::describe(options, blocks, unknowns) : options.method);
+  if (options.method == "pdas") return;
+  if (options.method == "pgs") {
+    fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
+    return;
+  }
+  fmt::print("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle,
+             options.pre, options.post, options.smoother, options.coarse);
+  if (below)
+    fmt::print("        levels below the coarsest mesh by {}\n", blocks ? "aggregation" : "classical coarsening");
 }
 
 template <int D, int B>
@@ -81,7 +90,8 @@ void check(const Scene& scene, const Registry& registry) {
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
-  print_solver(scene.solver);
+  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels.front().vertices()),
+               free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));
   print_warnings(fix_warnings(scene, hierarchy.finest(), model));

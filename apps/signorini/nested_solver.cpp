@@ -38,6 +38,13 @@ NearNullSpace near_null_space(const Mesh<D>& mesh) {
 
 }  // namespace
 
+std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices) {
+  if (!options.algebraic || vertices <= large_coarsest_mesh) return {};
+  const Coarsening wanted = algebraic_settings(options).coarsening;
+  if (wanted != Coarsening::automatic) return wanted;
+  return block > 1 ? Coarsening::aggregation : Coarsening::classical;
+}
+
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
                                  const Registry& registry, const Progress& progress, Times& times)
@@ -71,13 +78,13 @@ template <int D, int B>
 void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   if (continued_) return;
   continued_ = true;
-  if (!options_.algebraic || coarsest.A.size() <= large_coarsest_mesh) return;
+  const auto coarsening = coarsening_below(options_, B, coarsest.A.size());
+  if (!coarsening) return;
   Stopwatch watch;
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   const AlgebraicSettings settings = algebraic_settings(options_);
-  const bool aggregate =
-      settings.coarsening == Coarsening::aggregation || (B > 1 && settings.coarsening == Coarsening::automatic);
-  auto modes = aggregate ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
+  auto modes =
+      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes));
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),

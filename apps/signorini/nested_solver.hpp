@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "apps/signorini/progress.hpp"
@@ -7,6 +8,7 @@
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
+#include "core/solver/configuration.hpp"
 #include "core/solver/prolongation.hpp"
 #include "core/solver/solve.hpp"
 #include "core/solver/summary.hpp"
@@ -20,6 +22,9 @@ struct Solution {
   std::vector<double> x;
   Summary summary;
 };
+
+/// How levels below the coarsest mesh are chosen: classical or aggregation; nothing where there are none.
+std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices);
 
 /// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
 /// only.

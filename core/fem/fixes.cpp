@@ -68,6 +68,7 @@ class FixCollector {
     for (const Doubt& doubt : doubts_)
       if (doubt.by > same_value * largest_) vertices[{doubt.earlier, doubt.later}].insert(doubt.vertex);
     std::vector<FixConflict> result;
+    result.reserve(vertices.size());
     for (const auto& [fixes_of, where] : vertices)
       result.push_back({fixes_of.first, fixes_of.second, static_cast<Index>(where.size())});
     return result;

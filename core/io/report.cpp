@@ -55,7 +55,9 @@ Json probe(const ProbeReport& probe) {
 Json solver(const SolverOptions& options) {
   return {{"method", options.method},     {"cycle", options.cycle},       {"pre", options.pre},
           {"post", options.post},         {"smoother", options.smoother}, {"relaxation", options.relaxation},
-          {"transfer", options.transfer}, {"coarse", options.coarse},     {"truncate", options.truncate}};
+          {"transfer", options.transfer}, {"coarse", options.coarse},     {"truncate", options.truncate},
+          {"cut", options.cut},           {"rotate", options.rotate},     {"krylov", options.krylov},
+          {"threads", options.threads}};
 }
 
 Json levels(const Summary& summary) {

@@ -122,7 +122,7 @@ constexpr KeySpec solver[] = {
     {"method", text, "auto", "auto | monotone | tnnmg | pgs | pdas", "",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
      "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while "
-     "phases rest, after 60 cycles pdas for up to 150000 unknowns"},
+     "phases rest, pdas where cycles are slow and unknowns no more than 150000"},
     {"cycle", text, "V", "V | W | F", "", "shape of the cycle"},
     {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
     {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},

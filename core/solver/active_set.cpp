@@ -63,6 +63,15 @@ std::vector<signed char> ActiveSetIteration<B>::predicted() const {
 }
 
 template <int B>
+std::vector<signed char> ActiveSetIteration<B>::at_bounds() const {
+  std::vector<signed char> active(level_.constraints.lower.size(), 0);
+  visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
+    active[at] = y_[i] <= lower ? -1 : y_[i] >= upper ? 1 : 0;
+  });
+  return active;
+}
+
+template <int B>
 std::vector<signed char> ActiveSetIteration<B>::all_bounded() const {
   std::vector<signed char> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset, double lower, double upper) {
@@ -79,7 +88,7 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   if (steps_ == 1) {
     y_ = this->x_;
     r_y_ = this->r_before_;
-    active_.assign(level_.constraints.lower.size(), 0);
+    active_ = at_bounds();
   }
   const std::vector<signed char> last = std::exchange(active_, predicted());
   const bool changed = steps_ == 1 || active_ != last;

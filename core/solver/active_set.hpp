@@ -30,6 +30,7 @@ class ActiveSetIteration final : public Iteration<B> {
 
   void find_pattern();
   std::vector<signed char> predicted() const;
+  std::vector<signed char> at_bounds() const;
   std::vector<signed char> all_bounded() const;
   bool factorise();
   void solve_free();

@@ -51,6 +51,8 @@ Method check_options(const SolverOptions& o) {
   require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
   require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
   require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
+  require(o.cut == 0 || truncation_of(o) != Truncation::none, "cut", fmt::format("{}", o.cut),
+          "0 with truncate 'none'");
   require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
   require(o.threads >= 1 && o.threads <= 4096, "threads", fmt::format("{}", o.threads), "a number from 1 to 4096");
   const auto method = choice<Method>("method", o.method,

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,8 @@ class Iteration {
   /// Error(Exit::input) where a residual is not finite.
   static void refuse_nan(double residual);
   Index free_unknowns(const Level<B>& level) const;
+  /// How many times the residual or the error after the last step was larger than the tolerance.
+  double excess() const { return std::max(summary_.residual, summary_.algebraic_error) / options_.tolerance; }
 
   const DiscreteProblem<B>& problem_;
   const SolverOptions& options_;

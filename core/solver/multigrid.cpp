@@ -240,9 +240,9 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     const Flags critical = level.critical[slot] & static_cast<Flags>(~level.off[p]);
     report.critical += critical != 0;
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
-    report.changed += critical != level.phase[slot];
-    level.phase[slot] = critical;
     const Flags removed = level.off[p] | truncated(level, slot, critical);
+    report.changed += critical != level.phase[slot] || removed != level.removed[p];
+    level.phase[slot] = critical;
     if (removed == level.removed[p]) continue;
     level.removed[p] = removed;
     level.changed.push_back(p);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
 
 namespace signorini {
@@ -13,20 +14,11 @@ namespace {
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
 
-// Cycles after which "auto" lets corrections without bounds take turns while phases change, and after which it takes to
-// a direct solver: more than it needs where multigrid does its work. (Weights that are blocks share a distance among so
-// many components that corrections without bounds take turns from the first cycle on; but what they spread too far
-// comes back slowly, so that they have fewer turns while phases rest.)
-constexpr int patience_with_bounds = 10, patience_with_cycles = 60;
-// What a direct solver does in less than a minute and a few gigabytes, even for elasticity in space.
-constexpr Index most_unknowns_for_direct = 150'000;
-
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
 }
 
-// A cycle that changes so few phases is nearly a linear one.
-bool rests(const LevelReport& finest) { return 100 * finest.changed <= finest.critical; }
+bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic::resting_percent * finest.critical; }
 
 }  // namespace
 
@@ -40,7 +32,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
                  settings_of<B>(options)),
       recombination_(problem.constraints),
       blocks_(has_blocks(prolongations)),
-      may_turn_(method_ == Method::automatic && settings_of<B>(options).truncate != Truncation::none) {}
+      may_turn_(method_ == Method::automatic && automatic::may_turn(options)) {}
 
 template <int B>
 std::vector<Index> MultigridIteration<B>::unknowns() const {
@@ -76,20 +68,30 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   rests_ = rests(cycle.finest());
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
-  if (method_ == Method::automatic && cycles_ == patience_with_cycles &&
-      this->free_unknowns(finest()) <= most_unknowns_for_direct)
-    step.stuck = "the cycles converge too slowly";
+  if (method_ == Method::automatic && leaves_to_direct()) step.stuck = "the cycles converge too slowly";
   return step;
 }
 
+// By the rate of the last cycles, which may change: asked again from time to time.
+template <int B>
+bool MultigridIteration<B>::leaves_to_direct() const {
+  const int left = std::min(automatic::most_cycles, this->options_.max_iterations) - cycles_;
+  if (cycles_ < automatic::patience_with_cycles || cycles_ % 10 != 0 || cycles_ >= this->options_.max_iterations)
+    return false;
+  if (this->free_unknowns(finest()) > automatic::most_unknowns_for_direct) return false;
+  return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);
+}
+
 // Bounds of coarse corrections keep contact from spreading too far; where it rests they only hold back, and where they
-// are tight, as on algebraic levels, it spreads too slowly with them alone.
+// are tight, as on algebraic levels, it spreads too slowly with them alone. (Weights that are blocks share a distance
+// among so many components that corrections without bounds take turns from the first cycle on; but what they spread too
+// far comes back slowly, so that they have fewer turns while phases rest.)
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
   if (!may_turn_) return false;
   if (blocks_) return cycles_ % (rests_ ? 4 : 2) == 0;
-  return rests_ || (cycles_ >= patience_with_bounds && cycles_ % 2 == 0);
+  return rests_ || (cycles_ >= automatic::patience_with_bounds && cycles_ % 2 == 0);
 }
 
 template <int B>

@@ -23,6 +23,7 @@ class MultigridIteration final : public Iteration<B> {
   std::string method() const override;
   Step advance() override;
   bool goes_without_bounds() const;
+  bool leaves_to_direct() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
   void add_gain();

@@ -23,10 +23,12 @@ std::unique_ptr<Iteration<B>> iteration(const DiscreteProblem<B>& problem, std::
   return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, registry);
 }
 
-// Levels are counted from the coarsest; a method without coarser ones works on the finest.
+// Levels are counted from the coarsest; a method without coarser ones does nothing there.
 void add_coarser_levels(const Summary& before, IterationRecord& after) {
-  const std::size_t levels = before.level_unknowns.size();
-  if (after.levels.size() < levels) after.levels.insert(after.levels.begin(), levels - after.levels.size(), {});
+  std::vector<LevelReport> idle;
+  for (const LevelReport& level : before.history.back().levels) idle.push_back({.vectors = level.vectors});
+  if (after.levels.size() < idle.size())
+    after.levels.insert(after.levels.begin(), idle.begin(), idle.end() - static_cast<Offset>(after.levels.size()));
 }
 
 Summary joined(const Summary& before, Summary after) {
@@ -51,12 +53,22 @@ Summary go_on(const Summary& before, const std::string& method, const DiscretePr
   return loop->run(counted, before.iterations);
 }
 
-// All steps of a direct solve count as one: the energy may grow between them.
+// All steps of a direct solve count as one, with what they did in all: the energy may grow between them.
 Summary as_one_step(Summary direct, int before) {
   direct.reason += fmt::format(", after {} steps of a direct solver", direct.iterations);
-  direct.history.erase(direct.history.begin(), direct.history.end() - 1);
+  IterationRecord all = direct.history.back();
+  LevelReport& finest = all.levels.back();
+  all.changed = finest.changed = finest.renewed = 0;
+  finest.seconds = 0;
+  for (const IterationRecord& step : direct.history) {
+    const LevelReport& level = step.levels.back();
+    all.changed = finest.changed += level.changed;
+    finest.renewed += level.renewed;
+    finest.seconds += level.seconds;
+  }
+  all.iteration = before + 1;
+  direct.history = {all};
   direct.iterations = 1;
-  direct.history.front().iteration = before + 1;
   direct.linear_phase_from = 0;
   return direct;
 }
@@ -68,7 +80,9 @@ Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
                        const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
   const std::vector<double> start = x;
   try {
-    Summary direct = go_on(cycles, "pdas", problem, prolongations, x, options, registry, monitor);
+    SolverOptions own_limit = options;
+    own_limit.max_iterations += cycles.iterations;
+    Summary direct = go_on(cycles, "pdas", problem, prolongations, x, own_limit, registry, monitor);
     if (direct.converged()) return joined(cycles, as_one_step(std::move(direct), cycles.iterations));
     if (direct.outcome == Outcome::interrupted) return joined(cycles, std::move(direct));
   } catch (const Error&) {  // of a library that is not there

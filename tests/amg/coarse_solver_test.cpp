@@ -20,10 +20,10 @@ Level<B> level_of(const DiscreteProblem<B>& problem, std::vector<double>& x) {
 }
 
 template <int B>
-DiscreteProblem<B> without_conditions(BlockMatrix<B> A, std::vector<double> b) {
+DiscreteProblem<B> without_conditions(BlockMatrix<B> A, const std::vector<double>& b) {
   DiscreteProblem<B> problem;
   problem.A = std::move(A);
-  problem.b = std::move(b);
+  problem.b = b;
   problem.fixed.assign(static_cast<std::size_t>(problem.A.size()), 0);
   problem.start.assign(problem.b.size(), 0);
   return problem;

@@ -11,6 +11,7 @@
 
 namespace signorini::test {
 namespace {
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
@@ -114,6 +115,18 @@ TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
   EXPECT_THAT(written(), IsEmpty());
   ASSERT_EQ(signorini({"solve", "punch.toml", "--quiet", "--out", "o"}).status, 0);
   EXPECT_THAT(ended.out, HasSubstr(report("o").at("unknowns").dump() + " unknowns"));
+}
+
+TEST_F(CommandLine, CheckPrintsTheRulesThatAreInForce) {
+  write("membrane.toml", membrane);
+  const auto checked = [&](const char* option) {
+    const Ended ended = signorini({"check", "membrane.toml", "--set", option});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.out;
+  };
+  EXPECT_THAT(checked("solver.method=auto"), AllOf(HasSubstr("auto: monotone, tnnmg"), HasSubstr("; pdas after")));
+  EXPECT_THAT(checked("solver.truncate=none"), testing::Not(HasSubstr("tnnmg")));
+  EXPECT_THAT(checked("solver.method=pgs"), testing::Not(HasSubstr("V-cycle")));
 }
 
 TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {

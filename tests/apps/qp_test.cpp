@@ -12,7 +12,6 @@ namespace signorini::test {
 namespace {
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::StartsWith;
 using testing::UnorderedElementsAre;
 

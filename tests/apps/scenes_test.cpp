@@ -12,7 +12,7 @@ const fs::path scenes = fs::path(SIGNORINI_SOURCE_DIR) / "apps/scenes";
 /// The scenes that are shipped, against the formulas in their comments.
 class Scenes : public Program {
  protected:
-  nlohmann::json solve(const std::string& scene, std::vector<std::string> overrides) const {
+  nlohmann::json solve(const std::string& scene, const std::vector<std::string>& overrides) const {
     std::vector<std::string> arguments{"solve", (scenes / scene).string(), "--out", "o", "--quiet",
                                        "--set", "output.pictures=false"};
     for (const auto& override : overrides) arguments.insert(arguments.end(), {"--set", override});

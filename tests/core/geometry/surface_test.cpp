@@ -128,6 +128,7 @@ TEST(Surface, IsTheSameFromManyThreads) {
   std::vector<std::vector<double>> values(4);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(values.size());
     for (auto& mine : values)
       threads.emplace_back([&] {
         Status status;

@@ -140,7 +140,7 @@ TEST_F(MeshFile, WrittenVtuIsReadBack) {
 TEST_F(MeshFile, PathsThatCannotBeUsedAreNamed) {
   EXPECT_THAT(input_error_of([&] { read_any_mesh(folder_ / "no.msh"); }), HasSubstr("no.msh: no such"));
   EXPECT_THAT(input_error_of([&] { read_any_mesh(folder_); }), HasSubstr("not a file"));
-  std::ofstream(folder_ / "empty.msh");
+  std::ofstream(folder_ / "empty.msh") << "";
   EXPECT_THAT(input_error_of([&] { read_any_mesh(folder_ / "empty.msh"); }), HasSubstr("empty"));
   std::ofstream(folder_ / "noise.msh") << "solid";
   EXPECT_THAT(input_error_of([&] { read_any_mesh(folder_ / "noise.msh"); }), HasSubstr("$MeshFormat"));

@@ -224,6 +224,7 @@ TEST(Options, OutOfRangeAreRefusedWithTheirNames) {
   refused("transfer", [](O& o) { o.transfer = "none"; });
   refused("truncate", [](O& o) { o.method = "tnnmg", o.truncate = "none"; });
   refused("cut", [](O& o) { o.cut = -0.1; });
+  refused("cut", [](O& o) { o.cut = 0.1, o.truncate = "none"; });
   for (const double factor : {0.0, 2.0, -1.0, std::nan("")})
     refused("relaxation", [=](O& o) { o.relaxation = factor; });
   refused("newtoon", [](O& o) { o.coarse = "newtoon"; });

@@ -1,5 +1,6 @@
 // All combinations of method, restriction and smoother reach one solution with falling energies; what "auto" chooses.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/core/solver/cases.hpp"
@@ -97,9 +98,38 @@ TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
   for (std::size_t k = 0; k < summary.history.size(); ++k) {
     EXPECT_EQ(summary.history[k].iteration, static_cast<int>(k) + 1);
     EXPECT_EQ(summary.history[k].levels.size(), summary.level_unknowns.size());
+    EXPECT_EQ(summary.history[k].levels.front().vectors, nested.levels.front().A.size());
   }
+  // The statistics of the last record are those of all steps of the direct solve.
+  const LevelReport& direct = summary.history.back().levels.back();
+  EXPECT_GE(direct.changed, direct.critical);
+  EXPECT_GT(direct.critical, 0);
+  EXPECT_GE(direct.renewed, direct.vectors);
   const Reference exact = reference(nested.finest());
   EXPECT_LE((vector(x) - exact.x).norm(), 1e-6 * exact.x.norm());
+  // Its steps do not count for the limit; where that is as large as the patience with cycles, it is what ends them.
+  SolverOptions options;
+  options.max_iterations = summary.iterations;
+  EXPECT_TRUE(solve_from_zero(nested, x, options).converged());
+  options.max_iterations = summary.iterations - 1;
+  const Summary limited = solve_from_zero(nested, x, options);
+  EXPECT_EQ(limited.outcome, Outcome::iteration_limit);
+  EXPECT_THAT(limited.reason, testing::HasSubstr("iteration limit"));
+}
+
+// Slow, but done long before a direct solver would be worth it.
+TEST(Automatic, KeepsCyclesThatWillEnd) {
+  Model<2> model = resting_block<2>({0, -1e-3}, {});
+  model.poisson = Field(0.49);
+  model.fixes = {{on("left"), {Field(0), Field(0)}}};
+  Mesh<2> mesh = cube<2>(0, 1, 4);
+  for (auto& point : mesh.points) point[0] *= 4;
+  const auto nested = discretize_all<2, 2>(mesh, 3, model);
+  std::vector<double> x;
+  const Summary summary = solve_from_zero(nested, x);
+  EXPECT_TRUE(summary.converged()) << summary.reason;
+  EXPECT_GT(summary.iterations, 60);
+  EXPECT_THAT(summary.options.method, testing::Not(testing::HasSubstr("pdas")));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class Sphere final : public DistanceFunction {
 /// The same answer everywhere.
 class Constant final : public DistanceFunction {
  public:
-  Constant(Distance distance, Status status = {}) : distance_(distance), status_(status) {}
+  explicit Constant(Distance distance, Status status = {}) : distance_(distance), status_(status) {}
   Distance at(const double*, const double*, Status& status) const noexcept override {
     if (!status_.ok()) status = status_;
     return distance_;
@@ -50,8 +50,9 @@ class Contact {
  public:
   explicit Contact(std::shared_ptr<const DistanceFunction> shape, const std::string& normal = "obstacle") {
     PluginLoader(registry_).require("contact");
-    settings_ = compile_settings("obstacle 'contact'", registry_.entry("obstacle", "contact").options,
-                                 {"scene.toml:1: obstacle.0", {{"normal", {normal, "scene.toml:2"}}}}, {}, shape);
+    settings_ =
+        compile_settings("obstacle 'contact'", registry_.entry("obstacle", "contact").options,
+                         {"scene.toml:1: obstacle.0", {{"normal", {normal, "scene.toml:2"}}}}, {}, std::move(shape));
     const ObstacleType& type = registry_.obstacle("contact");
     if constexpr (B == 2)
       obstacle_.reset(type.create2(*settings_, status));

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+
+#include "core/base/types.hpp"
+#include "core/solver/options.hpp"
+
+namespace signorini {
+
+/// The rules of method "auto" (docs/solver.md).
+namespace automatic {
+
+/// Cycles after which corrections without bounds take turns while phases change: more than it needs where multigrid
+/// does its work.
+inline constexpr int patience_with_bounds = 10;
+/// Cycles after which a direct solver is thought of, where there would be more than most_cycles or max_iterations.
+inline constexpr int patience_with_cycles = 60, most_cycles = 200;
+/// What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
+inline constexpr Index most_unknowns_for_direct = 150'000;
+/// A cycle that changes no more of the phases is nearly a linear one.
+inline constexpr int resting_percent = 1;
+
+/// Corrections without bounds need truncation.
+bool may_turn(const SolverOptions& options);
+
+/// What the rules come down to for a problem.
+/// @param blocks weights of algebraic levels are blocks: smoothed aggregation
+/// @param unknowns on the finest level
+std::string describe(const SolverOptions& options, bool blocks, Offset unknowns);
+
+}  // namespace automatic
+
+}  // namespace signorini
