@@ -107,7 +107,7 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   }
   this->sums_ = this->evaluate(this->x_, this->r_);
   this->refuse_nan(this->sums_.natural_residual);
-  if (solved) step.error = std::sqrt(std::max(this->sums_.correction, 0.0));
+  if (solved) step.error = std::sqrt(std::abs(this->sums_.correction));
   step.levels = {report(last)};
   step.levels.front().renewed = changed ? level_.vectors : 0;
   step.levels.front().seconds = seconds() - begin;

@@ -8,7 +8,7 @@
 namespace signorini {
 
 void ErrorEstimate::add(double gain, double correction) {
-  gain = std::max(gain, 0.0);
+  gain = std::abs(gain);  // a negative one is rounding, which hides as much
   constexpr double slowest = 0.999;
   constexpr double caution = 1.1;  // the last gains are the fast components', what is left the slow ones
   // Until there are two gains nothing is known of the rate: a middling one, 0.7.
