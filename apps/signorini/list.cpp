@@ -7,6 +7,7 @@
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
 #include "core/component/plugin_loader.hpp"
+#include "core/scene/specs.hpp"
 
 namespace signorini {
 namespace {
@@ -29,7 +30,9 @@ const char* type_name(OptionType type) {
   return "";
 }
 
-void print_option(const OptionSpec& option) {
+/// Of an option of a component, or a key of a scene.
+template <class Spec>
+void print_option(const Spec& option) {
   std::string type = type_name(option.type);
   if (*option.range) type += fmt::format(" in {}", option.range);
   if (*option.fallback) type += fmt::format(", default {}", option.fallback);
@@ -60,11 +63,17 @@ void print_kind(const Kind& kind, const Catalogue& all) {
     }
   if (none) fmt::print("  none in this version\n");
 }
+constexpr const char* solver = "solver";  // no component: what puts the components together
+
+void print_solver() {
+  fmt::print("{}\n  {:<16} {}\n", solver, "[solver]", "keys of the scene's table, --set solver.KEY=VALUE");
+  for (const KeySpec& key : find_table(solver)->keys) print_option(key);
+}
 }  // namespace
 
 const std::vector<std::string>& listable_kinds() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> result;
+    std::vector<std::string> result{solver};
     for (const Kind& kind : kinds_table) result.emplace_back(kind.plural);
     return result;
   }();
@@ -75,6 +84,7 @@ void list_command(const std::string& kinds) {
   Registry registry = solver_components();
   PluginLoader loader(registry);
   const Catalogue all = catalogue(registry, loader);
+  if (kinds.empty() || kinds == solver) print_solver();
   for (const Kind& kind : kinds_table)
     if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);
   if (!kinds.empty() && kinds != "obstacles") return;

@@ -140,7 +140,8 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
 }
 
 CLI::App* add_list(CLI::App& app, Arguments& arguments) {
-  auto* command = app.add_subcommand("list", "show registered components, their options and the files they come from");
+  auto* command = app.add_subcommand(
+      "list", "show the solver's options, and registered components with theirs and the files they come from");
   command->add_option("KIND", arguments.list_kinds, "one kind of component only; default: all")
       ->check(one_of(listable_kinds()));
   command->footer(list_exit_status);

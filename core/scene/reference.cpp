@@ -5,7 +5,6 @@
 #include "core/scene/specs.hpp"
 
 namespace signorini {
-namespace {
 
 const char* type_name(KeyType type) {
   switch (type) {
@@ -38,6 +37,8 @@ const char* type_name(KeyType type) {
   }
   return "";
 }
+
+namespace {
 
 std::string escaped(std::string_view text) {
   std::string result;

@@ -24,6 +24,9 @@ enum class KeyType {
 
 inline constexpr std::string_view every_value = "*";  ///< the key itself
 
+/// In a word or two: "whole number".
+const char* type_name(KeyType type);
+
 /// One key of a scene. The tables of these are the only place that knows them: validation, messages and the reference
 /// come from here.
 struct KeySpec {

@@ -103,6 +103,10 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   const Ended smoothers = signorini({"list", "smoothers"});
   EXPECT_THAT(smoothers.out, HasSubstr("symmetric"));
   EXPECT_THAT(smoothers.out, testing::Not(HasSubstr("contact")));
+  EXPECT_THAT(
+      signorini({"list", "solver"}).out,
+      AllOf(HasSubstr("krylov         accelerate the cycles while the phases rest (true or false, default true)"),
+            HasSubstr("(text in V | W | F, default V)"), HasSubstr("whole number in [1, 1000000], default 200")));
 }
 
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
