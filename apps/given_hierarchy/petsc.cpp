@@ -4,7 +4,8 @@
 //     min 1/2 a(u, u) - f(u)   over u >= floor,   a(u, v) = integral of k grad u . grad v,
 //
 // with finite volumes on the unit square. PETSc sets up its levels for the matrix alone, as for a linear system. Their
-// interpolations are what the nonlinear solver takes; its solution is compared with that on levels of its own.
+// interpolations and matrices are what the nonlinear solver takes; its solution is compared with that on levels of its
+// own.
 //
 //     signorini_petsc_hierarchy [NODES [FOLDER]] [PETSc's options]
 //
@@ -88,8 +89,8 @@ std::vector<SparseRows> rows_of(PetscInt count, Mat* matrices) {
 /// What a linear multigrid code has made.
 struct Hierarchy {
   std::string code;
-  int iterations = 0;                      ///< of conjugate gradients with it, for a constant load
-  std::vector<SparseRows> interpolations;  ///< coarsest first
+  int iterations = 0;                                ///< of conjugate gradients with it, for a constant load
+  std::vector<SparseRows> interpolations, matrices;  ///< coarsest first
 };
 
 Hierarchy linear_multigrid(Mat A) {
@@ -110,11 +111,12 @@ Hierarchy linear_multigrid(Mat A) {
 
   PCType code = nullptr;
   PetscInt iterations = 0, levels = 0;
-  Mat* interpolations = nullptr;
+  Mat *interpolations = nullptr, *matrices = nullptr;
   check(PCGetType(preconditioner, &code));
   check(KSPGetIterationNumber(solver, &iterations));
   check(PCGetInterpolations(preconditioner, &levels, &interpolations));
-  Hierarchy out{code, static_cast<int>(iterations), rows_of(levels - 1, interpolations)};
+  check(PCGetCoarseOperators(preconditioner, &levels, &matrices));
+  Hierarchy out{code, static_cast<int>(iterations), rows_of(levels - 1, interpolations), rows_of(levels - 1, matrices)};
   check(VecDestroy(&x));
   check(VecDestroy(&b));
   check(KSPDestroy(&solver));
@@ -142,7 +144,7 @@ int solve(int nodes, const char* folder) {
   const double h = 1.0 / (nodes + 1);
   const std::vector<double> b(static_cast<std::size_t>(A.rows), -h * h), lower(b.size(), -0.01);
   if (folder) write(folder, A, b, lower, levels);
-  const auto result = BlackBox(A, levels.interpolations).solve(b, lower);
+  const auto result = BlackBox(A, levels.interpolations, 1, {}, levels.matrices).solve(b, lower);
   const auto own = BlackBox(A).solve(b, lower);
 
   double difference = 0;
