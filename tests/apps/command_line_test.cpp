@@ -102,6 +102,11 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   const Ended smoothers = signorini({"list", "smoothers"});
   EXPECT_THAT(smoothers.out, HasSubstr("symmetric"));
   EXPECT_THAT(smoothers.out, testing::Not(HasSubstr("contact")));
+  const Ended amg = signorini({"list", "amg"});
+  for (const char* text :
+       {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)", "all | twins",
+        "global | local", "(true or false, default true)", "from " SIGNORINI_BINARY_DIR "/bin/signorini"})
+    EXPECT_THAT(amg.out, HasSubstr(text));
 }
 
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
