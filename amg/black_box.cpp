@@ -50,7 +50,11 @@ void check_near_null(const NearNullSpace& near_null, Index rows, Coarsening coar
 
 class BlackBox::Solver {
  public:
-  using Given = std::optional<std::span<const SparseRows>>;  // none: levels chosen by the matrix
+  /// Levels of another code.
+  struct GivenLevels {
+    std::span<const SparseRows> interpolations, matrices;
+  };
+  using Given = std::optional<GivenLevels>;  // none: levels chosen by the matrix
 
   virtual ~Solver() = default;
   virtual void set_tolerance(double tolerance) = 0;
@@ -73,7 +77,7 @@ class BlackBox::BlockSolver final : public Solver {
     check_options(options_);
     check_near_null(near_null, A.rows, coarsening_of(options_));
     levels_ =
-        given ? galerkin_hierarchy<B>(problem_, given_levels(*given, problem_.A.size()), transfer())
+        given ? take(*given)
               : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_), near_null);
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
@@ -96,6 +100,12 @@ class BlackBox::BlockSolver final : public Solver {
  private:
   TransferFactory<B> transfer() const {
     return [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  }
+
+  AlgebraicLevels<B> take(const GivenLevels& given) const {
+    std::vector<Prolongation> levels = given_levels(given.interpolations, problem_.A.size());
+    std::vector<BlockMatrix<B>> matrices = given_matrices<B>(problem_.A, levels, given.matrices);
+    return galerkin_hierarchy<B>(problem_, std::move(levels), transfer(), {}, std::move(matrices));
   }
 
   /// @param levels for the bounds of the problem
@@ -149,8 +159,8 @@ BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options,
     : solver_(Solver::create(A, {}, block, options, near_null)) {}
 
 BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block,
-                   const SolverOptions& options)
-    : solver_(Solver::create(A, interpolations, block, options)) {}
+                   const SolverOptions& options, std::span<const SparseRows> coarse_matrices)
+    : solver_(Solver::create(A, Solver::GivenLevels{interpolations, coarse_matrices}, block, options)) {}
 
 BlackBox::~BlackBox() = default;
 BlackBox::BlackBox(BlackBox&&) noexcept = default;

@@ -37,9 +37,14 @@ class BlackBox {
 
   /// Levels by the interpolations of another linear multigrid code, coarsest first: one row per fine vector, one column
   /// per coarse one, weights of any sign. With blocks, a vector is a block, all of whose components are interpolated
-  /// alike. None at all is a single level.
+  /// alike, by a scalar weight. None at all is a single level.
+  /// @param coarse_matrices of that code, one for each interpolation, in the same order; none: they are computed. Only
+  ///     Galerkin products P'AP of the next finer matrix will do: with others a cycle may raise the energy. Where
+  ///     phases are truncated their rows are computed anew in any case.
+  /// @throws Error(Exit::input) for a matrix as above, and naming the interpolation or the coarse matrix that does not
+  ///     fit
   BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block = 1,
-           const SolverOptions& options = {});
+           const SolverOptions& options = {}, std::span<const SparseRows> coarse_matrices = {});
 
   ~BlackBox();
   BlackBox(BlackBox&&) noexcept;

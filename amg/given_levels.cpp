@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
+#include <random>
 
+#include "amg/block_rows.hpp"
+#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/weights.hpp"
 
 namespace signorini {
 namespace {
+
+// Of a component of the product with a random vector, relative to the sum of the moduli that it is made of.
+constexpr double rounding = 1e-10;
+
+std::string name(const char* what, std::size_t k, std::size_t count) {
+  return fmt::format("{} {} of {}, coarsest first", what, k + 1, count);
+}
 
 Prolongation prolongation(const SparseRows& P) {
   Prolongation out;
@@ -25,13 +37,68 @@ Prolongation prolongation(const SparseRows& P) {
   return out;
 }
 
+/// y = P'AP z
+template <int B>
+std::vector<double> galerkin_product(const BlockMatrix<B>& A, const Prolongation& P, const std::vector<double>& z) {
+  std::vector<double> fine(Offset{P.fine()} * B), image(fine.size()), y(z.size());
+  const auto weight = [&](Offset k) { return weights::Scalar<B>{P.weight[k]}; };
+  for (Index p = 0; p < P.fine(); ++p) weights::interpolate<B>(P, weight, p, z.data(), fine.data() + Offset{p} * B);
+  product(A, fine.data(), image.data());
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
+      weight(k).add_force(image.data() + Offset{p} * B, y.data() + Offset{P.column[k]} * B);
+  return y;
+}
+
+template <class Values>
+void replace_by_moduli(Values& values) {
+  for (double& v : values) v = std::abs(v);
+}
+
+/// What bounds the rounding errors of galerkin_product().
+template <int B>
+std::vector<double> product_of_moduli(BlockMatrix<B> A, Prolongation P, std::vector<double> z) {
+  replace_by_moduli(A.value);
+  replace_by_moduli(P.weight);
+  replace_by_moduli(z);
+  return galerkin_product(A, P, z);
+}
+
+template <int B>
+void require_galerkin(const BlockMatrix<B>& A, const Prolongation& P, const BlockMatrix<B>& coarse,
+                      const std::string& place) {
+  std::vector<double> z(Offset{P.coarse} * B), found(z.size());
+  std::minstd_rand random;
+  for (double& value : z) value = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+  product(coarse, z.data(), found.data());
+  const std::vector<double> expected = galerkin_product(A, P, z), size = product_of_moduli(A, P, z);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (!(std::abs(found[i] - expected[i]) <= rounding * size[i]))
+      input_error(place,
+                  fmt::format("is not the Galerkin product P'AP of the next finer matrix, see row {}; leave coarse "
+                              "matrices out, and the products are computed",
+                              i + 1));
+}
+
+template <int B>
+BlockMatrix<B> coarse_matrix(const SparseRows& matrix, const Prolongation& P, const std::string& place) {
+  if (matrix.rows != P.coarse * B)
+    input_error(place, fmt::format("found {} rows, expected {}, the number of columns of the interpolation{}",
+                                   matrix.rows, P.coarse * B, B > 1 ? " times the block size" : ""));
+  try {
+    return block_matrix<B>(matrix);
+  } catch (const Error& error) {
+    throw Error(error.status(), fmt::format("{}: {}", place, error.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<Prolongation> given_levels(std::span<const SparseRows> interpolations, Index vectors) {
   std::vector<Prolongation> out;
   for (std::size_t k = 0; k < interpolations.size(); ++k) {
     const SparseRows& P = interpolations[k];
-    const std::string place = fmt::format("interpolation {} of {}, coarsest first", k + 1, interpolations.size());
+    const std::string place = name("interpolation", k, interpolations.size());
     check_entries(P, place);
     const bool finest = k + 1 == interpolations.size();
     const Index expected = finest ? vectors : interpolations[k + 1].columns;
@@ -43,5 +110,28 @@ std::vector<Prolongation> given_levels(std::span<const SparseRows> interpolation
   }
   return out;
 }
+
+template <int B>
+std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, std::span<const Prolongation> levels,
+                                           std::span<const SparseRows> matrices) {
+  if (matrices.empty()) return {};
+  if (matrices.size() != levels.size())
+    input_error("coarse matrices",
+                fmt::format("found {}, expected {}, one for each interpolation", matrices.size(), levels.size()));
+  std::vector<BlockMatrix<B>> out;
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    out.push_back(coarse_matrix<B>(matrices[k], levels[k], name("coarse matrix", k, levels.size())));
+  for (std::size_t k = levels.size(); k-- > 0;)
+    require_galerkin(k + 1 < levels.size() ? out[k + 1] : A, levels[k], out[k],
+                     name("coarse matrix", k, levels.size()));
+  return out;
+}
+
+template std::vector<BlockMatrix<1>> given_matrices(const BlockMatrix<1>&, std::span<const Prolongation>,
+                                                    std::span<const SparseRows>);
+template std::vector<BlockMatrix<2>> given_matrices(const BlockMatrix<2>&, std::span<const Prolongation>,
+                                                    std::span<const SparseRows>);
+template std::vector<BlockMatrix<3>> given_matrices(const BlockMatrix<3>&, std::span<const Prolongation>,
+                                                    std::span<const SparseRows>);
 
 }  // namespace signorini

@@ -1,11 +1,14 @@
 #include "amg/hierarchy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "amg/classical.hpp"
 #include "amg/mode_aggregation.hpp"
 #include "amg/reach.hpp"
 #include "amg/smoothed_aggregation.hpp"
+#include "core/base/error.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -13,6 +16,24 @@ namespace signorini {
 namespace {
 
 constexpr double progress = 0.8;  // coarse over fine vectors above which coarsening has ended
+
+/// The values of a matrix at its places in the wider pattern of the product that it is.
+template <int B>
+void fill_in(const BlockMatrix<B>& known, BlockMatrix<B>& product) {
+  for (Index q = 0; q < known.size(); ++q) {
+    Offset m = product.row[q];
+    const Offset end = product.row[q + 1];
+    for (Offset k = known.row[q]; k < known.row[q + 1]; ++k) {
+      while (m < end && product.column[m] != known.column[k]) ++m;
+      if (m == end)
+        input_error(
+            fmt::format("coarse matrix of {} rows", known.size() * B),
+            fmt::format("rows {} and {} are coupled, but not in the Galerkin product P'AP of the next finer one",
+                        q * B + 1, known.column[k] * B + 1));
+      std::copy_n(known.at(k), B * B, product.at(m));
+    }
+  }
+}
 
 /// Goes down from level to level.
 template <int B>
@@ -25,14 +46,18 @@ class Descent {
 
   const Level<B>& level() const { return level_; }
 
-  void go_down(Prolongation P, Transfer<B>& transfer) {
+  /// @param known the coarse matrix; null: to be computed
+  void go_down(Prolongation P, Transfer<B>& transfer, const BlockMatrix<B>* known = nullptr) {
     P.algebraic = true;
     P.local = settings_.local;
     if (settings_.only_twins) reach_from_twins(level_.constraints.slot, P);
     Level<B> coarse;
     transfer.prepare(level_, P, true, coarse);
     coarse.clear_phases();
-    transfer.assemble(level_, coarse);
+    if (known)
+      fill_in(*known, coarse.own_matrix);
+    else
+      transfer.assemble(level_, coarse);
     leave();
     prolongations_.push_back(std::move(P));
     level_ = std::move(coarse);
@@ -97,10 +122,11 @@ AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const 
 
 template <int B>
 AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
-                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings) {
+                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings,
+                                      std::vector<BlockMatrix<B>> known) {
   Descent<B> descent(problem, settings);
-  for (; !prolongations.empty(); prolongations.pop_back())
-    descent.go_down(std::move(prolongations.back()), *transfer());
+  for (std::size_t k = prolongations.size(); k-- > 0;)
+    descent.go_down(std::move(prolongations[k]), *transfer(), known.empty() ? nullptr : &known[k]);
   return std::move(descent).levels();
 }
 
@@ -111,10 +137,13 @@ template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const
 template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index,
                                                 const AlgebraicSettings&, NearNullSpace);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
-                                               const TransferFactory<1>&, const AlgebraicSettings&);
+                                               const TransferFactory<1>&, const AlgebraicSettings&,
+                                               std::vector<BlockMatrix<1>>);
 template AlgebraicLevels<2> galerkin_hierarchy(const DiscreteProblem<2>&, std::vector<Prolongation>,
-                                               const TransferFactory<2>&, const AlgebraicSettings&);
+                                               const TransferFactory<2>&, const AlgebraicSettings&,
+                                               std::vector<BlockMatrix<2>>);
 template AlgebraicLevels<3> galerkin_hierarchy(const DiscreteProblem<3>&, std::vector<Prolongation>,
-                                               const TransferFactory<3>&, const AlgebraicSettings&);
+                                               const TransferFactory<3>&, const AlgebraicSettings&,
+                                               std::vector<BlockMatrix<3>>);
 
 }  // namespace signorini

@@ -34,8 +34,12 @@ AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const 
 
 /// The matrices of given levels, whose interpolations are changed to what the settings want.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`
+/// @param known these matrices, where they need not be computed, for interpolations that the settings leave as they are
+///     and problems without frames and prescribed components
+/// @throws Error(Exit::input) where a known matrix has an entry that the product has not
 template <int B>
 AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::vector<Prolongation> prolongations,
-                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings = {});
+                                      const TransferFactory<B>& transfer, const AlgebraicSettings& settings = {},
+                                      std::vector<BlockMatrix<B>> known = {});
 
 }  // namespace signorini

@@ -2,10 +2,26 @@
 
 #include "amg/coarse_newton.hpp"
 #include "amg/direct.hpp"
+#include "core/scene/specs.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
 
 namespace signorini {
+namespace {
+
+/// Keys of [solver] that concern algebraic levels.
+std::vector<OptionSpec> options_of_levels() {
+  std::vector<OptionSpec> out;
+  const auto keys = find_table("solver")->keys;
+  for (const char* name : {"coarsening", "reassemble", "reach", "interpolate", "rotate"}) {
+    const KeySpec& key = *find_key(keys, name);
+    const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
+    out.push_back({key.name, type, key.fallback, key.range, key.help});
+  }
+  return out;
+}
+
+}  // namespace
 
 void register_coarse_solvers(Registry& registry) {
   const std::string file = file_of(reinterpret_cast<const void*>(&register_coarse_solvers));
@@ -30,12 +46,29 @@ void register_direct_solvers(Registry& registry) {
       {"direct", "cholmod", "supernodal Cholesky factorisation, for method \"pdas\"", {}, file, {}}, cholmod_solver);
 }
 
+void register_coarsenings(Registry& registry) {
+  const std::string file = file_of(reinterpret_cast<const void*>(&register_coarsenings));
+  registry.add<>({"amg",
+                  "classical",
+                  "strength of connection and extended interpolation from some of the vectors",
+                  options_of_levels(),
+                  file,
+                  {}});
+  registry.add<>({"amg",
+                  "aggregation",
+                  "smoothed aggregation, which represents a near null space such as rigid body modes",
+                  options_of_levels(),
+                  file,
+                  {}});
+}
+
 Registry solver_components() {
   Registry registry;
   register_smoothers(registry);
   register_transfers(registry);
   register_coarse_solvers(registry);
   register_direct_solvers(registry);
+  register_coarsenings(registry);
   return registry;
 }
 

@@ -1,11 +1,14 @@
 #include "amg/signorini.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <concepts>
 #include <new>
 
 #include "amg/black_box.hpp"
 #include "core/base/error.hpp"
+#include "core/scene/solver_options.hpp"
 
 struct signorini_solver {
   signorini::BlackBox solver;
@@ -16,7 +19,9 @@ namespace {
 
 using signorini::BlackBox;
 using signorini::Error;
+using signorini::NearNullSpace;
 using signorini::Outcome;
+using signorini::SparseRows;
 
 thread_local std::string message;
 
@@ -51,18 +56,74 @@ void require(const void* pointer, const char* name) {
 }
 
 template <std::integral Position>
-int create(std::int32_t rows, const Position* row, const std::int32_t* column, const double* value, int block,
-           signorini_solver** solver) noexcept {
+SparseRows copy_of(std::int32_t rows, std::int32_t columns, const Position* row, const std::int32_t* column,
+                   const double* value) {
+  require(row, "row");
+  if (rows > 0 && row[rows] > 0) {
+    require(column, "column");
+    require(value, "value");
+  }
+  return {rows, columns, row, column, value};
+}
+
+std::vector<SparseRows> copies_of(const signorini_rows* matrices, std::int32_t count) {
+  std::vector<SparseRows> out;
+  for (std::int32_t k = 0; k < count; ++k)
+    out.push_back(
+        copy_of(matrices[k].rows, matrices[k].columns, matrices[k].row, matrices[k].column, matrices[k].value));
+  return out;
+}
+
+signorini::SolverOptions options_of(const char* const* settings) {
+  std::vector<std::string> assignments;
+  for (; settings && *settings; ++settings) assignments.push_back(std::string("solver.") + *settings);
+  try {
+    return signorini::solver_options(assignments);
+  } catch (const Error& error) {  // that names the place as on the command line
+    const std::string_view text = error.what(), flag = "--set ";
+    throw Error(error.status(), std::string(text.starts_with(flag) ? text.substr(flag.size()) : text));
+  }
+}
+
+NearNullSpace near_null_of(const signorini_setup& setup, std::int32_t rows, int block) {
+  const auto values = [](const double* array, std::int32_t vectors, std::int32_t per_vector) {
+    return std::vector<double>(array, array + std::max<std::ptrdiff_t>(vectors, 0) * per_vector);
+  };
+  if (setup.modes != 0 || setup.near_null) {
+    if (setup.coordinates) signorini::input_error("near_null", "given with coordinates, expected one of them");
+    if (setup.modes < 1 || setup.modes > signorini::most_modes)
+      signorini::input_error("modes", fmt::format("found {}, expected 1 to {}", setup.modes, signorini::most_modes));
+    require(setup.near_null, "near_null");
+    return {setup.modes, values(setup.near_null, rows, setup.modes)};
+  }
+  if (!setup.coordinates) return {};
+  if (block != 2 && block != 3)
+    signorini::input_error("coordinates", fmt::format("given for blocks of {}, expected 2 or 3 unknowns", block));
+  const std::vector<double> coordinates = values(setup.coordinates, rows / block, block);
+  return block == 2 ? signorini::rigid_body_modes<2>(coordinates) : signorini::rigid_body_modes<3>(coordinates);
+}
+
+BlackBox box_of(const SparseRows& A, int block, const signorini_setup& setup) {
+  const signorini::SolverOptions options = options_of(setup.settings);
+  const NearNullSpace near_null = near_null_of(setup, A.rows, block);
+  if (setup.levels == 0) return BlackBox(A, block, options, near_null);
+  if (setup.levels < 0) signorini::input_error("levels", fmt::format("found {}, expected 0 or more", setup.levels));
+  if (near_null.modes > 0)
+    signorini::input_error("interpolations", "given with a near null space, which has no use for them");
+  require(setup.interpolations, "interpolations");
+  return BlackBox(A, copies_of(setup.interpolations, setup.levels), block, options,
+                  copies_of(setup.coarse_matrices, setup.coarse_matrices ? setup.levels : 0));
+}
+
+/// @param matrix makes a copy of the matrix
+template <class Matrix>
+int create(const Matrix& matrix, int block, const signorini_setup& setup, signorini_solver** solver) noexcept {
   if (solver) *solver = nullptr;
   return guarded([&] {
     require(solver, "solver");
-    require(row, "row");
-    if (rows > 0 && row[rows] > 0) {
-      require(column, "column");
-      require(value, "value");
-    }
-    BlackBox box(signorini::SparseRows(rows, rows, row, column, value), block);
-    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(rows)};
+    const SparseRows A = matrix();
+    BlackBox box = box_of(A, block, setup);
+    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows)};
     return report(SIGNORINI_SOLVED, "set up");
   });
 }
@@ -92,12 +153,21 @@ signorini_summary summary_of(const signorini::Summary& s) {
 
 int signorini_create(std::int32_t rows, const std::int32_t* row, const std::int32_t* column, const double* value,
                      int block, signorini_solver** solver) {
-  return create(rows, row, column, value, block, solver);
+  return create([&] { return copy_of(rows, rows, row, column, value); }, block, {}, solver);
 }
 
 int signorini_create64(std::int32_t rows, const std::int64_t* row, const std::int32_t* column, const double* value,
                        int block, signorini_solver** solver) {
-  return create(rows, row, column, value, block, solver);
+  return create([&] { return copy_of(rows, rows, row, column, value); }, block, {}, solver);
+}
+
+int signorini_create_with(const signorini_rows* matrix, int block, const signorini_setup* setup,
+                          signorini_solver** solver) {
+  const auto copy = [&] {
+    require(matrix, "matrix");
+    return copies_of(matrix, 1).front();
+  };
+  return create(copy, block, setup ? *setup : signorini_setup{}, solver);
 }
 
 int signorini_solve(signorini_solver* solver, const double* b, const double* lower, const double* upper,

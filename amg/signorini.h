@@ -45,6 +45,34 @@ int signorini_create(int32_t rows, const int32_t* row, const int32_t* column, co
 int signorini_create64(int32_t rows, const int64_t* row, const int32_t* column, const double* value, int block,
                        signorini_solver** solver);
 
+/* Sparse rows as above: entries row[i] to row[i + 1] - 1 of `column` (from 0) and `value` are those of row i. */
+typedef struct {
+  int32_t rows, columns;
+  const int64_t* row;
+  const int32_t* column;
+  const double* value;
+} signorini_rows;
+
+/*
+ * What a solver may be told beyond its matrix; zero and null are the defaults, as in `signorini_setup setup = {0};`.
+ * Levels are chosen by the matrix where no interpolations are given.
+ */
+typedef struct {
+  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver] in docs/solver.md but `start`
+                                  and `algebraic`, ended by a null; signorini_solve() gives the tolerance */
+  const double* coordinates;   /* of elastic vectors, `block` for each: their rigid motions have little energy */
+  int32_t modes;               /* in place of `coordinates`: how many directions of little energy, */
+  const double* near_null;     /* and for each row of the matrix one value per direction */
+  int32_t levels;              /* how many interpolations of another multigrid code, coarsest first: one row per fine
+                                  vector of `block` unknowns, one column per coarse one */
+  const signorini_rows* interpolations;
+  const signorini_rows* coarse_matrices; /* one for each, in the same order: Galerkin products; null: computed */
+} signorini_setup;
+
+/* As signorini_create(); null is allowed for `setup`. */
+int signorini_create_with(const signorini_rows* matrix, int block, const signorini_setup* setup,
+                          signorini_solver** solver);
+
 /*
  * Solves to a relative error of `tolerance`, in (0, 1). `b` has one value per row, as have the others. Null is allowed
  * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b: at a

@@ -104,6 +104,10 @@ class QpRun {
   void read() {
     progress_.phase("reading");
     matrix_ = read_matrix(arguments_.matrix);
+    if (matrix_.rows == 0 || matrix_.rows != matrix_.columns)  // before its rows are asked of the vectors
+      input_error(arguments_.matrix.string(),
+                  fmt::format("found {} rows and {} columns, expected a square matrix of one row at least",
+                              matrix_.rows, matrix_.columns));
     vectors_ = read_vectors(arguments_, matrix_.rows);
     near_null_ = near_null_space(arguments_, matrix_.rows);
     if (wants_solution_) out_ = outputs_.stage(arguments_.out);

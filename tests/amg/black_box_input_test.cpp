@@ -192,6 +192,26 @@ TEST(BlackBoxLevels, ThatDoNotFitAreRefused) {
   refused({P}, "the entry in row 5, column 2 is nan");
 }
 
+TEST(BlackBoxMatrices, OfCoarseLevelsThatDoNotFitAreRefused) {
+  const Matrix A = laplacian(4);
+  Matrix P(9, 3);
+  for (int i = 0; i < 9; ++i) P.insert(i, i / 3) = 1;
+  const Matrix product = P.transpose() * A * P;
+  const auto refused = [&](const std::vector<SparseRows>& matrices, const char* message) {
+    expect_error([&] { BlackBox(A, std::vector<SparseRows>{P}, 1, {}, matrices); }, message);
+  };
+  refused({product, product}, "coarse matrices: found 2, expected 1, one for each interpolation");
+  refused({A}, "coarse matrix 1 of 1, coarsest first: found 9 rows, expected 3, the number of columns");
+  refused({Matrix(P.transpose())}, "coarse matrix 1 of 1, coarsest first: matrix: found 3 rows and 9 columns");
+  Matrix other = product;
+  other.coeffRef(0, 1) = -2;
+  refused({other}, "coarse matrix 1 of 1, coarsest first: matrix: not symmetric");
+  refused({Matrix(product * 1.001)}, "coarse matrix 1 of 1, coarsest first: is not the Galerkin product P'AP");
+  other = product;
+  other.coeffRef(0, 2) = other.coeffRef(2, 0) = 1e-13;  // rounding, but rows of the grid that are not neighbours
+  refused({other}, "coarse matrix of 3 rows: rows 1 and 3 are coupled, but not in the Galerkin product");
+}
+
 TEST(BlackBoxOptions, AreThoseOfTheSolver) {
   const Matrix A = laplacian(4);
   const std::vector<double> b(9, 1);

@@ -87,6 +87,60 @@ TEST(BlackBox, TakesTheLevelsOfAnotherCode) {
   }
 }
 
+Matrix weights_of(const Prolongation& P) {
+  Matrix out(P.fine(), P.coarse);
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) out.insert(p, P.column[k]) = P.weight[k];
+  return out;
+}
+
+/// The Galerkin products of the finest matrix, coarsest first.
+std::vector<SparseRows> galerkin_products(Matrix A, const std::vector<Matrix>& interpolations) {
+  std::vector<SparseRows> out;
+  for (std::size_t k = interpolations.size(); k-- > 0;) {
+    A = Matrix(interpolations[k].transpose() * A * interpolations[k]).eval();
+    out.insert(out.begin(), SparseRows(A));
+  }
+  return out;
+}
+
+/// The same for each of several components of a vector.
+Matrix for_components(const Matrix& P, int components) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < P.outerSize(); ++j)
+    for (Matrix::InnerIterator it(P, j); it; ++it)
+      for (int i = 0; i < components; ++i)
+        entries.emplace_back(static_cast<int>(it.row()) * components + i, j * components + i, it.value());
+  Matrix out(P.rows() * components, P.cols() * components);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+// They are what would have been computed, but for rounding.
+TEST(BlackBox, TakesTheMatricesOfAnotherCode) {
+  for (const auto& c : scalar_cases()) {
+    SCOPED_TRACE(c.name);
+    const Given<1> given(c.nested.finest());
+    std::vector<Matrix> weights;
+    for (const Prolongation& P : c.nested.prolongations) weights.push_back(weights_of(P));
+    const std::vector<SparseRows> interpolations(weights.begin(), weights.end());
+    BlackBox solver(given.A, interpolations, 1, {}, galerkin_products(given.A, weights)),
+        usual(given.A, interpolations);
+    expect_solution(solver, given, c.nested.finest());
+    const auto a = solver.solve(given.b, given.lower, given.upper), b = usual.solve(given.b, given.lower, given.upper);
+    EXPECT_EQ(a.summary.iterations, b.summary.iterations);
+    EXPECT_LE((vector(a.x) - vector(b.x)).norm(), 1e-10 * (1e-300 + vector(b.x).norm()));
+  }
+  Random random(86);
+  const auto problem = random_problem<2>(random, 300);
+  const Given<2> given(problem);
+  Matrix pairs(300, 150);
+  for (int i = 0; i < 300; ++i) pairs.insert(i, i / 2) = 0.75;
+  BlackBox solver(given.A, std::vector<SparseRows>{pairs}, 2, {},
+                  galerkin_products(given.A, {for_components(pairs, 2)}));
+  expect_solution(solver, given, problem);
+}
+
 TEST(BlackBox, OneSetUpServesSeveralLoadsAndBounds) {
   Random random(82);
   auto problem = random_problem<2>(random, 300);

@@ -5,6 +5,7 @@
 #include "amg/black_box.hpp"
 #include "amg/signorini.h"
 #include "tests/amg/matrices.hpp"
+#include "tests/support/random_problem.hpp"
 
 namespace signorini::test {
 namespace {
@@ -104,6 +105,106 @@ TEST_F(CInterface, TellsWhereThereIsNoSolutionAndLeavesTheArraysAlone) {
             SIGNORINI_NO_SOLUTION);
   EXPECT_THAT(signorini_message(), HasSubstr("unbounded"));
   EXPECT_EQ(x, before);
+}
+
+signorini_rows rows_of(const SparseRows& A) {
+  return {A.rows, A.columns, A.row.data(), A.column.data(), A.value.data()};
+}
+
+/// From every second unknown and its neighbour.
+Eigen::SparseMatrix<double> pairs(int n) {
+  Eigen::SparseMatrix<double> P(n, (n + 1) / 2);
+  for (int i = 0; i < n; ++i) P.insert(i, i / 2) = 1;
+  return P;
+}
+
+struct CSetup : CInterface {
+  const signorini_rows matrix = rows_of(A);
+  signorini_setup setup = {};
+
+  int create_with() { return signorini_create_with(&matrix, 1, &setup, &solver); }
+  int solve() {
+    return signorini_solve(solver, b.data(), lower.data(), nullptr, nullptr, 1e-8, x.data(), nullptr, nullptr);
+  }
+  void expect_refused(const char* message) {
+    EXPECT_EQ(create_with(), SIGNORINI_BAD_INPUT) << message;
+    EXPECT_EQ(solver, nullptr);
+    EXPECT_THAT(signorini_message(), HasSubstr(message));
+  }
+};
+
+TEST_F(CSetup, OfNothingIsTheDefault) {
+  ASSERT_EQ(signorini_create_with(&matrix, 1, nullptr, &solver), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  EXPECT_EQ(x, BlackBox(A).solve(b, lower).x);
+  EXPECT_EQ(signorini_create_with(nullptr, 1, nullptr, &solver), SIGNORINI_BAD_INPUT);
+}
+
+TEST_F(CSetup, TakesTheOptionsOfTheSolver) {
+  const char* settings[] = {"method=tnnmg", "max_iterations=2", nullptr};
+  setup.settings = settings;
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  EXPECT_EQ(solve(), SIGNORINI_ITERATION_LIMIT);
+  EXPECT_EQ(x, BlackBox(A, 1, {.max_iterations = 2, .method = "tnnmg"}).solve(b, lower).x);
+  signorini_destroy(solver);
+  solver = nullptr;
+  for (const char* wrong : {"metod=tnnmg", "method=magic", "start=zero", "method"}) {
+    settings[0] = wrong;
+    expect_refused(wrong);
+    EXPECT_THAT(signorini_message(), testing::StartsWith("solver."));
+  }
+}
+
+TEST_F(CSetup, TakesTheLevelsOfAnotherCode) {
+  const int unknowns = A.rows;
+  const std::vector<SparseRows> P{pairs((unknowns + 1) / 2), pairs(unknowns)};
+  const std::vector<signorini_rows> interpolations{rows_of(P[0]), rows_of(P[1])};
+  setup.levels = 2;
+  expect_refused("interpolations: is null");
+  setup.interpolations = interpolations.data();
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  EXPECT_EQ(x, BlackBox(A, P).solve(b, lower).x);
+  signorini_destroy(solver);
+  solver = nullptr;
+  const std::vector<signorini_rows> wrong{matrix, matrix};
+  setup.coarse_matrices = wrong.data();
+  expect_refused("coarse matrix 1 of 2");
+}
+
+TEST_F(CSetup, TakesDirectionsOfLittleEnergy) {
+  std::vector<double> modes(n);
+  for (std::size_t i = 0; i < n; ++i) modes[i] = 1 + 1e-3 * static_cast<double>(i % 39);
+  setup.modes = 1;
+  expect_refused("near_null: is null");
+  setup.near_null = modes.data();
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  EXPECT_EQ(x, BlackBox(A, 1, {}, NearNullSpace{1, modes}).solve(b, lower).x);
+  signorini_destroy(solver);
+  solver = nullptr;
+  setup.modes = 33;
+  expect_refused("modes: found 33, expected 1 to 32");
+  setup.modes = 1;
+  setup.coordinates = modes.data();
+  expect_refused("near_null: given with coordinates");
+  setup = {};
+  setup.coordinates = modes.data();
+  expect_refused("coordinates: given for blocks of 1, expected 2 or 3");
+}
+
+TEST_F(CSetup, TakesCoordinates) {
+  Random random(87);
+  const SparseRows blocks = sparse(random_matrix<2>(random, 900));
+  std::vector<double> coordinates(1800), load(1800, 1);
+  for (double& v : coordinates) v = random.between(-1, 1);
+  setup.coordinates = coordinates.data();
+  const signorini_rows rows = rows_of(blocks);
+  ASSERT_EQ(signorini_create_with(&rows, 2, &setup, &solver), SIGNORINI_SOLVED) << signorini_message();
+  x.resize(1800);
+  ASSERT_EQ(signorini_solve(solver, load.data(), nullptr, nullptr, nullptr, 1e-8, x.data(), nullptr, nullptr),
+            SIGNORINI_SOLVED);
+  EXPECT_EQ(x, BlackBox(blocks, 2, {}, rigid_body_modes<2>(coordinates)).solve(load).x);
 }
 
 }  // namespace

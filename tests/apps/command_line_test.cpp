@@ -107,6 +107,11 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
       signorini({"list", "solver"}).out,
       AllOf(HasSubstr("krylov         accelerate the cycles while the phases rest (true or false, default true)"),
             HasSubstr("(text in V | W | F, default V)"), HasSubstr("whole number in [1, 1000000], default 200")));
+  const Ended amg = signorini({"list", "amg"});
+  for (const char* text :
+       {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)", "all | twins",
+        "global | local", "(true or false, default true)", "from " SIGNORINI_BINARY_DIR "/bin/signorini"})
+    EXPECT_THAT(amg.out, HasSubstr(text));
 }
 
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {

@@ -184,6 +184,8 @@ TEST_F(Qp, BadInputIsNamedAndNothingIsWritten) {
   fails({"A.mtx", "b.mtx", "--start", "inf.mtx"}, "inf.mtx:3: found inf, expected a finite number");
   fails({"A.mtx", "b.mtx", "--lower", "b4.mtx"}, "b4.mtx:2: found 4 rows");
   fails({"A.mtx", "b.mtx", "--block", "2"}, "A.mtx: matrix: found 3 rows, expected a multiple of the block size 2");
+  write("M.mtx", "%%MatrixMarket matrix coordinate real general\n0 0 0\n");
+  fails({"M.mtx", "b.mtx"}, "M.mtx: found 0 rows and 0 columns, expected a square matrix of one row at least");
   const auto matrix = [&](const std::string& entries, const std::string& message) {
     write("M.mtx", "%%MatrixMarket matrix array real general\n3 3\n" + entries);
     fails({"M.mtx", "b.mtx"}, "M.mtx: matrix: " + message);
