@@ -68,6 +68,7 @@ SparseRows copy_of(std::int32_t rows, std::int32_t columns, const Position* row,
 
 std::vector<SparseRows> copies_of(const signorini_rows* matrices, std::int32_t count) {
   std::vector<SparseRows> out;
+  out.reserve(static_cast<std::size_t>(count));
   for (std::int32_t k = 0; k < count; ++k)
     out.push_back(
         copy_of(matrices[k].rows, matrices[k].columns, matrices[k].row, matrices[k].column, matrices[k].value));
