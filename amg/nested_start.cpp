@@ -1,7 +1,9 @@
 #include "amg/nested_start.hpp"
 
+#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
+#include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -76,6 +78,36 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
   return out;
 }
 
+/// J(a) - J(b) <= 0 of admissible vectors, without cancellation: J(a) - J(b) = -(a - b)'r with the residual r in the
+/// middle between them.
+template <int B>
+bool lowers(const DiscreteProblem<B>& problem, const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> middle(a.size()), r(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) middle[k] = 0.5 * (a[k] + b[k]);
+  residual<B>(problem.A, middle.data(), problem.b.data(), r.data());
+  double gain = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) gain += (a[k] - b[k]) * r[k];
+  return gain >= 0;
+}
+
+/// The start that a coarser level gave, where it is better than none: a body that a coarser level hardly holds may have
+/// been carried away there. What is merely rough is smoothed.
+template <int B>
+std::vector<double> better_start(const DiscreteProblem<B>& problem, std::vector<double> x) {
+  std::vector<double> none = problem.start, admissible = x;
+  make_admissible(problem, none);
+  make_admissible(problem, admissible);
+  if (lowers(problem, admissible, none)) return x;
+  Level<B> level = finest_level(problem);
+  level.x = admissible.data();
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    level.sweep(Order::forward);
+    level.sweep(Order::backward);
+    if (lowers(problem, admissible, none)) return x;
+  }
+  return problem.start;
+}
+
 }  // namespace
 
 template <int B>
@@ -90,7 +122,7 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
     auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
     const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
     if (summary.outcome == Outcome::unbounded) return problem.start;
-    return interpolate(coarse, x, P, problem);
+    return better_start(problem, interpolate(coarse, x, P, problem));
   } catch (const Error& error) {
     // What fails on a coarse level may well hold on the finest one, which alone decides.
     if (error.status() == Exit::interrupted) throw;

@@ -9,7 +9,8 @@ namespace signorini {
 
 /// A start by nested iteration on the levels that prolongations make of a problem, when no mesh gives any: each coarser
 /// level has the Galerkin matrix and right-hand side, and the bounds of the fine twins of its vectors, as if the
-/// obstacle were assembled on it. A level that cannot be solved gives no start.
+/// obstacle were assembled on it. A level that cannot be solved gives no start, nor does one whose solution has here,
+/// made admissible, and smoothed, more energy than none.
 /// @param problem its `galerkin`, where it is not empty, saves the products of matrices
 /// @param prolongations coarsest first; the last one leads to the level of `problem`
 /// @return B per vector, not yet admissible between the twins; prescribed values are in place

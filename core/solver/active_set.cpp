@@ -8,6 +8,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
+#include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -150,7 +151,7 @@ void ActiveSetIteration<B>::solve_free() {
   for (std::size_t i = 0; i < r_y_.size(); ++i) y_[i] += scale_[i] * r_y_[i];
   residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
   this->x_ = y_;
-  this->make_admissible(this->x_);
+  make_admissible(this->problem_, this->x_);
 }
 
 template <int B>

@@ -7,6 +7,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/admissible.hpp"
 
 namespace signorini {
 
@@ -17,7 +18,7 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   for (Index p = 0; p < problem_.A.size(); ++p)
     for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
   reference_ = residual_at_projected_zero();
-  make_admissible(x_);
+  make_admissible(problem_, x_);
   x_before_ = x_;
   refuse_nan(evaluate(x_, r_).natural_residual);
   while (!step(monitor)) {
@@ -52,20 +53,6 @@ bool Iteration<B>::step(const Monitor& monitor) {
                fmt::format("iteration limit {}: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
                            options_.max_iterations, summary_.residual, summary_.algebraic_error, options_.tolerance));
   return false;
-}
-
-template <int B>
-void Iteration<B>::make_admissible(std::vector<double>& x) const {
-  for (Index p = 0; p < problem_.A.size(); ++p)
-    for (int k = 0; k < B; ++k)
-      if (problem_.fixed[p] >> k & 1u) x[Offset{p} * B + k] = problem_.start[Offset{p} * B + k];
-  const Constraints<B>& c = problem_.constraints;
-  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      const std::size_t at = slot * B + static_cast<std::size_t>(k);
-      double& v = x[Offset{c.vector[slot]} * B + k];
-      v = v < c.lower[at] ? c.lower[at] : v > c.upper[at] ? c.upper[at] : v;  // NaN stays visible
-    }
 }
 
 template <int B>
@@ -201,7 +188,7 @@ void Iteration<B>::finish_energies() {
 // Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.
 template <int B>
 double Iteration<B>::residual_at_projected_zero() {
-  make_admissible(x_before_);
+  make_admissible(problem_, x_before_);
   const double found = evaluate(x_before_, r_).natural_residual;
   if (found == 0) x_ = x_before_;
   return found;

@@ -51,8 +51,6 @@ class Iteration {
   /// One step: from x_ to the next iterate, with x_before_, r_ and sums_; r_before_ is the residual of x_.
   virtual Step advance() = 0;
 
-  /// The admissible vector next to x: prescribed values and bounds.
-  void make_admissible(std::vector<double>& x) const;
   /// r = b - A x and what follows from it.
   Sums evaluate(std::vector<double>& x, std::vector<double>& r) const;
   /// The same at the vectors first <= p < last.

@@ -35,6 +35,19 @@ inline Eigen::SparseMatrix<double> neumann_laplacian(int cells) {
   return five_point(cells + 1, [](int neighbours) { return neighbours; });
 }
 
+/// So many bodies that nothing couples, each with the matrix A.
+inline Eigen::SparseMatrix<double> copies(int bodies, const Eigen::SparseMatrix<double>& A) {
+  const Eigen::Index n = A.rows();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int body = 0; body < bodies; ++body)
+    for (Eigen::Index k = 0; k < n; ++k)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(A, k); entry; ++entry)
+        entries.emplace_back(body * n + entry.row(), body * n + k, entry.value());
+  Eigen::SparseMatrix<double> out(bodies * n, bodies * n);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
 inline std::vector<double> waves(std::size_t n) {
   std::vector<double> out(n);
   for (std::size_t i = 0; i < n; ++i) out[i] = std::sin(0.1 * static_cast<double>(i));

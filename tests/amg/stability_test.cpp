@@ -22,7 +22,8 @@ double natural_residual(const Problem& p, const Eigen::VectorXd& x) {
   return (x - (x + step).cwiseMax(vector(p.lower)).cwiseMin(vector(p.upper))).cwiseAbs().maxCoeff();
 }
 
-void expect_solved(const Problem& p, int block = 1) {
+/// Returns the cycles.
+int expect_solved(const Problem& p, int block = 1) {
   const BlackBox::Result result = BlackBox(p.A, block).solve(p.b, p.lower, p.upper);
   EXPECT_TRUE(result.summary.converged()) << result.summary.reason;
   const Eigen::VectorXd x = vector(result.x);
@@ -37,6 +38,7 @@ void expect_solved(const Problem& p, int block = 1) {
     EXPECT_LE(cycle.energy, energy + 1e-13 * terms) << cycle.iteration;
     energy = cycle.energy;
   }
+  return result.summary.iterations;
 }
 
 /// The graph Laplacian of a grid and of random further edges, the weights between 10^-decades and 10^decades, and a
@@ -143,18 +145,45 @@ TEST(Stability, FloatingBodies) {
   Random random(73);
   const Matrix one = random_graph(random, 30, 0, 0);
   const Index n = static_cast<Index>(one.rows());
-  Matrix two(2 * n, 2 * n);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index column = 0; column < n; ++column)
-    for (Matrix::InnerIterator entry(one, column); entry; ++entry)
-      for (const Index first : {0, n}) entries.emplace_back(first + entry.row(), first + column, entry.value());
-  two.setFromTriplets(entries.begin(), entries.end());
   const auto size = 2 * static_cast<std::size_t>(n);
-  Problem p{two, std::vector<double>(size, -1), std::vector<double>(size, -infinity),
+  Problem p{copies(2, one), std::vector<double>(size, -1), std::vector<double>(size, -infinity),
             std::vector<double>(size, infinity)};
   for (std::size_t i = 0; i < size; ++i)
     if (i % 7 == 0) p.lower[i] = i < size / 2 ? 0 : -5;
   expect_solved(p);
+}
+
+// More bodies than a coarsest level has vectors, each above one bound that no coarse function knows.
+TEST(Stability, ManyFloatingBodies) {
+  Random random(75);
+  const std::size_t bodies = 50, size = 36 * bodies;
+  Problem p{copies(bodies, neumann_laplacian(5)), std::vector<double>(size, -1), std::vector<double>(size, -infinity),
+            std::vector<double>(size, infinity)};
+  for (std::size_t body = 0; body < bodies; ++body) p.lower[36 * body] = random.between(-2, 2);
+  EXPECT_LE(expect_solved(p), 15);
+}
+
+// The normal equations of fewer equations than unknowns: a kernel of many dimensions, and functions of coarser levels
+// in it.
+TEST(Stability, UnderdeterminedLeastSquares) {
+  Random random(76);
+  for (int trial = 0; trial < 4; ++trial) {
+    SCOPED_TRACE(trial);
+    const Index n = 600;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index i = 0; i < n; ++i) entries.emplace_back(i % (n / 2), i, random.between(-2, 2));
+    for (Index k = 0; k < 3 * n / 4; ++k)
+      entries.emplace_back(n / 2 + random.below(n / 4), random.below(n), random.between(0, 1));
+    Matrix equations(3 * n / 4, n);
+    equations.setFromTriplets(entries.begin(), entries.end());
+    const Matrix A = equations.transpose() * equations;
+    const Eigen::VectorXd b = A * vector(waves(static_cast<std::size_t>(n)));
+    const BlackBox::Result result = BlackBox(A).solve(std::span<const double>(b.data(), static_cast<std::size_t>(n)));
+    const double least = -0.5 * b.dot(vector(waves(static_cast<std::size_t>(n))));
+    EXPECT_GE(result.summary.energy, least * (1 + 1e-8));
+    EXPECT_LE(result.summary.energy, (result.summary.converged() ? 1 - 1e-6 : 0.9) * least);
+    EXPECT_NE(result.summary.outcome, Outcome::unbounded);
+  }
 }
 
 TEST(Stability, FloatingElasticBlocks) {
