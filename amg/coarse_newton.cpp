@@ -16,11 +16,10 @@ namespace {
 
 constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
-constexpr int max_motions = 20;     // without energy that are held one by one
-constexpr double no_pivot = 1e-11;  // where the diagonal is 1
-constexpr int worn_out = 6;         // iterations above which a new factorisation pays
-constexpr double enough = 1e-3;     // energy decrease of a step, relative to all so far, that ends the loop
-constexpr double rounding = 1e-6;   // components of a direction without energy that are zero but for rounding
+constexpr std::size_t max_motions = 20;  // without energy that are projected onto what the bounds allow
+constexpr int worn_out = 6;              // iterations above which a new factorisation pays
+constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
+constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
 constexpr double suspicious =
     1e-5;                       // part of p'Dp below which a direction's energy may come from a stale factorisation
 constexpr int max_sweeps = 60;  // of Gauss-Seidel alone
@@ -37,6 +36,14 @@ double decrease(const Level<B>& level, const std::vector<double>& before) {
   double sum = 0;
   for (std::size_t i = 0; i < d.size(); ++i) sum += d[i] * (r[i] + 0.5 * Ad[i]);
   return sum;
+}
+
+// What rounding may do to that.
+template <int B>
+double rounding_of_gain(const Level<B>& level, const std::vector<double>& before) {
+  double largest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) largest = std::max(largest, std::abs(level.x[i] - before[i]));
+  return rounding_of_work(level) * largest;
 }
 
 // Bounds of component k at a slot, on x
@@ -99,10 +106,13 @@ bool CoarseNewton<B>::solve(const Level<B>& level) {
       level.sweep(Order::backward);
     }
     if (!newton_step(level)) return false;
-    if (!constrained) break;
     const double gained = decrease<B>(level, before);
+    if (!(gained >= -rounding_of_gain(level, before))) {
+      std::copy(before.begin(), before.end(), level.x);
+      break;
+    }
     total += gained;
-    if (!(gained > enough * total)) break;
+    if (!constrained || !(gained > enough * total)) break;
   }
   return true;
 }
@@ -150,20 +160,35 @@ CgResult CoarseNewton<B>::solve_iteratively(const Level<B>& level) {
                       d_);
 }
 
+// Orthonormal, without energy, as far as the factorised components allow; its columns. None where they are too many.
+template <int B>
+Eigen::MatrixXd CoarseNewton<B>::motions() const {
+  const std::vector<Eigen::Index>& held = factor_.held();
+  const Eigen::Index n = factor_.size(), count = held.size() <= max_motions ? std::ssize(held) : 0;
+  Eigen::MatrixXd out(n, count);
+  if (count == 0) return out;
+  const Eigen::Map<const Eigen::VectorXd> scale(scale_.data(), n);
+  for (Eigen::Index k = 0; k < count; ++k)
+    out.col(k) = scale.cwiseProduct(factor_.solve(Eigen::VectorXd::Unit(n, held[static_cast<std::size_t>(k)])));
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(out);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(n, count);
+}
+
 // Whether the residual does work along a motion without energy that no bound ends: along the motion next to it among
 // those that every bound allows.
 template <int B>
 bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
-  if (motions_.cols() == 0) return false;
-  const Eigen::VectorXd g = motions_.transpose() * Eigen::Map<const Eigen::VectorXd>(r_.data(), motions_.rows());
+  const Eigen::MatrixXd motions = this->motions();
+  if (motions.cols() == 0) return false;
+  const Eigen::VectorXd g = motions.transpose() * Eigen::Map<const Eigen::VectorXd>(r_.data(), motions.rows());
   std::vector<Eigen::VectorXd> conditions;
   const auto require = [&](const Eigen::VectorXd& row) {
-    if (row.norm() > rounding / std::sqrt(static_cast<double>(motions_.rows()))) conditions.push_back(row.normalized());
+    if (row.norm() > rounding / std::sqrt(static_cast<double>(motions.rows()))) conditions.push_back(row.normalized());
   };
   for (Index slot = 0; slot < level.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Bound<B> bound(level, slot, k);
-      const Eigen::VectorXd row = motions_.row(Offset{level.constraints.vector[slot]} * B + k);
+      const Eigen::VectorXd row = motions.row(Offset{level.constraints.vector[slot]} * B + k);
       if (bound.lower > -infinity) require(row);
       if (bound.upper < infinity) require(-row);
     }
@@ -218,40 +243,7 @@ void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>&
         }
   Eigen::SparseMatrix<double> S(n, n);
   S.setFromTriplets(entries.begin(), entries.end());
-  factorise(S);
-}
-
-// Where a pivot vanishes there is a motion without energy, and a spring holds its component. That leaves the solutions
-// of consistent systems as they are, and does not magnify what rounding does along the motion.
-template <int B>
-void CoarseNewton<B>::factorise(Eigen::SparseMatrix<double>& S) {
-  std::vector<Eigen::Index> held;
-  factor_.setShift(0);
-  factor_.analyzePattern(S);
-  for (int motions = 0; motions < max_motions; ++motions) {
-    factor_.factorize(S);
-    const auto& pivots = factor_.vectorD();
-    const auto vanishing = std::find_if(pivots.begin(), pivots.end(), [](double d) { return !(d > no_pivot); });
-    if (vanishing == pivots.end()) return find_motions(held);
-    const auto component = factor_.permutationPinv().indices()[vanishing - pivots.begin()];
-    S.coeffRef(component, component) += 1;
-    held.push_back(component);
-  }
-  motions_.resize(S.rows(), 0);
-  factor_.setShift(1e-9);
-  factor_.factorize(S);
-}
-
-// Each spring stands for one motion without energy: that which it alone resists.
-template <int B>
-void CoarseNewton<B>::find_motions(const std::vector<Eigen::Index>& held) {
-  motions_ = Eigen::MatrixXd::Zero(factor_.rows(), static_cast<Eigen::Index>(held.size()));
-  for (std::size_t k = 0; k < held.size(); ++k) motions_(held[k], static_cast<Eigen::Index>(k)) = 1;
-  if (held.empty()) return;
-  motions_ = Eigen::Map<const Eigen::VectorXd>(scale_.data(), factor_.rows()).asDiagonal() *
-             Eigen::MatrixXd(factor_.solve(motions_));
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(motions_);
-  motions_ = qr.householderQ() * Eigen::MatrixXd::Identity(motions_.rows(), motions_.cols());
+  factor_.factorise(S);
 }
 
 template <int B>

@@ -1,7 +1,5 @@
 #pragma once
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
+#include "amg/held_cholesky.hpp"
 #include "amg/masked_cg.hpp"
 #include "core/solver/components.hpp"
 
@@ -10,7 +8,7 @@ namespace signorini {
 /// Coarsest level: projected Gauss-Seidel sweeps settle the phases, a Newton step on the free components does the rest.
 /// The step is solved by conjugate gradients with a Cholesky factorisation that is renewed only when it has become a
 /// bad preconditioner (one iteration while it is fresh), or with symmetric Gauss-Seidel where the level is too large to
-/// factorise. Semidefinite matrices are allowed.
+/// factorise. Semidefinite matrices are allowed. The energy never grows.
 template <int B>
 class CoarseNewton final : public CoarseSolver<B> {
  public:
@@ -21,16 +19,14 @@ class CoarseNewton final : public CoarseSolver<B> {
   CgResult solve_directly(const Level<B>& level);
   CgResult solve_iteratively(const Level<B>& level);
   void factorise(const Level<B>& level, const std::vector<Flags>& mask);
-  void factorise(Eigen::SparseMatrix<double>& S);
-  void find_motions(const std::vector<Eigen::Index>& held);
+  Eigen::MatrixXd motions() const;
   bool falls_forever(const Level<B>& level) const;
   void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
   bool move(const Level<B>& level, bool singular);
 
   std::vector<Flags> mask_;
   std::vector<double> r_, rest_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  Eigen::MatrixXd motions_;  // orthonormal, without energy, as far as the factorised components allow; its columns
+  HeldCholesky factor_;
   bool worn_ = true;
 };
 

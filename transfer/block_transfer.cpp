@@ -15,7 +15,6 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   const auto n = static_cast<std::size_t>(prolongation.coarse);
   position_.assign(n, 0);
   marked_.assign(n, 0);
-  scale_.assign(n, 0);
   coarse.vectors = prolongation.coarse;
   coarse.inverse.resize(n * B * B);
   coarse.own_b.resize(n * B);

@@ -35,6 +35,8 @@ class BlockTransfer : public Transfer<B> {
   void sum_children(const Level<B>& fine, Index q, const Weight& weight);
   template <class Weight>
   void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q, const Weight& weight);
+  template <class Weight>
+  void add_alone(const Level<B>& fine, Index p, const double* M, const Weight& W);
   void finish_row(Level<B>& coarse, Index q);
 
   struct Child {
@@ -46,12 +48,13 @@ class BlockTransfer : public Transfer<B> {
   std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to
   std::vector<Child> child_;
   std::vector<Flags> prescribed_;  // per coarse vector: components off whatever is truncated
-  std::vector<double> scale_;      // per coarse vector: largest diagonal entry before any truncation
   std::vector<Offset> position_;   // per coarse vector: its block in the row at work
   std::vector<char> marked_;       // per coarse vector
   std::vector<Index> place_;       // per fine vector: its block among `sums_`, -1: none
   std::vector<Index> reached_;     // fine vectors that the row at work is coupled to
   std::vector<double> sums_;       // their blocks
+  double alone_[B * B] = {};       // of the row at work: what its diagonal would be if no fine vectors were coupled
+  double untruncated_ = 0;         // the size of that without truncation
   bool assembled_ = false;
 };
 

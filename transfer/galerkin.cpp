@@ -11,9 +11,15 @@ namespace signorini {
 
 namespace {
 
-// A truncated component is lost when its diagonal falls below this part of what it was; what rounding of rotations
-// leaves is far smaller, a component with any fine function left far larger.
+// A component is lost when its fine functions, each by itself, have less than this part of the energy that they would
+// have without truncation; what rounding of rotations leaves is far smaller, a component with any fine function left
+// far larger.
 constexpr double lost = 1e-13;
+
+// A component is a motion without energy when its energy is less than this part of that of its fine functions by
+// themselves, which is rounding; a spring of this part holds it: weak, so that a body may fall onto an obstacle, and
+// strong enough that rounding of the residual does not move it.
+constexpr double nothing = 1e-14, spring = 1e-8;
 
 template <int B>
 void decouple(BlockMatrix<B>& C, Index q, Flags off) {
@@ -43,12 +49,7 @@ void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, Level<B>& coarse) {
   else
     fill_in(known.A, coarse.own_matrix);
   coarse.off = prescribed_ = known.off;
-  for (Index q = 0; q < coarse.vectors; ++q) {
-    const double* diagonal = known.A.diagonal(q);
-    for (int i = 0; i < B; ++i)
-      if (!(known.off[q] >> i & 1u)) scale_[q] = std::max(scale_[q], diagonal[i * B + i]);
-    invert_diagonal(coarse, q);
-  }
+  for (Index q = 0; q < coarse.vectors; ++q) invert_diagonal(coarse, q);
   assembled_ = true;
 }
 
@@ -129,9 +130,11 @@ Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
   if (!rows.empty() && child_row_.empty()) transpose_weights();
   place_.resize(static_cast<std::size_t>(fine.vectors), -1);
   weights::with<B>(*P_, [&](const auto& weight) {
-    for (const Index q : rows) assemble_row(fine, coarse, q, weight);
+    for (const Index q : rows) {
+      assemble_row(fine, coarse, q, weight);
+      finish_row(coarse, q);
+    }
   });
-  for (const Index q : rows) finish_row(coarse, q);
   coarse.renewed.insert(coarse.renewed.end(), rows.begin(), rows.end());
   assembled_ = true;
   return static_cast<Index>(rows.size());
@@ -158,6 +161,20 @@ std::vector<Index> BlockTransfer<B>::affected_rows(const Level<B>& fine) {
   return rows;
 }
 
+// Adds what vector p would give to the diagonal if it were coupled to no other.
+// @param M its block in global coordinates, null where nothing of it interpolates
+template <int B>
+template <class Weight>
+void BlockTransfer<B>::add_alone(const Level<B>& fine, Index p, const double* M, const Weight& W) {
+  const double* diagonal = fine.A->diagonal(p);
+  for (int i = 0; i < B; ++i)
+    if (!(fine.off[p] >> i & 1u)) untruncated_ += W.size() * W.size() * diagonal[i * B + i];
+  if (!M) return;
+  double half[B * B] = {};
+  W.add_from_left(M, half);
+  W.add_from_right(half, alone_);
+}
+
 // Row q of P'A in global coordinates, for the fine vectors reached.
 template <int B>
 template <class Weight>
@@ -167,11 +184,16 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
   for (const Index r : reached_) place_[r] = -1;
   reached_.clear();
   sums_.clear();
+  std::fill_n(alone_, B * B, 0.0);
+  untruncated_ = 0;
   for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
     const Index p = child_[c].vector;
-    if (fine.removed[p] == all) continue;
-    const bool plain = modifier::is_plain<B>(fine, frames(fine), p);
     const auto W = weight(child_[c].entry);
+    if (fine.removed[p] == all) {
+      add_alone(fine, p, nullptr, W);
+      continue;
+    }
+    const bool plain = modifier::is_plain<B>(fine, frames(fine), p);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k];
       if (fine.removed[r] == all) continue;
@@ -181,6 +203,7 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
         modifier::block_to_global<B>(fine, frames(fine), p, r, M, modified);
         M = modified;
       }
+      if (r == p) add_alone(fine, p, M, W);
       if (place_[r] < 0) {
         place_[r] = static_cast<Index>(reached_.size());
         reached_.push_back(r);
@@ -206,18 +229,23 @@ void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Inde
 }
 
 // Rotates the row into the coarse frames, and decouples what has lost all its fine functions (Krause, remark 4.4): its
-// diagonal becomes one, and it neither gets a residual nor interpolates.
+// diagonal becomes one, and it neither gets a residual nor interpolates. What is seen to be indefinite is as well.
 template <int B>
 void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {
   BlockMatrix<B>& C = coarse.own_matrix;
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k)
     modifier::block_to_local<B>(coarse, q, C.column[k], prescribed_[q], prescribed_[C.column[k]], C.at(k));
+  modifier::block_to_local<B>(coarse, q, q, prescribed_[q], prescribed_[q], alone_);
   double* diagonal = C.at(C.row[q]);
-  if (!assembled_)
-    for (int i = 0; i < B; ++i) scale_[q] = std::max(scale_[q], diagonal[i * B + i]);
   Flags off = prescribed_[q];
-  for (int i = 0; i < B; ++i)
-    if (!(diagonal[i * B + i] > lost * scale_[q])) off |= static_cast<Flags>(1u << i);
+  for (int i = 0; i < B; ++i) {
+    double& own = diagonal[i * B + i];
+    const double alone = alone_[i * B + i];
+    if (!(alone > lost * untruncated_) || !(own >= -nothing * alone))
+      off |= static_cast<Flags>(1u << i);
+    else if (own < nothing * alone)
+      own = spring * alone;
+  }
   decouple(C, q, off);
   // A component that came back interpolates again; whether it is truncated is for the next visit to say.
   const Flags truncated = coarse.removed[q] & static_cast<Flags>(~coarse.off[q]);

@@ -1,0 +1,97 @@
+#include "amg/held_cholesky.hpp"
+
+#include <Eigen/OrderingMethods>
+
+namespace signorini {
+
+namespace {
+
+constexpr double no_pivot = 1e-11;  // where the diagonal is 1
+
+}  // namespace
+
+void HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S) {
+  decltype(order_) inverse;
+  Eigen::AMDOrdering<int>()(S.selfadjointView<Eigen::Lower>(), inverse);
+  order_ = inverse.inverse();
+  Upper reordered(S.rows(), S.cols());
+  reordered.selfadjointView<Eigen::Upper>() = S.selfadjointView<Eigen::Lower>().twistedBy(order_);
+  analyse(reordered);
+  const auto n = static_cast<int>(S.rows());
+  pivot_.resize(static_cast<std::size_t>(n));
+  held_.clear();
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  std::vector<double> y(static_cast<std::size_t>(n), 0.0);
+  for (int k = 0; k < n; ++k) {
+    factorise_row(reordered, k, seen, y);
+    if (pivot_[k] > no_pivot) continue;
+    pivot_[k] = 1;
+    held_.push_back(inverse.indices()[k]);
+  }
+}
+
+// The elimination tree and how many entries the columns of L have: row k of L has one in each column on the way from an
+// entry of S in that row up to k.
+void HeldCholesky::analyse(const Upper& S) {
+  const auto n = static_cast<int>(S.rows());
+  parent_.assign(static_cast<std::size_t>(n), -1);
+  start_.assign(static_cast<std::size_t>(n) + 1, 0);
+  std::vector<int> seen(static_cast<std::size_t>(n), -1);
+  for (int k = 0; k < n; ++k) {
+    seen[k] = k;
+    for (Upper::InnerIterator entry(S, k); entry; ++entry)
+      for (auto i = static_cast<int>(entry.row()); i < k && seen[i] != k; i = parent_[i]) {
+        if (parent_[i] < 0) parent_[i] = k;
+        seen[i] = k;
+        ++start_[i + 1];
+      }
+  }
+  for (int k = 0; k < n; ++k) start_[k + 1] += start_[k];
+  end_.assign(start_.begin(), start_.end() - 1);
+  row_.resize(static_cast<std::size_t>(start_.back()));
+  value_.resize(row_.size());
+}
+
+// Row k of L from a triangular solve with the rows above it. Children in the tree come before their parents.
+// @param y zero, before and after
+void HeldCholesky::factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<double>& y) {
+  pattern_.clear();
+  seen[k] = k;
+  pivot_[k] = 0;
+  for (Upper::InnerIterator entry(S, k); entry; ++entry) {
+    const auto row = static_cast<int>(entry.row());
+    if (row == k) pivot_[k] += entry.value();
+    if (row >= k) continue;
+    y[row] += entry.value();
+    path_.clear();
+    for (int i = row; seen[i] != k; i = parent_[i]) {
+      path_.push_back(i);
+      seen[i] = k;
+    }
+    pattern_.insert(pattern_.end(), path_.rbegin(), path_.rend());
+  }
+  for (auto column = pattern_.rbegin(); column != pattern_.rend(); ++column) {
+    const int i = *column;
+    const double below = y[i], entry = below / pivot_[i];
+    y[i] = 0;
+    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) y[row_[m]] -= value_[m] * below;
+    pivot_[k] -= entry * below;
+    row_[end_[i]] = k;
+    value_[end_[i]++] = entry;
+  }
+}
+
+Eigen::VectorXd HeldCholesky::solve(const Eigen::VectorXd& b) const {
+  Eigen::VectorXd x = order_ * b;
+  const Eigen::Index n = size();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[row_[m]] -= value_[m] * x[i];
+  for (Eigen::Index i = n - 1; i >= 0; --i) {
+    double sum = x[i] / pivot_[i];
+    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) sum -= value_[m] * x[row_[m]];
+    x[i] = sum;
+  }
+  return order_.inverse() * x;
+}
+
+}  // namespace signorini

@@ -1,0 +1,36 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace signorini {
+
+/// L D L' of a sparse symmetric positive semidefinite matrix with a diagonal of ones. Where a pivot vanishes there is a
+/// motion without energy, and a spring holds its component: what is factorised is the matrix plus one on the diagonal
+/// there. That leaves the solutions of consistent systems as they are, and does not magnify what rounding does along
+/// the motions. One pass, row by row (Davis, Direct Methods for Sparse Linear Systems, SIAM 2006, section 4.8), however
+/// many components are held.
+class HeldCholesky {
+ public:
+  /// @param S its lower triangle is used
+  void factorise(const Eigen::SparseMatrix<double>& S);
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  Eigen::Index size() const { return static_cast<Eigen::Index>(pivot_.size()); }
+  /// Each spring stands for one motion without energy: that which it alone resists, solve() of its unit vector.
+  const std::vector<Eigen::Index>& held() const { return held_; }
+
+ private:
+  using Upper = Eigen::SparseMatrix<double>;  // of the reordered matrix, in columns
+  void analyse(const Upper& S);
+  void factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<double>& y);
+
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_;
+  std::vector<int> parent_;          // in the elimination tree
+  std::vector<Eigen::Index> start_;  // of the columns of L, without its diagonal of ones
+  std::vector<Eigen::Index> end_;    // of what is known of them
+  std::vector<int> row_;
+  std::vector<double> value_, pivot_;
+  std::vector<Eigen::Index> held_;
+  std::vector<int> pattern_, path_;  // of one row
+};
+
+}  // namespace signorini
