@@ -17,6 +17,7 @@ namespace {
 constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
 constexpr std::size_t max_motions = 20;  // without energy that are projected onto what the bounds allow
+constexpr double shift = 1e-6;           // of a diagonal of ones, where there are more
 constexpr int worn_out = 6;              // iterations above which a new factorisation pays
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
@@ -222,6 +223,7 @@ bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
   return true;
 }
 
+// Where motions without energy are many, a shift keeps steps out of them: the bounds cut off least of the shortest one.
 template <int B>
 void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>& mask) {
   const BlockMatrix<B>& A = *level.A;
@@ -243,6 +245,9 @@ void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>&
         }
   Eigen::SparseMatrix<double> S(n, n);
   S.setFromTriplets(entries.begin(), entries.end());
+  factor_.factorise(S);
+  if (factor_.held().size() <= max_motions) return;
+  for (Eigen::Index i = 0; i < n; ++i) S.coeffRef(i, i) += shift;
   factor_.factorise(S);
 }
 

@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 
 namespace signorini {
+
+namespace {
+
+constexpr double coarse_error = 1e-4;  // algebraic error up to which what rests at rounding is a solution
+
+}  // namespace
 
 template <int B>
 Summary Iteration<B>::run(const Monitor& monitor, int before) {
@@ -150,7 +157,7 @@ bool Iteration<B>::finished(bool gaining) {
                                                s.residual, s.algebraic_error, options_.tolerance));
   stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
   least_ = std::min(least_, absolute);
-  if (stalled_ >= 3 && !gaining && rests_at_rounding() && s.algebraic_error <= 1e-4)
+  if (stalled_ >= 3 && !gaining && rests_at_rounding() && s.algebraic_error <= coarse_error && !has_risen())
     return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
   return false;
 }
@@ -161,6 +168,14 @@ template <int B>
 bool Iteration<B>::rests_at_rounding() const {
   return sums_.natural_residual <= 1000 * std::numeric_limits<double>::epsilon() * sums_.largest &&
          summary_.residual <= 1e-3;
+}
+
+// Whether the energy is above that of the start, by more than an error of the size that rounding may have: then the
+// iteration has carried the unknowns away, whatever their residual says.
+template <int B>
+bool Iteration<B>::has_risen() const {
+  const double gain = std::accumulate(gains_.begin(), gains_.end(), 0.0);
+  return !(gain >= -0.5 * coarse_error * coarse_error * energy_norm_squared(problem_, x_, sums_.products));
 }
 
 template <int B>

@@ -79,6 +79,7 @@ class Iteration {
   bool within_tolerance() const;
   bool finished(bool gaining);
   bool rests_at_rounding() const;
+  bool has_risen() const;
   bool end(Outcome outcome, std::string reason);
   void finish_phases();
   void finish_energies();

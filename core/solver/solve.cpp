@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 #include "core/base/clock.hpp"
@@ -73,7 +74,30 @@ Summary as_one_step(Summary direct, int before) {
   return direct;
 }
 
-// Active sets from where the cycles have come to; where they fail too, more of the cycles.
+// What the coarse solver factorises, and how many of its visits are worth a try.
+constexpr Index most_unknowns_for_newton = 12'000;
+constexpr int most_newton_visits = 40;
+
+// The coarse solver on the finest level, which is monotone also where the matrix is singular on the free components;
+// where it fails too, more of the cycles.
+template <int B>
+Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& problem,
+                          std::span<const Prolongation> prolongations, std::vector<double>& x,
+                          const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+  Summary before = cycles;
+  if (problem.A.size() * B <= most_unknowns_for_newton && !prolongations.empty()) {
+    SolverOptions few = options;
+    few.max_iterations = std::min(options.max_iterations, cycles.iterations + most_newton_visits);
+    Summary newton = go_on(cycles, "monotone", problem, {}, x, few, registry, monitor);
+    newton.options.method = "newton";
+    const bool more = newton.outcome == Outcome::iteration_limit && few.max_iterations < options.max_iterations;
+    before = joined(cycles, std::move(newton));
+    if (!more) return before;
+  }
+  return joined(before, go_on(before, "monotone", problem, prolongations, x, options, registry, monitor));
+}
+
+// Active sets from where the cycles have come to; where they fail, Newton steps that lower the energy.
 template <int B>
 Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
                        std::span<const Prolongation> prolongations, std::vector<double>& x,
@@ -89,7 +113,7 @@ Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
   } catch (const std::bad_alloc&) {
   }
   x = start;
-  return joined(cycles, go_on(cycles, "monotone", problem, prolongations, x, options, registry, monitor));
+  return go_on_with_newton(cycles, problem, prolongations, x, options, registry, monitor);
 }
 
 }  // namespace

@@ -163,6 +163,12 @@ TEST(Stability, ManyFloatingBodies) {
   EXPECT_LE(expect_solved(p), 15);
 }
 
+Matrix normal_equations(Index equations, Index unknowns, const std::vector<Eigen::Triplet<double>>& entries) {
+  Matrix G(equations, unknowns);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G.transpose() * G;
+}
+
 // The normal equations of fewer equations than unknowns: a kernel of many dimensions, and functions of coarser levels
 // in it.
 TEST(Stability, UnderdeterminedLeastSquares) {
@@ -174,16 +180,29 @@ TEST(Stability, UnderdeterminedLeastSquares) {
     for (Index i = 0; i < n; ++i) entries.emplace_back(i % (n / 2), i, random.between(-2, 2));
     for (Index k = 0; k < 3 * n / 4; ++k)
       entries.emplace_back(n / 2 + random.below(n / 4), random.below(n), random.between(0, 1));
-    Matrix equations(3 * n / 4, n);
-    equations.setFromTriplets(entries.begin(), entries.end());
-    const Matrix A = equations.transpose() * equations;
-    const Eigen::VectorXd b = A * vector(waves(static_cast<std::size_t>(n)));
-    const BlackBox::Result result = BlackBox(A).solve(std::span<const double>(b.data(), static_cast<std::size_t>(n)));
-    const double least = -0.5 * b.dot(vector(waves(static_cast<std::size_t>(n))));
-    EXPECT_GE(result.summary.energy, least * (1 + 1e-8));
-    EXPECT_LE(result.summary.energy, (result.summary.converged() ? 1 - 1e-6 : 0.9) * least);
-    EXPECT_NE(result.summary.outcome, Outcome::unbounded);
+    Problem p{normal_equations(3 * n / 4, n, entries),
+              {},
+              std::vector<double>(n, -infinity),
+              std::vector<double>(n, infinity)};
+    const Eigen::VectorXd b = p.A * vector(waves(n));
+    p.b = {b.begin(), b.end()};
+    expect_solved(p);
   }
+}
+
+// A third of the second differences along a line: semidefinite, in a box that holds what they do not.
+TEST(Stability, SecondDifferencesInABox) {
+  Random random(77);
+  const Index n = 800;
+  std::vector<Eigen::Triplet<double>> entries;
+  Index equations = 0;
+  for (Index i = 0; i + 2 < n; i += 1 + random.below(3), ++equations)
+    for (const Index k : {0, 1, 2}) entries.emplace_back(equations, i + k, k == 1 ? -2 : 1);
+  for (const Index end : {n - 2, n - 1}) entries.emplace_back(equations++, end, 0.1);
+  Problem p{normal_equations(equations, n, entries), std::vector<double>(n), std::vector<double>(n, -1),
+            std::vector<double>(n, 1)};
+  for (double& force : p.b) force = random.between(-1, 1);
+  expect_solved(p);
 }
 
 TEST(Stability, FloatingElasticBlocks) {
