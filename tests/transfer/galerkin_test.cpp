@@ -181,5 +181,41 @@ TEST(GalerkinOnNestedMeshes, EqualsTheCoarseStiffness) {
   expect_coarse_stiffness<3, 3>(box({0, 0, 0}, {1, 1, 2}, {1, 1, 2}));
 }
 
+// Two pairs of vectors, each of which a coarse function moves as a whole, and rounding.
+TEST(GalerkinOfFloatingBodies, HoldsAFunctionWithoutEnergyByAWeakSpring) {
+  DiscreteProblem<1> problem;
+  problem.A.row = {0, 2, 4, 6, 8};
+  problem.A.column = {0, 1, 1, 0, 2, 3, 3, 2};
+  problem.A.value = {3, -3, std::nextafter(3.0, 4.0), -3, 5, -5, 5, -5};
+  problem.b.assign(4, 0);
+  problem.fixed.assign(4, 0);
+  Prolongation P;
+  P.coarse = 2;
+  P.row = {0, 1, 2, 3, 4};
+  P.column = {0, 0, 1, 1};
+  P.weight = {1.0 / 3, 1.0 / 3, 0.7, 0.7};
+  P.twin = {-1, -1};
+  Level<1> fine = finest_level(problem), coarse;
+  fine.clear_phases();
+  MinMerge<1> transfer;
+  transfer.prepare(fine, P, true, coarse);
+  coarse.clear_phases();
+  const auto diagonal = [&](std::vector<Flags> critical) {
+    truncate(fine, critical);
+    transfer.assemble(fine, coarse);
+    return std::array{coarse.own_matrix.diagonal(0)[0], coarse.own_matrix.diagonal(1)[0]};
+  };
+  const double alone = 2 * 3.0 / 9, other = 2 * 5 * 0.49;
+  const auto free = diagonal({0, 0, 0, 0});
+  EXPECT_NEAR(free[0], 1e-8 * alone, 1e-20);
+  EXPECT_NEAR(free[1], 1e-8 * other, 1e-20);
+  EXPECT_EQ(coarse.off, std::vector<Flags>(2, 0));
+  const auto held = diagonal({1, 0, 1, 1});
+  EXPECT_NEAR(held[0], alone / 2, 1e-15);
+  EXPECT_EQ(held[1], 1);
+  EXPECT_EQ(coarse.off, (std::vector<Flags>{0, 1}));
+  EXPECT_EQ(diagonal({0, 0, 0, 0}), free);
+}
+
 }  // namespace
 }  // namespace signorini::test
