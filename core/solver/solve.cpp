@@ -8,6 +8,7 @@
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/active_set.hpp"
+#include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
 #include "core/solver/multigrid_iteration.hpp"
 
@@ -74,10 +75,6 @@ Summary as_one_step(Summary direct, int before) {
   return direct;
 }
 
-// What the coarse solver factorises, and how many of its visits are worth a try.
-constexpr Index most_unknowns_for_newton = 12'000;
-constexpr int most_newton_visits = 40;
-
 // The coarse solver on the finest level, which is monotone also where the matrix is singular on the free components;
 // where it fails too, more of the cycles.
 template <int B>
@@ -85,9 +82,9 @@ Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& probl
                           std::span<const Prolongation> prolongations, std::vector<double>& x,
                           const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
   Summary before = cycles;
-  if (problem.A.size() * B <= most_unknowns_for_newton && !prolongations.empty()) {
+  if (problem.A.size() * B <= automatic::most_unknowns_for_newton && !prolongations.empty()) {
     SolverOptions few = options;
-    few.max_iterations = std::min(options.max_iterations, cycles.iterations + most_newton_visits);
+    few.max_iterations = std::min(options.max_iterations, cycles.iterations + automatic::newton_steps);
     Summary newton = go_on(cycles, "monotone", problem, {}, x, few, registry, monitor);
     newton.options.method = "newton";
     const bool more = newton.outcome == Outcome::iteration_limit && few.max_iterations < options.max_iterations;
