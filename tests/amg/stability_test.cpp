@@ -177,6 +177,7 @@ TEST(Stability, UnderdeterminedLeastSquares) {
     SCOPED_TRACE(trial);
     const Index n = 600;
     std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(2 * n);
     for (Index i = 0; i < n; ++i) entries.emplace_back(i % (n / 2), i, random.between(-2, 2));
     for (Index k = 0; k < 3 * n / 4; ++k)
       entries.emplace_back(n / 2 + random.below(n / 4), random.below(n), random.between(0, 1));

@@ -108,10 +108,10 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
       AllOf(HasSubstr("krylov         accelerate the cycles while the phases rest (true or false, default true)"),
             HasSubstr("(text in V | W | F, default V)"), HasSubstr("whole number in [1, 1000000], default 200")));
   const Ended amg = signorini({"list", "amg"});
-  for (const char* text :
-       {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)", "all | twins",
-        "global | local", "(true or false, default true)", "from " SIGNORINI_BINARY_DIR "/bin/signorini"})
+  for (const char* text : {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)",
+                           "all | twins", "global | local", "(true or false, default true)"})
     EXPECT_THAT(amg.out, HasSubstr(text));
+  EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
 }
 
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {

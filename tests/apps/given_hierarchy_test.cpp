@@ -19,6 +19,7 @@ class GivenHierarchy : public Program {
 
   Ended run(const std::vector<std::string>& names) const {
     std::vector<std::string> files;
+    files.reserve(names.size());
     for (const std::string& name : names) files.push_back(file(name));
     return wait_for(start("signorini_given_hierarchy", files));
   }

@@ -138,6 +138,7 @@ TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
     Chain<B> untruncated(problem, P, rotate);
     const Index all = untruncated.assemble(none, none);
     std::vector<GalerkinMatrix<B>> known;
+    known.reserve(2);
     for (int k = 0; k < 2; ++k) known.push_back({untruncated.levels[k].own_matrix, untruncated.levels[k].off});
     EXPECT_EQ(Chain<B>(problem, P, rotate, known).assemble(none, none), 0);
     for (int trial = 0; trial < 5; ++trial) {
@@ -200,7 +201,7 @@ TEST(GalerkinOfFloatingBodies, HoldsAFunctionWithoutEnergyByAWeakSpring) {
   MinMerge<1> transfer;
   transfer.prepare(fine, P, true, coarse);
   coarse.clear_phases();
-  const auto diagonal = [&](std::vector<Flags> critical) {
+  const auto diagonal = [&](const std::vector<Flags>& critical) {
     truncate(fine, critical);
     transfer.assemble(fine, coarse);
     return std::array{coarse.own_matrix.diagonal(0)[0], coarse.own_matrix.diagonal(1)[0]};
