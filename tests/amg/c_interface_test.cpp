@@ -137,6 +137,7 @@ TEST_F(CSetup, OfNothingIsTheDefault) {
   ASSERT_EQ(signorini_create_with(&matrix, 1, nullptr, &solver), SIGNORINI_SOLVED) << signorini_message();
   ASSERT_EQ(solve(), SIGNORINI_SOLVED);
   EXPECT_EQ(x, BlackBox(A).solve(b, lower).x);
+  signorini_destroy(solver);
   EXPECT_EQ(signorini_create_with(nullptr, 1, nullptr, &solver), SIGNORINI_BAD_INPUT);
 }
 
