@@ -82,14 +82,19 @@ TEST(Automatic, IsMonotoneMultigridWithoutTruncation) {
   EXPECT_EQ(x, y);
 }
 
+/// A unit block of 4 x 4 cells that is held at its left side, drawn out in length.
+Nested<2> stretched(Model<2> model, double factor, int refinements) {
+  model.fixes = {{on("left"), {Field(0), Field(0)}}};
+  Mesh<2> mesh = cube<2>(0, 1, 4);
+  for (auto& point : mesh.points) point[0] *= factor;
+  return discretize_all<2, 2>(mesh, refinements, model);
+}
+
 // Cells of 25 to 1 that bend: neither smoothing nor coarse meshes do much.
 TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
   Model<2> model = resting_block<2>({0, -1e-6}, {});
-  model.fixes = {{on("left"), {Field(0), Field(0)}}};
   model.obstacles.front() = {plane<2>({0, -0.5}, {0, 1}), on("bottom"), "test"};
-  Mesh<2> mesh = cube<2>(0, 1, 4);
-  for (auto& point : mesh.points) point[0] *= 100;
-  const auto nested = discretize_all<2, 2>(mesh, 4, model);
+  const auto nested = stretched(model, 100, 4);
   std::vector<double> x;
   const Summary summary = solve_from_zero(nested, x);
   EXPECT_TRUE(summary.converged()) << summary.reason;
@@ -121,10 +126,7 @@ TEST(Automatic, TakesToADirectSolverWhereCyclesConvergeTooSlowly) {
 TEST(Automatic, KeepsCyclesThatWillEnd) {
   Model<2> model = resting_block<2>({0, -1e-3}, {});
   model.poisson = Field(0.49);
-  model.fixes = {{on("left"), {Field(0), Field(0)}}};
-  Mesh<2> mesh = cube<2>(0, 1, 4);
-  for (auto& point : mesh.points) point[0] *= 4;
-  const auto nested = discretize_all<2, 2>(mesh, 3, model);
+  const auto nested = stretched(model, 4, 3);
   std::vector<double> x;
   const Summary summary = solve_from_zero(nested, x);
   EXPECT_TRUE(summary.converged()) << summary.reason;
