@@ -133,9 +133,9 @@ void Merge<B, share>::restrict_uncoupled(const Level<B>& fine, Level<B>& coarse)
       for (Offset at = P.row[p]; at < P.row[p + 1]; ++at) terms += moves(at);
       for (Offset at = P.row[p]; at < P.row[p + 1]; ++at) {
         if (!moves(at)) continue;
-        const double w = P.weight[at], share_of_one = terms * w;
+        const double w = P.weight[at], whole = 1 / (terms * w);
         const Offset c = Offset{coarse.constraints.slot[P.column[at]]} * B + k;
-        const double one = lower / share_of_one, other = upper / share_of_one;
+        const double one = lower * whole, other = upper * whole;
         coarse.constraints.lower[c] = std::max(coarse.constraints.lower[c], w > 0 ? one : other);
         coarse.constraints.upper[c] = std::min(coarse.constraints.upper[c], w > 0 ? other : one);
       }

@@ -180,7 +180,7 @@ int main(int argc, char** argv) {
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
-    signorini::keep_freed_memory();
+    signorini::prepare_heap();
     if (algebraic) signorini::bench::print_algebraic(quick);
     if (boundary) signorini::bench::print_boundary(quick);
     if (memory) signorini::bench::print_memory(quick);

@@ -219,7 +219,7 @@ int run(int argc, char** argv) {
 
 int guarded_run(int argc, char** argv) {
   catch_interrupts();
-  keep_freed_memory();
+  prepare_heap();
   try {
     return flushed(run(argc, argv));
   } catch (const Error& error) {

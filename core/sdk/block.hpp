@@ -21,9 +21,20 @@ inline void subtract_product(const double* M, const double* x, double* y) {
 }
 
 /// y = sum of the products of `count` consecutive blocks M with the vectors number column[k] of x. Every entry of a
-/// block has a sum of its own, so that no multiplication waits for another.
+/// block has a sum of its own, scalars have two, so that no multiplication waits for another.
 template <int B>
 inline void row_product(const double* M, const Index* column, Offset count, const double* x, double* y) {
+  if constexpr (B == 1) {
+    double even = 0, odd = 0;
+    Offset k = 0;
+    for (; k + 1 < count; k += 2) {
+      even += M[k] * x[column[k]];
+      odd += M[k + 1] * x[column[k + 1]];
+    }
+    if (k < count) even += M[k] * x[column[k]];
+    *y = even + odd;
+    return;
+  }
   double sum[B * B] = {};
   for (Offset k = 0; k < count; ++k, M += B * B) {
     const double* v = x + Offset{column[k]} * B;

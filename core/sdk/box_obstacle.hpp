@@ -23,6 +23,8 @@ class BoxObstacle : public Obstacle<B> {
   void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
                 Flags* critical) const noexcept override {
     const auto [from, to] = slots_between(level, first, last);
+    if constexpr (scalar)
+      if (to - from == last - first) return dense_distance(level, from, first, to - from, lower, upper, critical);
     for (Index slot = from; slot < to; ++slot) {
       const double* x = level.x + Offset{level.constrained[slot]} * B;
       critical[slot] = 0;
@@ -53,9 +55,20 @@ class BoxObstacle : public Obstacle<B> {
   }
 
  private:
-  static constexpr bool scalar = B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); };
+  static constexpr bool scalar = is_scalar_box<B, Local>;
 
-  // Where every vector has a slot: no branches, so that several are projected at once.
+  // Where every vector has a slot: no branches, so that several are treated at once.
+  static void dense_distance(const LevelView<B>& level, Index slot, Index first, Index count, double* lower,
+                             double* upper, Flags* critical) {
+    const double *x = level.x + first, *low = level.lower + slot, *high = level.upper + slot;
+    for (Index i = 0; i < count; ++i) {
+      const double below = std::min(low[i] - x[i], 0.0), above = std::max(high[i] - x[i], 0.0);
+      lower[slot + i] = below;
+      upper[slot + i] = above;
+      critical[slot + i] = (below == 0) | (above == 0);
+    }
+  }
+
   static double dense_residual(const LevelView<B>& level, Index slot, Index first, Index last, const double* r) {
     const double *x = level.x + first, *inverse = level.inverse + first;
     const double *lower = level.lower + slot, *upper = level.upper + slot;

@@ -30,6 +30,19 @@ inline void relax(const LevelView<B>& level, Index p) {
   block::add_product<B>(inverse, r, level.x + Offset{p} * B);
 }
 
+/// Whether the local problem is scalar and solved by cutting off what is beyond the bounds.
+template <int B, class Local>
+inline constexpr bool is_scalar_box = B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); };
+
+/// Over-relaxed Gauss-Seidel at a scalar up to its bounds.
+template <class Local>
+inline void relax_clamped(const LevelView<1>& level, Index p, double lower, double upper) {
+  double inverse, r;
+  relaxed_inverse<1>(level, p, &inverse);
+  row_residual<1>(level, p, &r);
+  level.x[p] = Local::clamp(level.x[p] + inverse * r, lower, upper);
+}
+
 /// Projected Gauss-Seidel at the vector of a slot, over-relaxed where that meets no bound, and up to it for scalars.
 /// The distance to the bounds is taken from the iterate every time: updating it along the sweep is unstable (Krause,
 /// remark 4.3).
@@ -37,13 +50,7 @@ template <int B, class Local>
 inline void relax_projected(const LevelView<B>& level, Index slot) {
   const Index p = level.constrained[slot];
   double* x = level.x + Offset{p} * B;
-  if constexpr (B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); }) {
-    double inverse, r;
-    relaxed_inverse<1>(level, p, &inverse);
-    row_residual<1>(level, p, &r);
-    *x = Local::clamp(*x + inverse * r, level.lower[slot], level.upper[slot]);
-    return;
-  }
+  if constexpr (is_scalar_box<B, Local>) return relax_clamped<Local>(level, p, level.lower[slot], level.upper[slot]);
   const double* bound[2] = {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B};
   double inverse[B * B], r[B], lower[B], upper[B], d[B];
   relaxed_inverse<B>(level, p, inverse);
@@ -64,10 +71,21 @@ inline void relax_projected(const LevelView<B>& level, Index slot) {
 /// Slots of the vectors first <= p < last: the first one, and one behind the last.
 template <int B>
 inline std::pair<Index, Index> slots_between(const LevelView<B>& level, Index first, Index last) {
+  if (level.slots == level.vectors) return {first, last};
   const Index* end = level.constrained + level.slots;
   const Index* from = std::lower_bound(level.constrained, end, first);
   return {static_cast<Index>(from - level.constrained),
           static_cast<Index>(std::lower_bound(from, end, last) - level.constrained)};
+}
+
+/// The sweep of a scalar problem all of whose vectors have slots, that of `first` being `slot`: no look-ups.
+template <class Local>
+void dense_projected_sweep(LevelView<1> level, Index slot, Index first, Index last, Order order) {
+  const double *lower = level.lower + slot - first, *upper = level.upper + slot - first;
+  if (order == Order::forward)
+    for (Index p = first; p < last; ++p) relax_clamped<Local>(level, p, lower[p], upper[p]);
+  else
+    for (Index p = last - 1; p >= first; --p) relax_clamped<Local>(level, p, lower[p], upper[p]);
 }
 
 /// One projected block Gauss-Seidel sweep over first <= p < last; Local::correct is the exact local minimiser. Runs of
@@ -76,6 +94,8 @@ inline std::pair<Index, Index> slots_between(const LevelView<B>& level, Index fi
 template <int B, class Local>
 void projected_sweep(LevelView<B> level, Index first, Index last, Order order) {
   const auto [from, to] = slots_between(level, first, last);
+  if constexpr (is_scalar_box<B, Local>)
+    if (to - from == last - first) return dense_projected_sweep<Local>(level, from, first, last, order);
   if (order == Order::forward) {
     Index p = first;
     for (Index slot = from; slot < to; ++slot) {

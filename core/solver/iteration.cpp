@@ -71,8 +71,10 @@ typename Iteration<B>::Sums Iteration<B>::evaluate(std::vector<double>& x, std::
 
 template <int B>
 void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const {
-  residual<B>(problem_.A, x.data(), problem_.b.data(), first, last, r.data() + Offset{first} * B);
-  add_sums(x, r, first, last, sums);
+  in_pieces<B>(first, last, [&](Index from, Index to) {
+    residual<B>(problem_.A, x.data(), problem_.b.data(), from, to, r.data() + Offset{from} * B);
+    add_sums(x, r, from, to, sums);
+  });
 }
 
 template <int B>

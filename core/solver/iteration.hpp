@@ -55,7 +55,7 @@ class Iteration {
   Sums evaluate(std::vector<double>& x, std::vector<double>& r) const;
   /// The same at the vectors first <= p < last.
   void evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const;
-  /// Adds what follows from a residual at the vectors first <= p < last.
+  /// Adds what follows from a residual at the vectors first <= p < last, one piece of them (in_pieces()).
   void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) const;
   /// Error(Exit::input) where a residual is not finite.
   static void refuse_nan(double residual);

@@ -1,6 +1,7 @@
 #include "core/solver/multigrid.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -26,6 +27,26 @@ std::vector<Segment<B>> one_box_segment(Index vectors) {
   return {{0, vectors, std::make_shared<const CoarseBox<B>>()}};
 }
 
+// Where most vectors have bounds, the others get infinite ones: then loops over them need no look-ups.
+template <int B>
+Constraints<B> completed(const Constraints<B>& c, Index vectors) {
+  if (B > 1 || c.size() == vectors || c.size() < vectors / 2) return c;
+  Constraints<B> out;
+  const auto n = static_cast<std::size_t>(vectors);
+  out.slot.resize(n);
+  out.vector.resize(n);
+  std::iota(out.slot.begin(), out.slot.end(), 0);
+  std::iota(out.vector.begin(), out.vector.end(), 0);
+  out.lower.assign(n * B, -infinity);
+  out.upper.assign(n * B, infinity);
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      out.lower[Offset{c.vector[slot]} * B + k] = c.lower[Offset{slot} * B + k];
+      out.upper[Offset{c.vector[slot]} * B + k] = c.upper[Offset{slot} * B + k];
+    }
+  return out;
+}
+
 // Whether a direction that is not truncated is at a bound.
 template <int B>
 bool meets_bound(const Level<B>& level) {
@@ -49,7 +70,7 @@ Level<B> finest_level(const DiscreteProblem<B>& problem) {
   level.b = problem.b.data();
   level.chunks = divide(problem.A);
   level.frames = problem.frames;
-  level.constraints = problem.constraints;
+  level.constraints = completed(problem.constraints, level.vectors);
   if (level.constraints.slot.empty()) level.constraints.slot.assign(static_cast<std::size_t>(level.vectors), -1);
   level.segments = problem.segments.empty() ? one_box_segment<B>(level.vectors) : problem.segments;
   level.off = problem.fixed;
@@ -126,9 +147,11 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     transfers_[k - 1]->begin_restriction(coarse);
     coarse.inherited_rounding = level.inherited_rounding;
     down.add([this, k, &level, &coarse](Index first, Index last) {
-      update_phases(level, first, last);
-      restrict_residual(k, first, last);
-      coarse.inherited_rounding += rounding_of_work(level, first, last);
+      in_pieces<B>(first, last, [&](Index from, Index to) {
+        update_phases(level, from, to);
+        restrict_residual(k, from, to);
+        coarse.inherited_rounding += rounding_of_work(level, from, to);
+      });
     });
     down.run(level.chunks, crew_);
     if (finest) report_.rounding = coarse.inherited_rounding;
@@ -137,7 +160,9 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
       search(k);
     else
       up.add([this, k](Index first, Index last) {
-        transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], first, last);
+        in_pieces<B>(first, last, [this, k](Index from, Index to) {
+          transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], from, to);
+        });
       });
     smoothers_[k]->add_passes(settings_.post, Side::ascend, up);
   }
@@ -235,6 +260,7 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
   });
   LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
   const auto [from, to] = slots_between(level.constraints, first, last);
+  if (rests(level, from, to, report)) return;
   for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];
     const Flags critical = level.critical[slot] & static_cast<Flags>(~level.off[p]);
@@ -247,6 +273,26 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     level.removed[p] = removed;
     level.changed.push_back(p);
   }
+}
+
+// Whether no phase has changed, found without branches where every vector has a slot.
+template <int B>
+bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, LevelReport& report) const {
+  if (level.constraints.size() != level.vectors || near_ > 0 || settings_.truncate == Truncation::tangential)
+    return false;
+  const Flags kept = settings_.truncate == Truncation::none ? 0 : (1u << B) - 1;
+  const Flags *critical = level.critical.data(), *phase = level.phase.data();
+  const Flags *off = level.off.data(), *removed = level.removed.data();
+  Flags different = 0;
+  for (Index p = from; p < to; ++p) {
+    const Flags now = critical[p] & static_cast<Flags>(~off[p]);
+    different |= static_cast<Flags>((now ^ phase[p]) | (removed[p] ^ (off[p] | (now & kept))));
+  }
+  if (different) return false;
+  for (Index p = from; p < to; ++p) report.critical += phase[p] != 0;
+  for (int k = 0; k < B; ++k)
+    for (Index p = from; p < to; ++p) report.contact[k] += phase[p] >> k & 1u;
+  return true;
 }
 
 template <int B>

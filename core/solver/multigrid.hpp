@@ -66,6 +66,7 @@ class MonotoneMultigrid {
   bool searches(std::size_t k) const;
   void search(std::size_t k);
   void update_phases(Level<B>& level, Index first, Index last);
+  bool rests(const Level<B>& level, Index from, Index to, LevelReport& report) const;
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
   void restrict_residual(std::size_t k, Index first, Index last);
   void assemble_once();

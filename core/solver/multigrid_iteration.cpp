@@ -30,7 +30,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       method_(check_options(options)),
       multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
                  settings_of<B>(options)),
-      recombination_(problem.constraints),
+      recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)) {}
 
@@ -57,8 +57,10 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
                   this->x_before_.begin() + Offset{first} * B);
       },
       [this](Index first, Index last) {
-        this->evaluate(this->x_, this->r_, first, last, this->sums_);
-        recombination_.add(this->x_before_, this->x_, first, last);
+        in_pieces<B>(first, last, [this](Index from, Index to) {
+          this->evaluate(this->x_, this->r_, from, to, this->sums_);
+          recombination_.add(this->x_before_, this->x_, from, to);
+        });
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
   const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
@@ -122,12 +124,12 @@ bool MultigridIteration<B>::take_combination() {
   x_trial_.resize(this->x_.size());
   r_trial_.resize(this->x_.size());
   Sums sums;
-  const Chunks& chunks = multigrid_.finest().chunks;
-  for (Index first = 0; first < chunks.vectors; first += chunks.size) {
-    const Index last = std::min(chunks.vectors, first + chunks.size);
-    if (!recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_)) return false;
-    this->add_sums(x_trial_, r_trial_, first, last, sums);
-  }
+  bool admissible = true;
+  in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
+    admissible = admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
+    if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
+  });
+  if (!admissible) return false;
   if (!(sums.gain >= this->sums_.gain)) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct Chunks {
 /// @param bytes of the matrix in one chunk: several chunks of several passes share the second level cache
 template <int B>
 Chunks divide(const BlockMatrix<B>& A, Offset bytes = 1 << 19);
+
+/// Calls visit(from, to) with consecutive parts of first <= p < last: what one loop of a visit touches still is in the
+/// first level cache in the next one.
+template <int B, class Visit>
+void in_pieces(Index first, Index last, const Visit& visit) {
+  constexpr Index size = 512 / B;
+  for (; first < last; first += size) visit(first, std::min(last, first + size));
+}
 
 /// Passes over the vectors of a level, one after the other, that read no further than the matrix couples. They follow
 /// each other through memory: a pass enters a chunk as soon as the one before it has left all chunks coupled to that.

@@ -57,7 +57,7 @@ class SharedResult {
 };
 
 void solve_into(SharedResult& result, const Solver& solver, double tolerance) {
-  keep_freed_memory();
+  prepare_heap();
   try {
     result.store(solver(tolerance));
   } catch (const std::exception& error) {
