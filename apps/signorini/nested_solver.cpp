@@ -17,6 +17,11 @@ namespace {
 /// Vectors on the coarsest mesh above which the hierarchy goes on below it.
 constexpr Index large_coarsest_mesh = 1000;
 
+/// Cycles that at most are worth it on a coarser mesh with a start: one brings that of a scalar problem below the
+/// discretisation error, as in linear full multigrid; those of elastic bodies reduce the error far less.
+template <int B>
+constexpr int most_cycles_for_a_start = B == 1 ? 1 : 5;
+
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
 [[noreturn]] void throw_unbounded(const std::string& origin, const Solution<B>& solution) {
@@ -128,14 +133,15 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
 }
 
 template <int D, int B>
-void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution) {
+void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
+                                     Solution<B>& solution) {
   stop_if_interrupted();
   if (level == 0) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
   try {
     solution.summary =
         signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
-                            solution.x, finest ? options_ : loose(options_), registry_, monitor_);
+                            solution.x, options, registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
@@ -153,8 +159,10 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, S
 template <int D, int B>
 bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   try {
+    SolverOptions options = loose(options_);
+    if (!coarse.x.empty()) options.max_iterations = std::min(options.max_iterations, most_cycles_for_a_start<B>);
     Solution<B> solution = begin_level(model, level, coarse);
-    solve_level(model, level, solution);
+    solve_level(model, level, options, solution);
     coarse = std::move(solution);
     return true;
   } catch (const Error& error) {
@@ -173,7 +181,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
       if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
-  solve_level(model, finest, solution);
+  solve_level(model, finest, options_, solution);
   return solution;
 }
 
@@ -182,7 +190,7 @@ Solution<B> NestedSolver<D, B>::solve_from(const Model<B>& model, const std::vec
   const std::size_t finest = hierarchy_.levels.size() - 1;
   Solution<B> solution = discretize_level(model, finest);
   solution.x = to_local(solution.discretization.problem, start);
-  solve_level(model, finest, solution);
+  solve_level(model, finest, options_, solution);
   return solution;
 }
 

@@ -46,7 +46,7 @@ class NestedSolver {
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
   void continue_algebraically(DiscreteProblem<B>& coarsest);
-  void solve_level(const Model<B>& model, std::size_t level, Solution<B>& solution);
+  void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
   const MeshHierarchy<D>& hierarchy_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include "core/algebra/products.hpp"
@@ -19,9 +18,12 @@ constexpr double rounding = 1e-11;
 
 template <int B>
 double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
-  std::vector<double> Ax(x.size());
-  product<B>(problem.A, x.data(), Ax.data());
-  return std::inner_product(x.begin(), x.end(), Ax.begin(), 0.0);
+  double sum = 0, Ax[B];
+  for (Index p = 0; p < problem.A.size(); ++p) {
+    row_product(problem.A, p, x.data(), Ax);
+    for (int k = 0; k < B; ++k) sum += x[Offset{p} * B + k] * Ax[k];
+  }
+  return sum;
 }
 
 template <int B>
