@@ -11,6 +11,7 @@
 #include "apps/bench/problems.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
+#include "apps/bench/warm_memory.hpp"
 #include "core/base/heap.hpp"
 #include "core/fem/nested.hpp"
 
@@ -180,6 +181,7 @@ int main(int argc, char** argv) {
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
+    signorini::bench::warm_memory();
     signorini::prepare_heap();
     if (algebraic) signorini::bench::print_algebraic(quick);
     if (boundary) signorini::bench::print_boundary(quick);

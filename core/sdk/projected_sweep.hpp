@@ -32,7 +32,9 @@ inline void relax(const LevelView<B>& level, Index p) {
 
 /// Whether the local problem is scalar and solved by cutting off what is beyond the bounds.
 template <int B, class Local>
-inline constexpr bool is_scalar_box = B == 1 && requires { Local::clamp(0.0, 0.0, 0.0); };
+inline constexpr bool is_scalar_box = B == 1 && requires {
+  Local::clamp(0.0, 0.0, 0.0);
+};
 
 /// Over-relaxed Gauss-Seidel at a scalar up to its bounds.
 template <class Local>

@@ -126,7 +126,8 @@ bool MultigridIteration<B>::take_combination() {
   Sums sums;
   bool admissible = true;
   in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
-    admissible = admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
+    admissible =
+        admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
     if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
   });
   if (!admissible) return false;

@@ -8,6 +8,7 @@
 #include "apps/bench/peers/run.hpp"
 #include "apps/bench/peers/setup.hpp"
 #include "apps/bench/peers/solvers.hpp"
+#include "apps/bench/warm_memory.hpp"
 #include "core/base/error.hpp"
 
 namespace signorini::bench {
@@ -103,7 +104,7 @@ int run_program(int argc, char** argv) {
                  "larger sizes of the problem")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--repeat", arguments.patience.repeats, "runs of solvers that take less than 2 s; the best counts")
+  app.add_option("--repeat", arguments.patience.repeats, "runs of solvers that take less than 10 s; the best counts")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--setup", arguments.setup, "only the set-up of algebraic hierarchies, without bounds");
@@ -116,6 +117,7 @@ int run_program(int argc, char** argv) {
       "Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
+    warm_memory();
     if (arguments.setup) return print_setup(arguments.quick, arguments.matrix), 0;
     return run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {

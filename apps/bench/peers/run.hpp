@@ -7,7 +7,7 @@ namespace signorini::bench {
 struct Patience {
   double seconds = 60;  ///< of processor time
   int repeats = 3;
-  double is_short = 2;  ///< seconds
+  double is_short = 10;  ///< seconds
 };
 
 /// What came out of a solver.
