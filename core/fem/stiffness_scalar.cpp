@@ -1,160 +1,86 @@
 #include "core/fem/stiffness_scalar.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <utility>
-
 #include "core/fem/checked_element.hpp"
+#include "core/fem/local_stiffness.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/symmetric_rows.hpp"
 
 namespace signorini {
 namespace {
 
-// Assembles the rows of a scalar problem one after the other, each as soon as the last element around its vertex has
-// been visited. Until then the terms of its entries above the diagonal wait in a ring buffer, which holds no more than
-// the bandwidth of the matrix asks for: no search for an entry, and little memory that is not in a cache.
 template <int D>
 class ScalarAssembler {
  public:
   ScalarAssembler(const Mesh<D>& mesh, const Model<1>& model)
-      : mesh_(mesh), model_(model), first_(mesh.points.size() + 1), last_(mesh.points.size(), -1) {
-    count_terms();
-    const std::size_t n = mesh.points.size(), most = n + 2 * estimated_edges(mesh);
-    diagonal_.resize(n);
-    lower_.resize(n);
-    slot_.assign(n, -1);
-    A_.row.reserve(n + 1);
-    A_.column.reserve(most);
-    A_.value.reserve(most);
-  }
+      : mesh_(mesh),
+        model_(model),
+        law_(model),
+        rows_(mesh.vertices(), mesh.points.size() + 2 * estimated_edges(mesh)) {}
 
   BlockMatrix<1> assemble() {
-    const MaterialLaw<1> law(model_);
-    double diffusion = law.constant() ? law.at({}).diffusion : 0;
-    Index row = 0, highest = 0;
-    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-      const Simplex<D>& vertices = mesh_.elements[e];
-      const LinearElement<D> s = checked_element(mesh_, vertices, model_.origin);
-      if (!law.constant()) diffusion = law.at(site<D>(centroid<D>(mesh_, vertices), model_.t)).diffusion;
-      for (const Index p : vertices) highest = std::max(highest, p);
-      make_room(first_[row], first_[highest]);
-      add(vertices, s, s.measure * diffusion);
-      while (row < mesh_.vertices() && last_[row] <= static_cast<Index>(e)) append_row(row++);
-    }
-    mirror();
-    return std::move(A_);
+    if (mesh_.families.empty())
+      add(mesh_.elements, simplex_edges<D>(), [this](const Simplex<D>& v) { return element(v); });
+    else
+      add(mesh_.families, child_edges<D>(), [this](const Family<D>& v) { return family(v); });
+    return rows_.take();
   }
 
  private:
-  struct Term {
-    Index column;
-    double value;
-  };
+  template <class Patches, class Ends, class Stiffness>
+  void add(const Patches& patches, const Ends& ends, const Stiffness& stiffness) {
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      for (const Index p : patches[i]) rows_.announce(static_cast<Index>(i), p);
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      rows_.add(static_cast<Index>(i), patches[i], ends, stiffness(patches[i]));
+  }
 
-  // Those of row p are numbered from first_[p] on.
-  void count_terms() {
-    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
-      const Simplex<D>& v = mesh_.elements[e];
-      for (const auto [a, b] : simplex_edges<D>()) ++first_[std::min(v[a], v[b]) + 1];
-      for (const Index p : v) last_[p] = static_cast<Index>(e);
+  ElementStiffness<D> element(const Simplex<D>& vertices) const {
+    const LinearElement<D> s = checked_element(mesh_, vertices, model_.origin);
+    const double diffusion =
+        law_.at(law_.constant() ? Site{} : site<D>(centroid<D>(mesh_, vertices), model_.t)).diffusion;
+    return element_stiffness(s, s.measure * diffusion);
+  }
+
+  FamilyStiffness<D> family(const Family<D>& vertices) const {
+    if (law_.constant() && is_straight(vertices)) {
+      Simplex<D> father;
+      std::copy_n(vertices.begin(), D + 1, father.begin());
+      const LinearElement<D> s = linear_element(mesh_, father);
+      if (s.measure > 0) [[likely]]
+        return similarity_.children_of(element_stiffness(s, s.measure * law_.at({}).diffusion));
     }
-    const auto most = static_cast<std::size_t>(*std::max_element(first_.begin(), first_.end()));
-    column_.resize(most + 1);
-    value_.resize(most + 1);
-    for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
-    next_.assign(first_.begin(), first_.end() - 1);
+    return child_by_child(vertices);
   }
 
-  Term& term(Offset k) { return ring_[k & (static_cast<Offset>(ring_.size()) - 1)]; }
-
-  void make_room(Offset begin, Offset end) {
-    const auto size = static_cast<Offset>(ring_.size());
-    if (end - begin <= size) return;
-    std::vector<Term> larger(std::bit_ceil(static_cast<std::size_t>(end - begin)));
-    std::swap(ring_, larger);
-    for (Offset k = begin; k < begin + size; ++k) term(k) = larger[k & (size - 1)];
+  // Midpoints on curved surfaces have moved.
+  bool is_straight(const Family<D>& vertices) const {
+    constexpr auto ends = simplex_edges<D>();
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      if (mesh_.points[vertices[D + 1 + k]] !=
+          midpoint<D>(mesh_.points[vertices[ends[k][0]]], mesh_.points[vertices[ends[k][1]]]))
+        return false;
+    return true;
   }
 
-  void add(const Simplex<D>& v, const LinearElement<D>& s, double weight) {
-    for (int a = 0; a <= D; ++a) diagonal_[v[a]] += weight * dot(s.gradient[a], s.gradient[a]);
-    for (const auto [a, b] : simplex_edges<D>())
-      term(next_[std::min(v[a], v[b])]++) = {std::max(v[a], v[b]), weight * dot(s.gradient[a], s.gradient[b])};
-  }
-
-  void append_row(Index p) {
-    const Index count = drop_zeros(p, sum_terms(p));
-    std::sort(column_.begin(), column_.begin() + count);
-    A_.column.push_back(p);
-    A_.value.push_back(diagonal_[p]);
-    A_.column.resize(A_.column.size() + lower_[p]);
-    A_.value.resize(A_.column.size());
-    for (Index i = 0; i < count; ++i) {
-      const Index q = column_[i];
-      A_.column.push_back(q);
-      A_.value.push_back(std::exchange(value_[std::exchange(slot_[q], -1)], 0));
-      ++lower_[q];
+  FamilyStiffness<D> child_by_child(const Family<D>& vertices) const {
+    constexpr auto& children = RedRefinement<D>::children;
+    constexpr auto edges = edges_of_children<D>();
+    FamilyStiffness<D> out{};
+    for (std::size_t child = 0; child < children.size(); ++child) {
+      Simplex<D> corner;
+      for (int a = 0; a <= D; ++a) corner[a] = vertices[children[child][a]];
+      const ElementStiffness<D> one = element(corner);
+      for (int a = 0; a <= D; ++a) out.diagonal[children[child][a]] += one.diagonal[a];
+      for (std::size_t k = 0; k < one.edge.size(); ++k) out.edge[edges[child][k]] += one.edge[k];
     }
-    A_.row.push_back(static_cast<Offset>(A_.column.size()));
-  }
-
-  // The columns of row p above the diagonal go to column_, their sums to where slot_ says. Returns how many.
-  Index sum_terms(Index p) {
-    Index* const slot = slot_.data();
-    Index* const column = column_.data();
-    Index count = 0;
-    for (Offset k = first_[p]; k < first_[p + 1]; ++k) {
-      const auto [q, value] = term(k);
-      const Index known = slot[q], here = known < 0 ? count : known;  // without a branch that nobody could predict
-      column[count] = q;
-      count += known < 0;
-      slot[q] = here;
-      value_[here] += value;
-    }
-    return count;
-  }
-
-  // Leaves out what vanishes but for rounding: right angles uncouple many neighbours. All elements that contribute to
-  // an entry have been added to both diagonal entries.
-  Index drop_zeros(Index p, Index count) {
-    constexpr double zero = 1e-15;
-    const double scale = std::sqrt(diagonal_[p]) * zero;
-    Index kept = 0;
-    for (Index i = 0; i < count; ++i) {
-      const Index q = column_[i];
-      double& value = value_[slot_[q]];
-      column_[kept] = q;
-      if (std::abs(value) > scale * std::sqrt(diagonal_[q])) {
-        ++kept;
-      } else {
-        value = 0;
-        slot_[q] = -1;
-      }
-    }
-    return kept;
-  }
-
-  // What lies below the diagonal is what lies above it. Rows ascend, so row q meets its lower columns p in order.
-  void mirror() {
-    std::copy(A_.row.begin(), A_.row.end() - 1, next_.begin());
-    for (Index p = 0; p < A_.size(); ++p)
-      for (Offset k = A_.row[p] + 1 + lower_[p]; k < A_.row[p + 1]; ++k) {
-        const Offset below = ++next_[A_.column[k]];
-        A_.column[below] = p;
-        A_.value[below] = A_.value[k];
-      }
+    return out;
   }
 
   const Mesh<D>& mesh_;
   const Model<1>& model_;
-  std::vector<Offset> first_, next_;  // per row: number of its first term, and of the next one to come
-  std::vector<Index> last_;           // per vertex: the last element around it
-  std::vector<Term> ring_;            // term k at k modulo the size, a power of two
-  std::vector<double> diagonal_;
-  std::vector<Index> lower_;  // per row: entries below the diagonal so far
-  std::vector<Index> slot_, column_;
-  std::vector<double> value_;
-  BlockMatrix<1> A_;
+  const MaterialLaw<1> law_;
+  const Similarity<D> similarity_;
+  SymmetricRows rows_;
 };
 
 }  // namespace

@@ -28,6 +28,11 @@ struct Face {
   Index curve = -1;  ///< index into Mesh::curves, or -1 where it is flat
 };
 
+/// The vertices of an element and the midpoints of its edges, in the order of simplex_edges: the vertices of the
+/// children that red refinement makes of the element, see RedRefinement.
+template <int D>
+using Family = std::array<Index, (D + 1) * (D + 2) / 2>;
+
 /// One conforming simplicial mesh: D = 2 triangles, D = 3 tetrahedra.
 template <int D>
 struct Mesh {
@@ -36,7 +41,8 @@ struct Mesh {
   std::vector<Face<D>> boundary;                   ///< every boundary face, once
   std::vector<Part> parts;                         ///< named parts; all faces together always answer to "boundary"
   std::vector<Curve<D>> curves;
-  std::vector<Index> layer;  ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
+  std::vector<Family<D>> families;  ///< all elements once more, as children; none where they are not
+  std::vector<Index> layer;         ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
 
   Index vertices() const { return static_cast<Index>(points.size()); }
 };

@@ -60,7 +60,6 @@ class Refiner {
   static constexpr auto ends = simplex_edges<D>();
   static constexpr auto& children = RedRefinement<D>::children;
   static constexpr auto& face_children = RedRefinement<D - 1>::children;
-  static constexpr std::size_t nodes = D + 1 + ends.size();
   /// The lowest layer of a child is twice that of its father, or one or two more: on refined meshes, numbers of layers
   /// are linear on every coarsest element, so that inner diagonals go over two layers, all other edges over one.
   static constexpr int lowest_of_children = 3;
@@ -111,9 +110,8 @@ class Refiner {
   }
 
   /// The children whose lowest layer is the given one.
-  void add_children(Index father, Index layer) {
-    std::array<Index, nodes> node, layers;
-    node.fill(-1);
+  void add_children(Index father, Index layer, Family<D>& node) {
+    Family<D> layers;
     for (int i = 0; i <= D; ++i) layers[i] = 2 * layer_[fathers_[father][i]];
     for (std::size_t k = 0; k < ends.size(); ++k) layers[D + 1 + k] = (layers[ends[k][0]] + layers[ends[k][1]]) / 2;
     for (const auto& child : children) {
@@ -138,13 +136,15 @@ class Refiner {
     refinement_.parents.reserve(vertices);
     fine_.elements.reserve(fathers_.size() * children.size());
     refinement_.father.reserve(fathers_.size() * children.size());
+    fine_.families.resize(fathers_.size());
+    for (Family<D>& family : fine_.families) family.fill(-1);
     first_child_.resize(lowest_of_children * fathers_.size());
     const auto [order, begin] = sort_fathers();
     for (std::size_t layer = 0; layer + 1 < begin.size(); ++layer)
       for (int above = 0; above < lowest_of_children; ++above)
         for (Offset i = begin[layer]; i < begin[layer + 1]; ++i) {
           first_child_[lowest_of_children * order[i] + above] = static_cast<Index>(fine_.elements.size());
-          add_children(order[i], 2 * static_cast<Index>(layer) + above);
+          add_children(order[i], 2 * static_cast<Index>(layer) + above, fine_.families[i]);
         }
   }
 
@@ -235,14 +235,14 @@ MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
 template <int D>
 HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
   double vertices = coarsest.vertices(), elements = coarsest.elements.size(), boundary = coarsest.boundary.size();
-  double in_parts = 0;
+  double in_parts = 0, families = 0;
   for (const Part& part : coarsest.parts) in_parts += part.faces.size();
   double edges = uniform > 0 ? number_edges<D>(coarsest.vertices(), coarsest.elements).distinct : 0;
 
   const auto level_bytes = [&] {
     return vertices * (sizeof(Point<D>) + sizeof(Index) + sizeof(Refinement::parents[0])) +
-           elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + boundary * sizeof(Face<D>) +
-           in_parts * sizeof(Index);
+           elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + families * sizeof(Family<D>) +
+           boundary * sizeof(Face<D>) + in_parts * sizeof(Index);
   };
   double bytes = level_bytes();
   for (int k = 0; k < uniform; ++k) {
@@ -253,6 +253,7 @@ HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
       const double faces = (4 * elements + boundary) / 2;  // each is cut by three edges, each octahedron by one
       edges = 2 * edges + 3 * faces + elements;
     }
+    families = elements;
     elements *= RedRefinement<D>::children.size();
     boundary *= RedRefinement<D - 1>::children.size();
     in_parts *= RedRefinement<D - 1>::children.size();

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
+#include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
 
 namespace signorini::testing {
@@ -145,6 +146,52 @@ std::string message(const Mesh<D>& mesh, const Model<B>& model) {
   return "no error";
 }
 
+// A refined mesh against itself without families, that is, element by element.
+template <int D>
+void expect_same_by_families(const Mesh<D>& mesh, const Model<1>& model = {}) {
+  ASSERT_EQ(mesh.families.size() << D, mesh.elements.size());
+  Mesh<D> strangers = mesh;
+  strangers.families.clear();
+  const BlockMatrix<1> A = stiffness(mesh, model), other = stiffness(strangers, model);
+  EXPECT_EQ(A.row, other.row);
+  ASSERT_EQ(A.column, other.column);
+  for (Index p = 0; p < A.size(); ++p)
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+      EXPECT_NEAR(A.value[k], other.value[k], 2e-14 * std::sqrt(*A.diagonal(p) * *A.diagonal(A.column[k])));
+  EXPECT_EQ((dense(A) - dense(A).transpose()).norm(), 0);
+}
+
+template <int D>
+Mesh<D> refined(Mesh<D> mesh, int times = 1) {
+  return hierarchy(std::move(mesh), times).finest();
+}
+
+template <int D>
+void expect_same_by_families() {
+  expect_same_by_families(refined(unit_mesh<D>(3), 2));  // right angles, of lengths that are no binary fractions
+  expect_same_by_families(refined(distorted_mesh<D>(4)));
+  Mesh<D> rotated = unit_mesh<D>(3);
+  rotate_mesh(rotated);
+  expect_same_by_families(refined(rotated));
+  Model<1> varying;
+  varying.diffusion = expression([](const Site& s) { return 1 + s.x[0] * s.x[1]; });
+  expect_same_by_families(refined(distorted_mesh<D>(3)), varying);
+}
+
+TEST(Stiffness, OfAFamilyIsThatOfItsElements) {
+  expect_same_by_families<2>();
+  expect_same_by_families<3>();
+}
+
+TEST(Stiffness, OfAFamilyWithBentEdgesIsThatOfItsElements) {
+  Mesh<2> plane = refined(unit_mesh<2>(3));
+  Mesh<3> space = refined(unit_mesh<3>(3));
+  for (std::size_t p = 0; p < plane.points.size(); p += 3) plane.points[p][1] += 0.02;
+  for (std::size_t p = 0; p < space.points.size(); p += 5) space.points[p][2] += 0.02;
+  expect_same_by_families(plane);
+  expect_same_by_families(space);
+}
+
 TEST(Stiffness, RejectsCoefficientsOutOfRange) {
   const Mesh<2> mesh = unit_mesh<2>(2);
   Model<1> scalar;
@@ -167,6 +214,15 @@ TEST(Stiffness, RejectsInvertedElements) {
   Mesh<3> mesh = reference_element<3>();
   std::swap(mesh.elements[0][0], mesh.elements[0][1]);
   EXPECT_THAT(message(mesh, Model<1>{}), HasSubstr("volume"));
+}
+
+TEST(Stiffness, RejectsInvertedElementsOfFamilies) {
+  Mesh<3> mirrored = refined(reference_element<3>());
+  for (Point<3>& x : mirrored.points) x[0] = -x[0];
+  EXPECT_THAT(message(mirrored, Model<1>{}), HasSubstr("volume"));
+  Mesh<2> bent = refined(reference_element<2>());
+  bent.points[vertex_at(bent, {0.5, 0.5})] = {-1, -1};
+  EXPECT_THAT(message(bent, Model<1>{}), HasSubstr("area"));
 }
 
 }  // namespace

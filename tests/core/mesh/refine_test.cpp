@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/mesh/curve.hpp"
+#include "core/mesh/red_refinement.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/subsimplices.hpp"
 #include "mesh_checks.hpp"
@@ -118,6 +119,27 @@ void expect_children(const Mesh<D>& coarse, const Mesh<D>& fine, const Refinemen
 }
 
 template <int D>
+void expect_families(const Mesh<D>& coarse, const Mesh<D>& fine, const Refinement& refinement) {
+  ASSERT_EQ(fine.families.size(), coarse.elements.size());
+  std::multiset<Simplex<D>> children, elements;
+  for (const Family<D>& family : fine.families) {
+    for (const auto& child : RedRefinement<D>::children) {
+      Simplex<D> vertices;
+      for (int a = 0; a <= D; ++a) vertices[a] = family[child[a]];
+      children.insert(sorted(vertices));
+    }
+    for (std::size_t k = 0; k < simplex_edges<D>().size(); ++k) {
+      const auto [a, b] = simplex_edges<D>()[k];
+      std::array<Index, 2> parents = refinement.parents[family[D + 1 + k]];
+      EXPECT_EQ(sorted(parents),
+                sorted(std::array<Index, 2>{refinement.parents[family[a]][0], refinement.parents[family[b]][0]}));
+    }
+  }
+  for (const Simplex<D>& element : fine.elements) elements.insert(sorted(element));
+  EXPECT_EQ(children, elements);
+}
+
+template <int D>
 void expect_parents(const Mesh<D>& coarse, const Mesh<D>& fine, const Refinement& refinement) {
   ASSERT_EQ(refinement.parents.size(), fine.points.size());
   std::set<std::array<Index, 2>> seen;
@@ -150,6 +172,7 @@ void refine_and_check_flat(const Mesh<D>& coarsest) {
     const Mesh<D>&coarse = h.levels[k], &fine = h.levels[k + 1];
     test::expect_consistent(fine);
     expect_children(coarse, fine, h.refinements[k]);
+    expect_families(coarse, fine, h.refinements[k]);
     expect_parents(coarse, fine, h.refinements[k]);
     expect_first_touch_numbering(fine);
     EXPECT_NEAR(volume(fine), volume(coarse), 1e-12 * volume(coarse));
