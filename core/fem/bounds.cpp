@@ -34,12 +34,16 @@ struct Candidates {
         normals(vertex_normals(mesh, surface)),
         everywhere(!term.on) {}
 
+  Index size(const Mesh<D>& mesh) const {
+    return everywhere ? mesh.vertices() : static_cast<Index>(surface.vertices.size());
+  }
+
   // Calls use(vertex, normal) by ascending vertex.
   template <class Use>
   void each(const Mesh<D>& mesh, const Use& use) const {
     const auto on_surface = static_cast<Index>(surface.vertices.size());
     Index next = 0;
-    for (Index p = 0; p < (everywhere ? mesh.vertices() : on_surface); ++p) {
+    for (Index p = 0; p < size(mesh); ++p) {
       const Index vertex = everywhere ? p : surface.vertices[p];
       const bool here = next < on_surface && surface.vertices[next] == vertex;
       use(vertex, here ? normals[next] : Point<D>{});
@@ -56,8 +60,9 @@ class Collector {
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
-    Candidates<D>(mesh_, model_.obstacles[obstacle], model_.t)
-        .each(mesh_, [this](Index vertex, const Point<D>& normal) { push(vertex, normal); });
+    const Candidates<D> candidates(mesh_, model_.obstacles[obstacle], model_.t);
+    if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(mesh_)));
+    candidates.each(mesh_, [this](Index vertex, const Point<D>& normal) { push(vertex, normal); });
     flush();
   }
 

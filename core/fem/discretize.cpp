@@ -23,6 +23,7 @@ class Discretizer {
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);
     problem().constraints.slot.assign(n, -1);
+    reserve(bounds_.size());
     localise();
     add_segments();
     check_lengths(mesh, model);
@@ -39,6 +40,12 @@ class Discretizer {
  private:
   DiscreteProblem<B>& problem() { return out_.problem; }
   Constraints<B>& constraints() { return out_.problem.constraints; }
+
+  void reserve(std::size_t slots) {
+    constraints().vector.reserve(slots);
+    for (auto* bounds : {&constraints().lower, &constraints().upper}) bounds->reserve(slots * B);
+    for (auto* obstacles : {&out_.lower_obstacle, &out_.upper_obstacle}) obstacles->reserve(slots * B);
+  }
 
   // Visits the vertices with fixes or bounds in ascending order.
   void localise() {

@@ -43,14 +43,14 @@ inline ElementStiffness<D> element_stiffness(const LinearElement<D>& element, do
   return out;
 }
 
-/// The stiffness of children that are similar to their father, or at least affine to fixed ones as inner tetrahedra
-/// are, follows from the father's without any geometry.
+/// Stiffness of the children of an element with straight edges and one coefficient: it follows from the element's own,
+/// without any geometry.
 template <int D>
-class Similarity {
+class RedStiffness {
  public:
   // x' K y is minus the sum over the edges ab of K_ab (x_a - x_b)(y_a - y_b), so what a child's hat functions
   // contribute depends on how they grow along the edges of the father; that is the same for all fathers.
-  Similarity() {
+  RedStiffness() {
     const Mesh<D> mesh = reference();
     for (std::size_t child = 0; child < children.size(); ++child) {
       const LinearElement<D> s = linear_element(mesh, children[child]);

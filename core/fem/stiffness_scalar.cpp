@@ -47,7 +47,7 @@ class ScalarAssembler {
       std::copy_n(vertices.begin(), D + 1, father.begin());
       const LinearElement<D> s = linear_element(mesh_, father);
       if (s.measure > 0) [[likely]]
-        return similarity_.children_of(element_stiffness(s, s.measure * law_.at({}).diffusion));
+        return red_.children_of(element_stiffness(s, s.measure * law_.at({}).diffusion));
     }
     return child_by_child(vertices);
   }
@@ -79,7 +79,7 @@ class ScalarAssembler {
   const Mesh<D>& mesh_;
   const Model<1>& model_;
   const MaterialLaw<1> law_;
-  const Similarity<D> similarity_;
+  const RedStiffness<D> red_;
   SymmetricRows rows_;
 };
 
