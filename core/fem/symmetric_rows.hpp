@@ -19,7 +19,7 @@ namespace signorini {
 class SymmetricRows {
  public:
   /// @param entries of the whole matrix, about: for these memory is reserved
-  SymmetricRows(Index size, std::size_t entries) : last_(size, -1), ring_(1024) {
+  SymmetricRows(Index size, std::size_t entries) : last_(size, -1), ring_(64) {
     A_.row.reserve(static_cast<std::size_t>(size) + 1);
     A_.column.reserve(entries);
     A_.value.reserve(entries);
