@@ -42,6 +42,8 @@ class Refiner {
         fine_(fine),
         fathers_(coarse.elements),
         layer_(coarse.layer.empty() ? layers(coarse) : coarse.layer) {
+    for (const auto& e : fathers_)
+      for (const Index v : e) span_ = std::max(span_, layer_[v] - lowest_layer(e));
     if constexpr (D == 3)
       for (auto& e : fathers_) e = put_shortest_diagonal_first(coarse.points, e);
     edges_ = number_edges<D>(coarse.vertices(), fathers_);
@@ -60,9 +62,6 @@ class Refiner {
   static constexpr auto ends = simplex_edges<D>();
   static constexpr auto& children = RedRefinement<D>::children;
   static constexpr auto& face_children = RedRefinement<D - 1>::children;
-  /// The lowest layer of a child is twice that of its father, or one or two more: on refined meshes, numbers of layers
-  /// are linear on every coarsest element, so that inner diagonals go over two layers, all other edges over one.
-  static constexpr int lowest_of_children = 3;
 
   void check_size() const {
     const double limit = std::numeric_limits<Index>::max();
@@ -138,14 +137,21 @@ class Refiner {
     refinement_.father.reserve(fathers_.size() * children.size());
     fine_.families.resize(fathers_.size());
     for (Family<D>& family : fine_.families) family.fill(-1);
-    first_child_.resize(lowest_of_children * fathers_.size());
+    first_child_.resize((span_ + 1) * fathers_.size());
     const auto [order, begin] = sort_fathers();
-    for (std::size_t layer = 0; layer + 1 < begin.size(); ++layer)
-      for (int above = 0; above < lowest_of_children; ++above)
+    const auto layers = static_cast<Index>(begin.size()) - 1;
+    for (Index lowest = 0; lowest <= 2 * layers + span_; ++lowest)
+      for (Index layer = std::max(0, (lowest - span_ + 1) / 2); layer < layers && 2 * layer <= lowest; ++layer)
         for (Offset i = begin[layer]; i < begin[layer + 1]; ++i) {
-          first_child_[lowest_of_children * order[i] + above] = static_cast<Index>(fine_.elements.size());
-          add_children(order[i], 2 * static_cast<Index>(layer) + above, fine_.families[i]);
+          first_child(order[i], lowest - 2 * layer) = static_cast<Index>(fine_.elements.size());
+          add_children(order[i], lowest, fine_.families[i]);
         }
+    assert(fine_.elements.size() == fathers_.size() * children.size());
+  }
+
+  /// The first child of an element whose lowest layer is so far above twice that of the element.
+  Index& first_child(Index father, Index above) {
+    return first_child_[static_cast<std::size_t>(father) * (span_ + 1) + above];
   }
 
   /// Fine vertex between two vertices of a coarse element.
@@ -156,9 +162,9 @@ class Refiner {
     return fine_vertex(element, D + 1 + edge);
   }
 
-  Index child_with(Index father, const std::array<Index, D>& face) const {
-    for (int above = 0; above < lowest_of_children; ++above)
-      for (Index e = first_child_[lowest_of_children * father + above];
+  Index child_with(Index father, const std::array<Index, D>& face) {
+    for (Index above = 0; above <= span_; ++above)
+      for (Index e = first_child(father, above);
            e < static_cast<Index>(fine_.elements.size()) && refinement_.father[e] == father; ++e)
         if (std::ranges::all_of(face, [&](Index v) { return std::ranges::count(fine_.elements[e], v) > 0; })) return e;
     assert(false && "a child of a face bounds a child of its element");
@@ -208,6 +214,7 @@ class Refiner {
   std::vector<Simplex<D>> fathers_;
   Numbering edges_;
   std::vector<Index> layer_;        // per coarse vertex
+  Index span_ = 0;                  // of the layers of an element; so far above twice its lowest one may a child's be
   std::vector<Index> first_child_;  // of each coarse element, by its lowest layer
   std::vector<Index> number_;       // fine number of each coarse vertex, then of each coarse edge
   Refinement refinement_;

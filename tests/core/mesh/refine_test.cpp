@@ -378,6 +378,16 @@ TEST(Refine, SizeIsForetoldExactly) {
   EXPECT_TRUE(huge.bytes > 1e30 && std::isfinite(huge.bytes));
 }
 
+// Where the shortest diagonals of curved meshes change direction, elements get to span more than two layers.
+TEST(Refine, NoChildIsLostWhereElementsSpanManyLayers) {
+  Mesh<3> coarse = brick();
+  for (std::size_t v = 0; v < coarse.points.size(); ++v) coarse.layer.push_back(static_cast<Index>(7 * v % 11));
+  Mesh<3> fine;
+  const Refinement refinement = refine_uniformly(coarse, fine);
+  expect_children(coarse, fine, refinement);
+  expect_families(coarse, fine, refinement);
+}
+
 TEST(Refine, StarsOfManyElementsTakeLinearTime) {
   const Mesh<2> mesh = fan(200000);
   Mesh<2> fine;
