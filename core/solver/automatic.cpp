@@ -11,7 +11,7 @@ bool may_turn(const SolverOptions& options) { return options.truncate != "none";
 std::string describe(const SolverOptions& options, bool blocks, Offset unknowns) {
   std::string text = "monotone";
   if (may_turn(options) && blocks)
-    text += ", tnnmg in every second cycle, and in every fourth while phases rest";
+    text += ", tnnmg from the second cycle on while it gains more than cycles with bounds";
   else if (may_turn(options))
     text += fmt::format(", tnnmg while at most {} % of the phases change, and in every second cycle after {}",
                         resting_percent, patience_with_bounds);

@@ -19,6 +19,9 @@ inline constexpr Index most_unknowns_for_direct = 150'000;
 /// Where that fails: the coarse solver on the finest level, up to so many unknowns, for so many steps.
 inline constexpr Index most_unknowns_for_newton = 12'000;
 inline constexpr int newton_steps = 40;
+/// Of the energy gained in the cycle before: where weights are blocks, bounds come back after a correction without them
+/// that gained more.
+inline constexpr double slow_gain = 0.5;
 /// A cycle that changes no more of the phases is nearly a linear one.
 inline constexpr int resting_percent = 1;
 

@@ -68,6 +68,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   add_gain();
   Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
   rests_ = rests(cycle.finest());
+  compare_gains(free);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
   if (method_ == Method::automatic && leaves_to_direct()) step.stuck = "the cycles converge too slowly";
@@ -86,14 +87,26 @@ bool MultigridIteration<B>::leaves_to_direct() const {
 
 // Bounds of coarse corrections keep contact from spreading too far; where it rests they only hold back, and where they
 // are tight, as on algebraic levels, it spreads too slowly with them alone. (Weights that are blocks share a distance
-// among so many components that corrections without bounds take turns from the first cycle on; but what they spread too
-// far comes back slowly, so that they have fewer turns while phases rest.)
+// among so many components that there the gains decide, from the second cycle on.)
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
   if (!may_turn_) return false;
-  if (blocks_) return cycles_ % (rests_ ? 4 : 2) == 0;
+  if (blocks_) return !bounds_pay_;
   return rests_ || (cycles_ >= automatic::patience_with_bounds && cycles_ % 2 == 0);
+}
+
+// A correction that single vectors cut off gains little: bounds take over, until they gain no more than it did.
+template <int B>
+void MultigridIteration<B>::compare_gains(bool free) {
+  const double gain = this->sums_.gain;
+  if (!free) {
+    bounds_pay_ = gain > gain_without_bounds_;
+  } else if (gain > automatic::slow_gain * last_gain_) {
+    bounds_pay_ = true;
+    gain_without_bounds_ = gain;
+  }
+  last_gain_ = gain;
 }
 
 template <int B>

@@ -23,6 +23,7 @@ class MultigridIteration final : public Iteration<B> {
   std::string method() const override;
   Step advance() override;
   bool goes_without_bounds() const;
+  void compare_gains(bool free);
   bool leaves_to_direct() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
@@ -35,6 +36,8 @@ class MultigridIteration final : public Iteration<B> {
   bool blocks_;         // among the interpolations' weights
   bool may_turn_;       // "auto" may make corrections without bounds
   bool rests_ = false;  // few phases changed in the last cycle
+  bool bounds_pay_ = true;
+  double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
   std::vector<double> x_trial_, r_trial_;  // empty without acceleration
