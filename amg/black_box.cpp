@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -70,9 +71,8 @@ class BlackBox::BlockSolver final : public Solver {
  public:
   BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options, const NearNullSpace& near_null)
       : options_(options), registry_(solver_components()) {
-    problem_.A = block_matrix<B>(A);
+    problem_.A = block_matrix<B>(A, &problem_.fixed);
     problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
-    problem_.fixed.assign(static_cast<std::size_t>(A.rows) / B, 0);
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     check_options(options_);
     check_near_null(near_null, A.rows, coarsening_of(options_));
@@ -92,14 +92,47 @@ class BlackBox::BlockSolver final : public Solver {
     check_finite("b", b);
     problem_.b.assign(b.begin(), b.end());
     problem_.constraints = box<B>(n, lower, upper);
-    if (!algebraic_settings(options_).only_twins) return solve(levels_, start, monitor);
-    const auto bounded = galerkin_hierarchy<B>(problem_, levels_.prolongations, transfer(), {.only_twins = true});
-    return solve(bounded, start, monitor);
+    check_start(start);
+    problem_.prescribed_work = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (decoupled(i)) prescribe(i, lower.empty() ? -infinity : lower[i], upper.empty() ? infinity : upper[i], start);
+    Result result;
+    if (!algebraic_settings(options_).only_twins)
+      result = solve(levels_, start, monitor);
+    else
+      result = solve(galerkin_hierarchy<B>(problem_, levels_.prolongations, transfer(), {.only_twins = true}), start,
+                     monitor);
+    for (std::size_t i = 0; i < n; ++i)
+      if (decoupled(i)) result.multiplier[i] = -b[i];
+    return result;
   }
 
  private:
   TransferFactory<B> transfer() const {
     return [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  }
+
+  void check_start(std::span<const double> start) const {
+    if (start.empty()) return;
+    check_size("start", start, problem_.b.size());
+    check_finite("start", start);
+  }
+
+  /// The row of the matrix is zero.
+  bool decoupled(std::size_t i) const { return problem_.fixed[i / B] >> (i % B) & 1u; }
+
+  /// The bound that the load goes to; without load, the admissible value next to the start.
+  void prescribe(std::size_t i, double lower, double upper, std::span<const double> start) {
+    const double load = problem_.b[i];
+    const double value =
+        load > 0 ? upper : load < 0 ? lower : std::clamp(start.empty() ? 0.0 : start[i], lower, upper);
+    if (!std::isfinite(value))
+      throw Error(Exit::no_solution,
+                  fmt::format("the energy is unbounded below: row {} of the matrix is zero, and no bound holds its "
+                              "load {}",
+                              i + 1, load));
+    problem_.prescribed_work += load * value;
+    problem_.b[i] = problem_.start[i] = value;
   }
 
   AlgebraicLevels<B> take(const GivenLevels& given) const {
@@ -110,19 +143,15 @@ class BlackBox::BlockSolver final : public Solver {
 
   /// @param levels for the bounds of the problem
   Result solve(const AlgebraicLevels<B>& levels, std::span<const double> start, const Monitor& monitor) {
-    const std::size_t n = problem_.b.size();
     problem_.galerkin = levels.matrices;
     Result result;
-    if (start.empty()) {
+    if (start.empty())
       result.x = nested_start<B>(problem_, levels.prolongations, loose(options_), registry_, monitor);
-    } else {
-      check_size("start", start, n);
-      check_finite("start", start);
+    else
       result.x.assign(start.begin(), start.end());
-    }
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
-    result.multiplier.resize(n);
+    result.multiplier.resize(problem_.b.size());
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
     for (double& force : result.multiplier) force = -force;
     return result;

@@ -57,7 +57,7 @@ class BlackBox {
   /// the summary's outcome.
   /// @param lower, upper, start one value per unknown; empty: none, and nested iteration
   /// @throws Error(Exit::input) for sizes that do not fit and values that are not numbers, Error(Exit::no_solution)
-  ///     where a lower bound lies above the upper one
+  ///     where a lower bound lies above the upper one, or no bound holds the load in a row of A that is zero
   Result solve(std::span<const double> b, std::span<const double> lower = {}, std::span<const double> upper = {},
                std::span<const double> start = {}, const Monitor& monitor = {});
 

@@ -73,6 +73,26 @@ double diagonal(const BlockMatrix<B>& A, Index i) {
 }
 
 template <int B>
+bool is_zero(const BlockMatrix<B>& A, Index i) {
+  for (Offset k = A.row[i / B]; k < A.row[i / B + 1]; ++k) {
+    const double* row = A.at(k) + i % B * B;
+    if (std::any_of(row, row + B, [](double v) { return v != 0; })) return false;
+  }
+  return true;
+}
+
+template <int B>
+std::vector<Flags> hold_zero_rows(BlockMatrix<B>& A) {
+  std::vector<Flags> held(static_cast<std::size_t>(A.size()), 0);
+  for (Index i = 0; i < A.size() * B; ++i) {
+    if (!is_zero(A, i)) continue;
+    held[i / B] |= static_cast<Flags>(1u << (i % B));
+    A.at(A.row[i / B])[i % B * (B + 1)] = 1;
+  }
+  return held;
+}
+
+template <int B>
 void check_diagonal(const BlockMatrix<B>& A) {
   for (Index i = 0; i < A.size() * B; ++i)
     if (const double d = diagonal(A, i); !(d > 0))
@@ -141,18 +161,19 @@ BlockMatrix<B> without_zero_blocks(const BlockMatrix<B>& A) {
 }  // namespace
 
 template <int B>
-BlockMatrix<B> block_matrix(const SparseRows& matrix) {
+BlockMatrix<B> block_matrix(const SparseRows& matrix, std::vector<Flags>* zero_rows) {
   check_shape(matrix, B);
   BlockMatrix<B> A;
   RowBuilder<B> builder(matrix.rows / B);
   for (Index p = 0; p < matrix.rows / B; ++p) builder.append(matrix, p, A);
+  if (zero_rows) *zero_rows = hold_zero_rows(A);
   check_diagonal(A);
   if (check_symmetry(A)) A = without_zero_blocks(A);
   return A;
 }
 
-template BlockMatrix<1> block_matrix(const SparseRows&);
-template BlockMatrix<2> block_matrix(const SparseRows&);
-template BlockMatrix<3> block_matrix(const SparseRows&);
+template BlockMatrix<1> block_matrix(const SparseRows&, std::vector<Flags>*);
+template BlockMatrix<2> block_matrix(const SparseRows&, std::vector<Flags>*);
+template BlockMatrix<3> block_matrix(const SparseRows&, std::vector<Flags>*);
 
 }  // namespace signorini

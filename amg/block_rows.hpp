@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "core/algebra/block_matrix.hpp"
 #include "core/algebra/sparse_rows.hpp"
 
@@ -9,7 +11,9 @@ namespace signorini {
 /// Error(Exit::input) where the matrix is not square, does not divide into blocks of size B, is not symmetric but for
 /// rounding, or is seen not to be positive semidefinite: by its diagonal, which must be positive, or by two rows and
 /// columns alone. Messages count rows and columns from 1.
+/// @param zero_rows rows without any entry are allowed: they become those of the identity, and the bits of their
+///     components are set here, in one value per vector; null: they are refused
 template <int B>
-BlockMatrix<B> block_matrix(const SparseRows& matrix);
+BlockMatrix<B> block_matrix(const SparseRows& matrix, std::vector<Flags>* zero_rows = nullptr);
 
 }  // namespace signorini

@@ -81,6 +81,10 @@ void add_summary(Json& json, const Summary& summary) {
   json["solver"] = solver(summary.options);
 }
 
+void add_history(Json& json, const Summary& summary) {
+  json["history"] = array(summary.history, [&](const IterationRecord& cycle) { return record(summary, cycle); });
+}
+
 void add_results(Json& json, const StepReport& step) {
   json["contact"] = array(step.contact, contact);
   json["probes"] = array(step.probes, probe);
@@ -114,6 +118,7 @@ bool Report::converged() const {
 Json to_json(const Summary& summary) {
   Json json{{"converged", summary.converged()}, {"unknowns", unknowns(summary)}, {"levels", levels(summary)}};
   add_summary(json, summary);
+  add_history(json, summary);
   finite_or_null(json);
   return json;
 }
@@ -126,8 +131,7 @@ Json to_json(const Report& report) {
             {"unknowns", unknowns(report.last().summary)},
             {"levels", levels(report.last().summary)}};
   add_summary(json, report.last().summary);
-  const Summary& last = report.last().summary;
-  json["history"] = array(last.history, [&](const IterationRecord& cycle) { return record(last, cycle); });
+  add_history(json, report.last().summary);
   json["time"] = time(report.time);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());

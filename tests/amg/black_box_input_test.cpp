@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 
 #include "amg/black_box.hpp"
@@ -13,6 +14,7 @@ namespace signorini::test {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 template <class Action>
@@ -91,8 +93,45 @@ TEST(BlackBoxMatrix, WithoutPositiveDiagonalIsRefused) {
   expect_refused(A, "the diagonal entry of row 5 is 0, expected a positive one: the matrix is not positive definite");
   A.coeffRef(4, 4) = -1;
   expect_refused(A, "the diagonal entry of row 5 is -1");
-  A.prune([](int row, int column, double) { return row != 4 && column != 4; });
-  expect_refused(A, "the diagonal entry of row 5 is 0");
+}
+
+// Three rows are zero: loads go to their bounds, and what has none stays where it is.
+TEST(BlackBoxMatrix, WithZeroRowsIsSolvedByBoundsAlone) {
+  for (const int block : {1, 3}) {
+    Matrix A = laplacian(7);
+    std::vector<double> b(36, 1), lower(36, -2), upper(36, 0.5);
+    A.prune([](int row, int column, double) { return row % 12 != 4 && column % 12 != 4; });
+    b[4] = 2, b[16] = -2, b[28] = 0;
+    BlackBox solver(A, block);
+    const BlackBox::Result found = solver.solve(b, lower, upper);
+    EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+    EXPECT_EQ(found.x[4], 0.5);
+    EXPECT_EQ(found.x[16], -2);
+    EXPECT_EQ(found.x[28], 0);
+    EXPECT_EQ(found.multiplier[4], -2);
+    EXPECT_EQ(found.multiplier[16], 2);
+    double energy = 0;
+    for (int i = 0; i < 36; ++i) energy += 0.5 * found.x[i] * (found.multiplier[i] - b[i]);
+    EXPECT_NEAR(found.summary.energy, energy, 1e-9 * std::abs(energy));
+    const std::vector<double> start(36, 0.25);
+    EXPECT_EQ(solver.solve(b, lower, upper, start).x[28], 0.25);
+    upper[4] = std::numeric_limits<double>::infinity();
+    try {
+      solver.solve(b, lower, upper);
+      FAIL() << "no bound holds the load in row 5";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::no_solution);
+      EXPECT_THAT(error.what(), HasSubstr("row 5 of the matrix is zero"));
+    }
+  }
+}
+
+TEST(BlackBoxMatrix, OfZerosAloneIsSolvedByBoundsAlone) {
+  const BlackBox::Result found = BlackBox(Matrix(3, 3)).solve(std::vector<double>{1, -1, 0}, std::vector<double>(3, -2),
+                                                              std::vector<double>(3, 4));
+  EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+  EXPECT_THAT(found.x, ElementsAre(4, -2, 0));
+  EXPECT_NEAR(found.summary.energy, -6, 1e-12);
 }
 
 TEST(BlackBoxMatrix, WithTwoRowsThatAreIndefiniteIsRefused) {

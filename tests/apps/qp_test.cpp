@@ -92,6 +92,11 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
   EXPECT_TRUE(r.at("iterations").is_number_integer());
   for (const char* key : {"read", "setup", "solve", "total"}) EXPECT_GE(r.at("time").at(key).get<double>(), 0) << key;
   EXPECT_LE(r.at("residual").get<double>(), 1e-8);
+  ASSERT_EQ(r.at("history").size(), r.at("iterations"));
+  const auto& finest = r.at("history").back().at("levels").back();
+  EXPECT_EQ(finest.at("level"), 0);
+  EXPECT_EQ(finest.at("vectors"), n);
+  EXPECT_EQ(finest.at("critical"), touching);
   EXPECT_THAT(written("reports"), UnorderedElementsAre("r.json"));
 }
 
