@@ -124,8 +124,7 @@ class BlackBox::BlockSolver final : public Solver {
   /// The bound that the load goes to; without load, the admissible value next to the start.
   void prescribe(std::size_t i, double lower, double upper, std::span<const double> start) {
     const double load = problem_.b[i];
-    const double value =
-        load > 0 ? upper : load < 0 ? lower : std::clamp(start.empty() ? 0.0 : start[i], lower, upper);
+    const double value = load > 0 ? upper : load < 0 ? lower : std::clamp(start.empty() ? 0.0 : start[i], lower, upper);
     if (!std::isfinite(value))
       throw Error(Exit::no_solution,
                   fmt::format("the energy is unbounded below: row {} of the matrix is zero, and no bound holds its "

@@ -127,8 +127,9 @@ TEST(BlackBoxMatrix, WithZeroRowsIsSolvedByBoundsAlone) {
 }
 
 TEST(BlackBoxMatrix, OfZerosAloneIsSolvedByBoundsAlone) {
-  const BlackBox::Result found = BlackBox(Matrix(3, 3)).solve(std::vector<double>{1, -1, 0}, std::vector<double>(3, -2),
-                                                              std::vector<double>(3, 4));
+  const BlackBox::Result found =
+      BlackBox(Matrix(3, 3))
+          .solve(std::vector<double>{1, -1, 0}, std::vector<double>(3, -2), std::vector<double>(3, 4));
   EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
   EXPECT_THAT(found.x, ElementsAre(4, -2, 0));
   EXPECT_NEAR(found.summary.energy, -6, 1e-12);

@@ -72,5 +72,14 @@ TEST(Iterations, AsymptoticRateWithoutAcceleration) {
   for (int k = 1; k <= 2; ++k) expect_fast<3, 3>(parse_scene(std::string(ball), "ball", ".", with(alone, uniform(k))));
 }
 
+// A wavy obstacle below a mesh that is not refined: restricted bounds let contact spread slowly on aggregates.
+TEST(Iterations, WithoutBoundsOnAggregates) {
+  const auto r =
+      run_shipped<3, 3>("cube_on_bump.toml", {"body.0.cells=[24, 24, 24]", "refine.uniform=0",
+                                              "obstacle.0.distance=z + 0.02 + 0.02 * sin(20 * x) * sin(20 * y)"});
+  show("{} cycles\n", r.summary().iterations);
+  EXPECT_LE(r.summary().iterations, 17);
+}
+
 }  // namespace
 }  // namespace signorini::test
