@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     signorini::bench::warm_memory();
-    signorini::prepare_heap();
+    signorini::keep_freed_memory();
     if (algebraic) signorini::bench::print_algebraic(quick);
     if (boundary) signorini::bench::print_boundary(quick);
     if (memory) signorini::bench::print_memory(quick);

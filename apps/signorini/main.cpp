@@ -219,7 +219,7 @@ int run(int argc, char** argv) {
 
 int guarded_run(int argc, char** argv) {
   catch_interrupts();
-  prepare_heap();
+  keep_freed_memory();
   try {
     return flushed(run(argc, argv));
   } catch (const Error& error) {

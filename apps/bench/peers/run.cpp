@@ -57,7 +57,7 @@ class SharedResult {
 };
 
 void solve_into(SharedResult& result, const Solver& solver, double tolerance) {
-  prepare_heap();
+  keep_freed_memory();
   try {
     result.store(solver(tolerance));
   } catch (const std::exception& error) {
