@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/bench/problems.hpp"
+#include "core/base/error.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -152,9 +153,65 @@ void print_algebraic_levels() {
   }
 }
 
+template <int D, int B>
+Summary summary_of(const char* scene, const Overrides& overrides) {
+  return outcome<D, B>(scene, overrides, {}).summary;
+}
+
+struct Column {
+  const char* name;
+  const char* scene;
+  Summary (*solve)(const char* scene, const Overrides& overrides);
+};
+
+const std::vector<Column> scenes{
+    {"radial 2D", "obstacle_radial_2d.toml", summary_of<2, 1>},
+    {"radial 3D", "obstacle_radial_3d.toml", summary_of<3, 1>},
+    {"cube 3D", "obstacle_cube_3d.toml", summary_of<3, 1>},
+    {"spiral", "obstacle_spiral.toml", summary_of<2, 1>},
+    {"degenerate", "obstacle_degenerate.toml", summary_of<2, 1>},
+    {"torsion", "obstacle_torsion_disk.toml", summary_of<2, 1>},
+    {"Signorini 2D", "signorini_elastic_2d.toml", summary_of<2, 2>},
+    {"cylinder", "cylinder_on_plane_2d.toml", summary_of<2, 2>},
+    {"disk in bed", "disk_in_bed_steps.toml", summary_of<2, 2>},
+    {"punch", "punch.toml", summary_of<3, 3>},
+    {"ball", "ball_on_plane.toml", summary_of<3, 3>},
+    {"cube on bump", "cube_on_bump.toml", summary_of<3, 3>},
+    {"block", "block_on_surface.toml", summary_of<3, 3>},
+};
+
+std::string cycles_on(const Column& column, const Overrides& overrides) {
+  try {
+    const Summary summary = column.solve(column.scene, overrides);
+    return fmt::format("{}{}", summary.iterations, summary.converged() ? "" : " (not converged)");
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void print_scenes() {
+  fmt::print(
+      "\n## All variants on all scenes\n\nCycles to 1e-8 with a nested start, scenes as they are in "
+      "`apps/scenes`.\n\n| variant |");
+  for (const Column& column : scenes) fmt::print(" {} |", column.name);
+  fmt::print("\n| --- |");
+  for (std::size_t k = 0; k < scenes.size(); ++k) fmt::print(" --- |");
+  fmt::print("\n");
+  std::vector<Variant> all(variants.begin(), variants.end() - 1);  // without the direct solver, which takes minutes
+  all.insert(all.end(), restrictions.begin() + 1, restrictions.end());
+  all.push_back({"projected Gauss-Seidel", {"solver.method=pgs"}});
+  for (const Variant& v : all) {
+    fmt::print("| {} |", v.name);
+    for (const Column& column : scenes) fmt::print(" {} |", cycles_on(column, v.overrides));
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 void print_variants() {
+  print_scenes();
   print_times();
   print_rates();
   print_algebraic_levels();

@@ -8,7 +8,6 @@
 #include "apps/bench/peers/run.hpp"
 #include "apps/bench/peers/setup.hpp"
 #include "apps/bench/peers/solvers.hpp"
-#include "apps/bench/warm_memory.hpp"
 #include "core/base/error.hpp"
 
 namespace signorini::bench {
@@ -117,7 +116,6 @@ int run_program(int argc, char** argv) {
       "Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
-    warm_memory();
     if (arguments.setup) return print_setup(arguments.quick, arguments.matrix), 0;
     return run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {
