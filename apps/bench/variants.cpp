@@ -199,7 +199,6 @@ void print_scenes() {
   fmt::print("\n");
   std::vector<Variant> all(variants.begin(), variants.end() - 1);  // without the direct solver, which takes minutes
   all.insert(all.end(), restrictions.begin() + 1, restrictions.end());
-  all.push_back({"projected Gauss-Seidel", {"solver.method=pgs"}});
   for (const Variant& v : all) {
     fmt::print("| {} |", v.name);
     for (const Column& column : scenes) fmt::print(" {} |", cycles_on(column, v.overrides));
