@@ -56,7 +56,7 @@ struct Constraints {
 /// Slots of the vectors first <= p < last: the first one, and one behind the last.
 template <int B>
 std::pair<Index, Index> slots_between(const Constraints<B>& c, Index first, Index last) {
-  if (c.vector.size() == c.slot.size()) return {first, last};
+  if (!c.vector.empty() && c.vector.size() == c.slot.size()) return {first, last};
   const auto from = std::lower_bound(c.vector.begin(), c.vector.end(), first);
   const auto to = std::lower_bound(from, c.vector.end(), last);
   return {static_cast<Index>(from - c.vector.begin()), static_cast<Index>(to - c.vector.begin())};

@@ -30,7 +30,7 @@ std::vector<Segment<B>> one_box_segment(Index vectors) {
 // Where most vectors have bounds, the others get infinite ones: then loops over them need no look-ups.
 template <int B>
 Constraints<B> completed(const Constraints<B>& c, Index vectors) {
-  if (B > 1 || c.size() == vectors || c.size() < vectors / 2) return c;
+  if (B > 1 || c.size() == vectors || c.size() < vectors - c.size()) return c;
   Constraints<B> out;
   const auto n = static_cast<std::size_t>(vectors);
   out.slot.resize(n);
