@@ -145,7 +145,7 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.galerkin = levels.matrices;
     Result result;
     if (start.empty())
-      result.x = nested_start<B>(problem_, levels.prolongations, loose(options_), registry_, monitor);
+      result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor);
     else
       result.x.assign(start.begin(), start.end());
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);

@@ -68,6 +68,18 @@ class Row {
   std::vector<Weight> found_;
 };
 
+/// The couplings of each vector to coarse ones, these by their coarse numbers.
+StrengthGraph to_coarse(const StrengthGraph& graph, const CoarseVectors& coarse) {
+  StrengthGraph out;
+  out.row.reserve(graph.row.size());
+  for (Index p = 0; p < graph.size(); ++p) {
+    for (const Coupling& c : graph.of(p))
+      if (const Index q = coarse.number[c.to]; q >= 0) out.edge.push_back({q, c.strength});
+    out.row.push_back(static_cast<Offset>(out.edge.size()));
+  }
+  return out;
+}
+
 /// From coarse neighbours, and through fine ones: from those of their coarse neighbours that are neighbours already,
 /// else from all of them. Where not all of the diagonal is balanced the weights sum to less than one: the values fall
 /// off towards what is prescribed.
@@ -76,13 +88,9 @@ class Weights {
   Weights(const StrengthGraph& graph, const CoarseVectors& coarse)
       : graph_(graph),
         coarse_(coarse),
-        to_coarse_(coarse.number.size(), 0.0),
+        to_coarse_(to_coarse(graph, coarse)),
         seen_(coarse.vector.size(), -1),
-        row_(coarse.size()) {
-    for (Index p = 0; p < graph.size(); ++p)
-      for (const Coupling& c : graph.of(p))
-        if (coarse.number[c.to] >= 0) to_coarse_[p] += c.strength;
-  }
+        row_(coarse.size()) {}
 
   void append_row(Index p, Prolongation& P) {
     if (coarse_.number[p] >= 0)
@@ -94,35 +102,34 @@ class Weights {
 
  private:
   void interpolate(Index p) {
+    for (const Coupling& c : to_coarse_.of(p)) seen_[c.to] = p;
     double total = 0;
-    for (const Coupling& c : graph_.of(p)) {
-      const Index q = coarse_.number[c.to];
-      if (q >= 0) seen_[q] = p;
-      if (q >= 0 || to_coarse_[c.to] > 0) total += c.strength;
-    }
+    for (const Coupling& c : graph_.of(p))
+      if (coarse_.number[c.to] >= 0 || !to_coarse_.of(c.to).empty()) total += c.strength;
     const double scale = graph_.balanced[p] / total;
     for (const Coupling& c : graph_.of(p)) {
       if (const Index q = coarse_.number[c.to]; q >= 0)
         row_.add(q, scale * c.strength);
-      else if (to_coarse_[c.to] > 0)
+      else
         go_through(p, c.to, scale * c.strength);
     }
   }
 
   void go_through(Index p, Index fine, double weight) {
-    double common = 0;
-    for (const Coupling& c : graph_.of(fine))
-      if (const Index q = coarse_.number[c.to]; q >= 0 && seen_[q] == p) common += c.strength;
-    weight *= graph_.balanced[fine] / (common > 0 ? common : to_coarse_[fine]);
-    for (const Coupling& c : graph_.of(fine))
-      if (const Index q = coarse_.number[c.to]; q >= 0 && (common == 0 || seen_[q] == p))
-        row_.add(q, weight * c.strength);
+    double common = 0, all = 0;
+    for (const Coupling& c : to_coarse_.of(fine)) {
+      if (seen_[c.to] == p) common += c.strength;
+      all += c.strength;
+    }
+    weight *= graph_.balanced[fine] / (common > 0 ? common : all);
+    for (const Coupling& c : to_coarse_.of(fine))
+      if (common == 0 || seen_[c.to] == p) row_.add(c.to, weight * c.strength);
   }
 
   const StrengthGraph& graph_;
   const CoarseVectors& coarse_;
-  std::vector<double> to_coarse_;  // per vector: strength of its couplings to coarse ones
-  std::vector<Index> seen_;        // per coarse vector: the last vector that it is a neighbour of
+  StrengthGraph to_coarse_;
+  std::vector<Index> seen_;  // per coarse vector: the last vector that it is a neighbour of
   Row row_;
 };
 

@@ -153,6 +153,7 @@ CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
 template <int B>
 CgResult CoarseNewton<B>::solve_iteratively(const Level<B>& level) {
   const Precondition precondition_masked = [&](const std::vector<double>& r, std::vector<double>& z) {
+    z.assign(r.size(), 0.0);
     symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
     apply_mask<B>(mask_, z);
   };

@@ -41,16 +41,17 @@ void apply_mask(const std::vector<Flags>& mask, std::vector<double>& v) {
 }
 
 template <int B>
-void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const std::vector<double>& r,
-                            std::vector<double>& z) {
-  z.assign(r.size(), 0.0);
+void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const std::vector<double>& b,
+                            std::vector<double>& x) {
+  constexpr unsigned all = (1u << B) - 1;
   const auto relax = [&](Index p) {
+    if (mask[p] == all) return;
     double rest[B], step[B];
-    std::copy_n(r.data() + Offset{p} * B, B, rest);
+    std::copy_n(b.data() + Offset{p} * B, B, rest);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-      block::subtract_product<B>(A.at(k), z.data() + Offset{A.column[k]} * B, rest);
-    block::solve<B>(A.diagonal(p), rest, ~unsigned{mask[p]} & ((1u << B) - 1), step);
-    for (int k = 0; k < B; ++k) z[Offset{p} * B + k] += step[k];
+      block::subtract_product<B>(A.at(k), x.data() + Offset{A.column[k]} * B, rest);
+    block::solve<B>(A.diagonal(p), rest, ~unsigned{mask[p]} & all, step);
+    for (int k = 0; k < B; ++k) x[Offset{p} * B + k] += step[k];
   };
   for (Index p = 0; p < A.size(); ++p) relax(p);
   for (Index p = A.size() - 1; p >= 0; --p) relax(p);

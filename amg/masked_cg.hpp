@@ -31,10 +31,10 @@ template <int B>
 CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const Precondition& precondition,
                    const CgLimits& limits, std::vector<double>& r, std::vector<double>& d);
 
-/// z = M^-1 r with M symmetric Gauss-Seidel on the unmasked components.
+/// One symmetric Gauss-Seidel sweep for A x = b over the unmasked components.
 template <int B>
-void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const std::vector<double>& r,
-                            std::vector<double>& z);
+void symmetric_gauss_seidel(const BlockMatrix<B>& A, const std::vector<Flags>& mask, const std::vector<double>& b,
+                            std::vector<double>& x);
 
 /// Sets the masked components of v to zero.
 template <int B>

@@ -1,5 +1,6 @@
 #include "amg/nested_start.hpp"
 
+#include "amg/masked_cg.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
@@ -50,20 +51,38 @@ std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
   return r;
 }
 
+/// Relaxes the vectors between the twins while these rest. Interpolation knows no forces, and next to prescribed
+/// values, which are forces here, nothing else gives the solution. Blocks are interpolated by weights that sum to one
+/// there too, and this would make their corrections worse.
 template <int B>
-DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P, Transfer<B>& transfer) {
+void relax_between_twins(const DiscreteProblem<B>& problem, const std::vector<Index>& twin,
+                         const std::vector<double>& forces, std::vector<double>& x) {
+  if (B > 1) return;
+  std::vector<Flags> resting = problem.fixed;
+  for (const Index p : twin)
+    if (p >= 0) resting[p] = (1u << B) - 1;
+  symmetric_gauss_seidel<B>(problem.A, resting, forces, x);
+}
+
+/// @param forces on the free components
+/// @param base what coarse corrections are added to
+template <int B>
+DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P,
+                                  const std::vector<Index>& twin, Transfer<B>& transfer,
+                                  const std::vector<double>& forces, const std::vector<double>& base) {
   Level<B> fine = finest_level(problem), coarse;
   if (!problem.galerkin.empty()) coarse.galerkin = &problem.galerkin.back();
   transfer.prepare(fine, P, true, coarse);
   fine.clear_phases();
   coarse.clear_phases();
   transfer.assemble(fine, coarse);
+  std::vector<double> r(forces.size());
+  residual<B>(problem.A, base.data(), forces.data(), r.data());
   transfer.begin_restriction(coarse);
-  transfer.restrict_residual(fine, 0, fine.vectors, free_forces(problem).data(), coarse);
+  transfer.restrict_residual(fine, 0, fine.vectors, r.data(), coarse);
   transfer.end_restriction(coarse);
 
   DiscreteProblem<B> out;
-  const std::vector<Index> twin = P.twins();
   out.A = std::move(coarse.own_matrix);
   if (coarse.galerkin) out.galerkin = problem.galerkin.first(problem.galerkin.size() - 1);
   out.b = std::move(coarse.own_b);
@@ -118,11 +137,19 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
   const Prolongation& P = prolongations[below];
   try {
     const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
-    const DiscreteProblem<B> coarse = coarse_problem(problem, P, *transfer);
+    const std::vector<Index> twin = P.twins();
+    const std::vector<double> forces = free_forces(problem);
+    std::vector<double> base(forces.size(), 0.0);
+    relax_between_twins(problem, twin, forces, base);
+    const DiscreteProblem<B> coarse = coarse_problem(problem, P, twin, *transfer, forces, base);
     auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
-    const Summary summary = solve(coarse, prolongations.first(below), x, options, registry, monitor);
+    const Summary summary =
+        solve(coarse, prolongations.first(below), x, for_a_start<B>(options, below > 0), registry, monitor);
     if (summary.outcome == Outcome::unbounded) return problem.start;
-    return better_start(problem, interpolate(coarse, x, P, problem));
+    x = interpolate(coarse, x, P, problem);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += base[k];
+    relax_between_twins(problem, twin, forces, x);
+    return better_start(problem, std::move(x));
   } catch (const Error& error) {
     // What fails on a coarse level may well hold on the finest one, which alone decides.
     if (error.status() == Exit::interrupted) throw;

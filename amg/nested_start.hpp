@@ -13,6 +13,7 @@ namespace signorini {
 /// made admissible, and smoothed, more energy than none.
 /// @param problem its `galerkin`, where it is not empty, saves the products of matrices
 /// @param prolongations coarsest first; the last one leads to the level of `problem`
+/// @param options of the solve that is to come; the levels are solved less accurately
 /// @return B per vector, not yet admissible between the twins; prescribed values are in place
 /// @throws Error(Exit::interrupted) only, where the monitor does
 template <int B>

@@ -1,6 +1,7 @@
 #include "amg/splitting.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace signorini {
 
@@ -35,19 +36,28 @@ class Served {
 /// Vectors in buckets by their worth, each a doubly linked list; of equals the last one put in leads.
 class Buckets {
  public:
-  Buckets(std::size_t vectors, std::size_t largest) : first_(largest + 1, none), next_(vectors), previous_(vectors) {}
+  Buckets(std::size_t vectors, std::size_t largest) : first_(largest + 1, none), vector_(vectors) {}
+
+  bool holds(Index p) const { return vector_[p].worth >= 0; }
 
   void insert(Index p, Index worth) {
-    next_[p] = first_[worth];
-    previous_[p] = none;
-    if (next_[p] != none) previous_[next_[p]] = p;
+    vector_[p] = {first_[worth], none, worth};
+    if (first_[worth] != none) vector_[first_[worth]].previous = p;
     first_[worth] = p;
     top_ = std::max(top_, worth);
   }
 
-  void remove(Index p, Index worth) {
-    (previous_[p] == none ? first_[worth] : next_[previous_[p]]) = next_[p];
-    if (next_[p] != none) previous_[next_[p]] = previous_[p];
+  void remove(Index p) {
+    const Vector out = vector_[p];
+    (out.previous == none ? first_[out.worth] : vector_[out.previous].next) = out.next;
+    if (out.next != none) vector_[out.next].previous = out.previous;
+    vector_[p].worth = none;
+  }
+
+  void raise(Index p) {
+    const Index worth = vector_[p].worth;
+    remove(p);
+    insert(p, worth + 1);
   }
 
   /// One of the most worth, -1: all buckets are empty.
@@ -58,7 +68,11 @@ class Buckets {
 
  private:
   static constexpr Index none = -1;
-  std::vector<Index> first_, next_, previous_;
+  struct Vector {
+    Index next = none, previous = none, worth = none;  // worth none: in no bucket
+  };
+  std::vector<Index> first_;
+  std::vector<Vector> vector_;
   Index top_ = 0;
 };
 
@@ -67,29 +81,25 @@ class Buckets {
 std::vector<Part> split(const StrengthGraph& depends, Part alone) {
   const Served served(depends);
   const Index n = depends.size();
-  std::vector<Part> part(static_cast<std::size_t>(n), Part::open);
-  std::vector<Index> worth(part.size());
+  std::vector<Part> part(static_cast<std::size_t>(n), Part::fine);
   // No vector can be worth more than by all that it serves turning fine.
   Buckets open(part.size(), 2 * static_cast<std::size_t>(served.most()));
   for (Index p = n - 1; p >= 0; --p) {
-    worth[p] = static_cast<Index>(served.by(p).size());
-    if (depends.of(p).empty() && worth[p] == 0)
+    const auto worth = static_cast<Index>(served.by(p).size());
+    if (depends.of(p).empty() && worth == 0)
       part[p] = alone;
     else
-      open.insert(p, worth[p]);
+      open.insert(p, worth);
   }
   for (Index p = open.best(); p >= 0; p = open.best()) {
     part[p] = Part::coarse;
-    open.remove(p, worth[p]);
+    open.remove(p);
     for (const Index q : served.by(p)) {
-      if (part[q] != Part::open) continue;
-      part[q] = Part::fine;
-      open.remove(q, worth[q]);
-      for (const Coupling& other : depends.of(q)) {
-        if (part[other.to] != Part::open) continue;
-        open.remove(other.to, worth[other.to]);
-        open.insert(other.to, ++worth[other.to]);
-      }
+      if (!open.holds(q)) continue;
+      open.remove(q);
+      // The first of equals leads: on structured grids that keeps to every second line.
+      for (const Coupling& other : std::views::reverse(depends.of(q)))
+        if (open.holds(other.to)) open.raise(other.to);
     }
   }
   return part;
@@ -110,18 +120,24 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     for (const Coupling& c : graph.of(p)) total[p] += c.strength;
   std::vector<double> sum(coarse.vector.size(), 0.0);
   std::vector<Index> found;
+  double reached = 0;  // by the paths from one vector
   const auto add = [&](Index to, double strength) {
     const Index q = coarse.number[to];
     if (q < 0) return;
     if (sum[q] == 0) found.push_back(q);
     sum[q] += strength;
+    reached += strength;
   };
   for (const Index p : coarse.vector) {
     found.clear();
+    reached = 0;
+    double ended = total[p] * (1 / graph.balanced[p] - 1);  // paths that end at prescribed values
     for (const Coupling& c : graph.of(p)) {
+      const double onward = c.strength * graph.balanced[c.to];
       add(c.to, c.strength);
+      if (coarse.number[c.to] < 0) ended += c.strength - onward;
       for (const Coupling& further : graph.of(c.to))
-        if (further.to != p) add(further.to, c.strength * further.strength / total[c.to]);
+        if (further.to != p) add(further.to, onward * further.strength / total[c.to]);
     }
     double largest = 0;
     for (const Index q : found) largest = std::max(largest, sum[q]);
@@ -130,7 +146,7 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
       sum[q] = 0;
     }
     out.row.push_back(static_cast<Offset>(out.edge.size()));
-    out.balanced.push_back(graph.balanced[p]);
+    out.balanced.push_back(reached > 0 ? reached / (reached + ended) : 1);
   }
   return out;
 }

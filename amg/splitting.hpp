@@ -5,7 +5,7 @@
 
 namespace signorini {
 
-enum class Part : std::uint8_t { open, coarse, fine };
+enum class Part : std::uint8_t { coarse, fine };
 
 /// The first pass of Ruge and Stueben (Multigrid Methods, SIAM 1987, ch. 4.6), in linear time: vectors become coarse in
 /// the order of how many open ones would interpolate from them, most first, and those then are fine. Vectors without

@@ -7,8 +7,12 @@ namespace signorini {
 
 namespace {
 
+// Part of the largest coupling of a row. Scalars: less than what a seven-point stencil leaves between opposite corners
+// of cells on every second plane, which is 0.25.
 template <int B>
-constexpr double strong = B == 3 ? 0.4 : 0.25;  // part of the largest coupling of a row
+constexpr double strong = B == 1   ? 0.2
+                          : B == 2 ? 0.25
+                                   : 0.4;
 
 constexpr double strong_norm = 0.2;  // of groups
 

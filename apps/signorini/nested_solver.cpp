@@ -17,11 +17,6 @@ namespace {
 /// Vectors on the coarsest mesh above which the hierarchy goes on below it.
 constexpr Index large_coarsest_mesh = 1000;
 
-/// Cycles that at most are worth it on a coarser mesh with a start: one brings that of a scalar problem below the
-/// discretisation error, as in linear full multigrid; those of elastic bodies reduce the error far less.
-template <int B>
-constexpr int most_cycles_for_a_start = B == 1 ? 1 : 5;
-
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
 [[noreturn]] void throw_unbounded(const std::string& origin, const Solution<B>& solution) {
@@ -125,8 +120,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   } else if (level == 0 && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
-    solution.x =
-        nested_start(problem, std::span(prolongations_).first(algebraic_), loose(options_), registry_, monitor_);
+    solution.x = nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_);
     times_.solve += watch.elapsed();
   }
   return solution;
@@ -159,8 +153,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 template <int D, int B>
 bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   try {
-    SolverOptions options = loose(options_);
-    if (!coarse.x.empty()) options.max_iterations = std::min(options.max_iterations, most_cycles_for_a_start<B>);
+    const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
     solve_level(model, level, options, solution);
     coarse = std::move(solution);

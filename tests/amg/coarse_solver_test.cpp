@@ -150,7 +150,10 @@ TEST(MaskedConjugateGradients, SolveOnTheUnmaskedComponentsOnly) {
   std::vector<double> r = b;
   const CgResult result = masked_cg<3>(
       A, mask,
-      [&](const std::vector<double>& from, std::vector<double>& z) { symmetric_gauss_seidel<3>(A, mask, from, z); },
+      [&](const std::vector<double>& from, std::vector<double>& z) {
+        z.assign(from.size(), 0.0);
+        symmetric_gauss_seidel<3>(A, mask, from, z);
+      },
       {.reduction = 1e-12, .iterations = 1000, .rounding = 1e-14}, r, d);
   EXPECT_FALSE(result.singular);
   Eigen::MatrixXd M = dense(A);

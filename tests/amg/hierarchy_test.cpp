@@ -81,18 +81,34 @@ TEST(ClassicalInterpolation, FallsOffTowardsPrescribedValues) {
     return std::accumulate(P.weight.begin() + P.row[p], P.weight.begin() + P.row[p + 1], 0.0);
   };
   EXPECT_NEAR(sum(15 * 31 + 14), 1, 1e-6);
-  for (Index p = 0; p < 31; ++p) {
-    EXPECT_LE(sum(p), 0.75);
-    EXPECT_GE(sum(p), 0.2);
-  }
+  for (Index p = 2; p < 29; ++p) EXPECT_NEAR(sum(p), 0.5, 0.05) << p;  // half way to the boundary
 }
 
-TEST(AlgebraicHierarchy, HasFewEntries) {
-  const DiscreteProblem<1> problem = problem_of(laplacian(128));
+/// The seven-point stencil on the inner nodes of a cube.
+Eigen::SparseMatrix<double> laplacian_of_cube(int cells) {
+  const int nodes = cells - 1, plane = nodes * nodes;
+  Eigen::SparseMatrix<double> A = copies(nodes, five_point(nodes, [](int) { return 6; }));
+  std::vector<Eigen::Triplet<double>> between;
+  for (int i = plane; i < plane * nodes; ++i) {
+    between.emplace_back(i, i - plane, -1);
+    between.emplace_back(i - plane, i, -1);
+  }
+  Eigen::SparseMatrix<double> planes(A.rows(), A.cols());
+  planes.setFromTriplets(between.begin(), between.end());
+  return A + planes;
+}
+
+/// Entries of all levels over those of the finest one.
+double complexity(const DiscreteProblem<1>& problem) {
   const AlgebraicLevels<1> levels = algebraic_hierarchy<1>(problem, min_merge<1>);
   std::size_t entries = problem.A.column.size();
   for (const GalerkinMatrix<1>& coarse : levels.matrices) entries += coarse.A.column.size();
-  EXPECT_LE(static_cast<double>(entries), 1.65 * static_cast<double>(problem.A.column.size()));
+  return static_cast<double>(entries) / static_cast<double>(problem.A.column.size());
+}
+
+TEST(AlgebraicHierarchy, HasFewEntries) {
+  EXPECT_LE(complexity(problem_of(laplacian(128))), 1.6);
+  EXPECT_LE(complexity(problem_of(laplacian_of_cube(32))), 1.6);
 }
 
 /// Cycles to the default tolerance on algebraic levels alone; the solution is that of the reference solver.

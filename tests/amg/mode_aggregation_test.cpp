@@ -140,7 +140,7 @@ int cycles(const Mesh<D>& mesh, const Model<D>& model) {
       problem, min_merge<D>(), 40, {.coarsening = Coarsening::aggregation}, rigid_body_modes<D>(coordinates(mesh)));
   EXPECT_GE(levels.prolongations.size(), 2u);
   problem.galerkin = levels.matrices;
-  std::vector<double> x = nested_start<D>(problem, levels.prolongations, loose({}), registry());
+  std::vector<double> x = nested_start<D>(problem, levels.prolongations, {}, registry());
   const Summary s = solve<D>(problem, levels.prolongations, x, {}, registry());
   EXPECT_TRUE(s.converged()) << s.reason;
   for (std::size_t k = 1; k < s.history.size(); ++k)
