@@ -22,8 +22,10 @@ constexpr int worn_out = 6;              // iterations above which a new factori
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
 constexpr double suspicious =
-    1e-5;                       // part of p'Dp below which a direction's energy may come from a stale factorisation
-constexpr int max_sweeps = 60;  // of Gauss-Seidel alone
+    1e-5;                         // part of p'Dp below which a direction's energy may come from a stale factorisation
+constexpr int max_sweeps = 60;    // of Gauss-Seidel alone, there and back
+constexpr int cheap_sweeps = 12;  // that cost less than a factorisation
+constexpr double enough_by_sweeps = 0.1 * enough;  // the same of one sweep there and back
 template <int B>
 constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
 
@@ -94,11 +96,54 @@ void clamp(const Level<B>& level) {
     }
 }
 
+/// Projected symmetric Gauss-Seidel.
+template <int B>
+class Sweeps {
+ public:
+  explicit Sweeps(const Level<B>& level) : level_(level) {}
+
+  void run(int most) {
+    for (int k = 0; k < most && !settled(); ++k) sweep();
+  }
+
+  /// Sweeps as long as `most` of them promise to be enough; whether they were.
+  bool suffice(int most) {
+    for (int k = 0; k < most && !settled(); ++k) {
+      sweep();
+      if (k > 1 && needed() > most - k) return false;
+    }
+    return settled();
+  }
+
+ private:
+  void sweep() {
+    before_.assign(level_.x, level_.x + static_cast<std::size_t>(level_.vectors) * B);
+    level_.sweep(Order::forward);
+    level_.sweep(Order::backward);
+    const double gained = decrease<B>(level_, before_);
+    rate_ = gained / gained_;
+    gained_ = gained;
+    total_ += gained;
+  }
+
+  bool settled() const { return !(gained_ > enough_by_sweeps * total_); }
+
+  /// Further ones, if gains go on falling as they did.
+  double needed() const {
+    return rate_ < 1 ? std::log(enough_by_sweeps * total_ / gained_) / std::log(rate_) : infinity;
+  }
+
+  const Level<B>& level_;
+  std::vector<double> before_;
+  double gained_ = infinity, rate_ = 0, total_ = 0;  // energy
+};
+
 }  // namespace
 
 template <int B>
 bool CoarseNewton<B>::solve(const Level<B>& level) {
   const bool constrained = level.constraints.size() > 0;
+  if (constrained && worn_ && Sweeps<B>(level).suffice(cheap_sweeps)) return true;
   double total = 0;
   for (int step = 0; step < max_newton_steps; ++step) {
     const std::vector<double> before(level.x, level.x + static_cast<std::size_t>(level.vectors) * B);
@@ -266,15 +311,7 @@ void CoarseNewton<B>::precondition(const Level<B>& level, const std::vector<doub
 
 template <int B>
 bool CoarseGaussSeidel<B>::solve(const Level<B>& level) {
-  double total = 0;
-  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    const std::vector<double> before(level.x, level.x + static_cast<std::size_t>(level.vectors) * B);
-    level.sweep(Order::forward);
-    level.sweep(Order::backward);
-    const double gained = decrease<B>(level, before);
-    total += gained;
-    if (!(gained > 1e-2 * enough * total)) break;
-  }
+  Sweeps<B>(level).run(max_sweeps);
   return true;
 }
 

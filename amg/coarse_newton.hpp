@@ -5,7 +5,8 @@
 
 namespace signorini {
 
-/// Coarsest level: projected Gauss-Seidel sweeps settle the phases, a Newton step on the free components does the rest.
+/// Coarsest level: projected Gauss-Seidel sweeps settle the phases, a Newton step on the free components does the rest,
+/// unless a few sweeps more promise to be enough where that would need a factorisation.
 /// The step is solved by conjugate gradients with a Cholesky factorisation that is renewed only when it has become a
 /// bad preconditioner (one iteration while it is fresh), or with symmetric Gauss-Seidel where the level is too large to
 /// factorise. Semidefinite matrices are allowed. The energy never grows.
