@@ -102,46 +102,62 @@ void check_diagonal(const BlockMatrix<B>& A) {
                       i + 1, d));
 }
 
-/// The block in row p and column q, null where it is zero.
+/// Compares each block with its counterpart, row by row.
 template <int B>
-double* find(BlockMatrix<B>& A, Index p, Index q) {
-  if (p == q) return A.at(A.row[p]);
-  const auto end = A.column.begin() + A.row[p + 1];
-  const auto found = std::lower_bound(A.column.begin() + A.row[p] + 1, end, q);
-  return found == end || *found != q ? nullptr : A.at(found - A.column.begin());
-}
+class SymmetryCheck {
+ public:
+  explicit SymmetryCheck(BlockMatrix<B>& A) : A_(A), next_(A.row.begin(), A.row.end() - 1) {
+    for (Index i = 0; i < A.size() * B; ++i) root_.push_back(std::sqrt(diagonal(A, i)));
+    for (Offset& k : next_) ++k;
+  }
 
-template <int B>
-void check_entry(const BlockMatrix<B>& A, Index i, Index j, double here, double there) {
-  const double size = std::sqrt(diagonal(A, i)) * std::sqrt(diagonal(A, j));
-  if (std::abs(here - there) > rounding * size)
-    fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}", i + 1,
-                     j + 1, here, j + 1, i + 1, there));
-  if (i != j && std::abs(here) > (1 + rounding) * size)
-    fail(
-        fmt::format("not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "
-                    "{} and {} of these rows allow",
-                    here, i + 1, j + 1, diagonal(A, i), diagonal(A, j)));
-}
-
-/// Returns whether a block without counterpart was found, which is rounding, and set to zero.
-template <int B>
-bool check_symmetry(BlockMatrix<B>& A) {
-  constexpr double zero[B * B] = {};
-  bool lone = false;
-  for (Index p = 0; p < A.size(); ++p)
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
-      const Index q = A.column[k];
-      const double* counterpart = find(A, q, p);
-      for (Index i = 0; i < B; ++i)
-        for (Index j = 0; j < B; ++j)
-          check_entry(A, p * B + i, q * B + j, A.at(k)[i * B + j], (counterpart ? counterpart : zero)[j * B + i]);
-      if (counterpart) continue;
-      lone = true;
-      std::fill_n(A.at(k), B * B, 0.0);
+  /// Returns whether a block without counterpart was found, which is rounding, and set to zero.
+  bool run() {
+    bool lone = false;
+    for (Index p = 0; p < A_.size(); ++p) {
+      check_blocks(p, p, A_.at(A_.row[p]), A_.at(A_.row[p]));
+      for (Offset k = A_.row[p] + 1; k < A_.row[p + 1]; ++k) {
+        const Index q = A_.column[k];
+        constexpr double zero[B * B] = {};
+        const double* counterpart = find(q, p);
+        if (!counterpart || q > p) check_blocks(p, q, A_.at(k), counterpart ? counterpart : zero);
+        if (counterpart) continue;
+        lone = true;
+        std::fill_n(A_.at(k), B * B, 0.0);
+      }
     }
-  return lone;
-}
+    return lone;
+  }
+
+ private:
+  /// The block in row p and column q, null where there is none. For each p, q must ascend.
+  const double* find(Index p, Index q) {
+    Offset& k = next_[p];
+    while (k < A_.row[p + 1] && A_.column[k] < q) ++k;
+    return k < A_.row[p + 1] && A_.column[k] == q ? A_.at(k) : nullptr;
+  }
+
+  void check_blocks(Index p, Index q, const double* here, const double* there) const {
+    for (Index i = 0; i < B; ++i)
+      for (Index j = 0; j < B; ++j) check_entry(p * B + i, q * B + j, here[i * B + j], there[j * B + i]);
+  }
+
+  void check_entry(Index i, Index j, double here, double there) const {
+    const double size = root_[i] * root_[j];
+    if (std::abs(here - there) > rounding * size)
+      fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}", i + 1,
+                       j + 1, here, j + 1, i + 1, there));
+    if (i != j && std::abs(here) > (1 + rounding) * size)
+      fail(fmt::format(
+          "not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "
+          "{} and {} of these rows allow",
+          here, i + 1, j + 1, diagonal(A_, i), diagonal(A_, j)));
+  }
+
+  BlockMatrix<B>& A_;
+  std::vector<Offset> next_;  // per row: the first entry that no row so far had as counterpart
+  std::vector<double> root_;  // of the diagonal
+};
 
 template <int B>
 BlockMatrix<B> without_zero_blocks(const BlockMatrix<B>& A) {
@@ -164,11 +180,14 @@ template <int B>
 BlockMatrix<B> block_matrix(const SparseRows& matrix, std::vector<Flags>* zero_rows) {
   check_shape(matrix, B);
   BlockMatrix<B> A;
+  A.row.reserve(static_cast<std::size_t>(matrix.rows / B) + 1);
+  A.column.reserve(matrix.column.size() / (B * B));
+  A.value.reserve(matrix.column.size());
   RowBuilder<B> builder(matrix.rows / B);
   for (Index p = 0; p < matrix.rows / B; ++p) builder.append(matrix, p, A);
   if (zero_rows) *zero_rows = hold_zero_rows(A);
   check_diagonal(A);
-  if (check_symmetry(A)) A = without_zero_blocks(A);
+  if (SymmetryCheck<B>(A).run()) A = without_zero_blocks(A);
   return A;
 }
 

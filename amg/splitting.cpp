@@ -91,16 +91,20 @@ std::vector<Part> split(const StrengthGraph& depends, Part alone) {
     else
       open.insert(p, worth);
   }
+  std::vector<Index> turned;  // fine by the last choice
   for (Index p = open.best(); p >= 0; p = open.best()) {
     part[p] = Part::coarse;
     open.remove(p);
+    turned.clear();
     for (const Index q : served.by(p)) {
       if (!open.holds(q)) continue;
       open.remove(q);
+      turned.push_back(q);
+    }
+    for (const Index q : turned)
       // The first of equals leads: on structured grids that keeps to every second line.
       for (const Coupling& other : std::views::reverse(depends.of(q)))
         if (open.holds(other.to)) open.raise(other.to);
-    }
   }
   return part;
 }
