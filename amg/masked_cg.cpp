@@ -67,7 +67,8 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
   double rz = dot(r, z);
   const double start = rz;
   p = z;
-  while (rz > limits.reduction * limits.reduction * start && rz > 0 && result.iterations < limits.iterations) {
+  const double enough = limits.reduction * limits.reduction * start;
+  while (rz > enough && rz > 0 && result.iterations < limits.iterations) {
     ++result.iterations;
     product<B>(A, p.data(), Ap.data());
     apply_mask<B>(mask, Ap);
@@ -89,6 +90,7 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     for (std::size_t i = 0; i < d.size(); ++i) p[i] = z[i] + next / rz * p[i];
     rz = next;
   }
+  result.converged = rz >= 0 && rz <= enough;
   return result;
 }
 

@@ -9,7 +9,8 @@ namespace signorini {
 /// What conjugate gradients on the unmasked components found.
 struct CgResult {
   int iterations = 0;
-  bool singular = false;  ///< d ends in a direction without energy along which the functional falls: no minimum
+  bool converged = false;  ///< the residual was reduced as asked for, by a preconditioner that was positive definite
+  bool singular = false;   ///< d ends in a direction without energy along which the functional falls: no minimum
 };
 
 struct CgLimits {

@@ -1,7 +1,8 @@
 #include "amg/registration.hpp"
 
+#include "amg/amg_cg.hpp"
+#include "amg/cholmod_solver.hpp"
 #include "amg/coarse_newton.hpp"
-#include "amg/direct.hpp"
 #include "core/scene/specs.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
@@ -40,10 +41,18 @@ void register_coarse_solvers(Registry& registry) {
       [] { return std::make_unique<CoarseGaussSeidel<3>>(); });
 }
 
-void register_direct_solvers(Registry& registry) {
-  const std::string file = file_of(reinterpret_cast<const void*>(&register_direct_solvers));
-  registry.add<DirectSolver>(
-      {"direct", "cholmod", "supernodal Cholesky factorisation, for method \"pdas\"", {}, file, {}}, cholmod_solver);
+void register_linear_solvers(Registry& registry) {
+  const std::string file = file_of(reinterpret_cast<const void*>(&register_linear_solvers));
+  registry.add<LinearSolver>(
+      {"linear", "cholmod", "supernodal Cholesky factorisation, for method \"pdas\"", {}, file, {}}, cholmod_solver);
+  registry.add<LinearSolver>({"linear",
+                              "amg_cg",
+                              "conjugate gradients with an algebraic multigrid cycle, for active sets of scalar "
+                              "problems where cycles are slow",
+                              {},
+                              file,
+                              {}},
+                             [] { return std::make_unique<AmgConjugateGradients>(); });
 }
 
 void register_coarsenings(Registry& registry) {
@@ -67,7 +76,7 @@ Registry solver_components() {
   register_smoothers(registry);
   register_transfers(registry);
   register_coarse_solvers(registry);
-  register_direct_solvers(registry);
+  register_linear_solvers(registry);
   register_coarsenings(registry);
   return registry;
 }

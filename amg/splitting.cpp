@@ -127,7 +127,7 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
   double reached = 0;  // by the paths from one vector
   const auto add = [&](Index to, double strength) {
     const Index q = coarse.number[to];
-    if (q < 0) return;
+    if (q < 0 || strength == 0) return;
     if (sum[q] == 0) found.push_back(q);
     sum[q] += strength;
     reached += strength;

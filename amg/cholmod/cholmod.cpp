@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <new>
 
-#include "amg/direct.hpp"
+#include "amg/cholmod_solver.hpp"
 
 namespace signorini {
 
@@ -12,7 +12,7 @@ namespace {
 // Pivots where the diagonal is 1, of a matrix that is singular but for rounding.
 constexpr double no_pivot = 1e-11;
 
-class Cholmod final : public DirectSolver {
+class Cholmod final : public LinearSolver {
  public:
   Cholmod() {
     cholmod_l_start(&common_);
@@ -35,7 +35,7 @@ class Cholmod final : public DirectSolver {
     refuse_failure();
   }
 
-  bool factorise(const std::vector<double>& value) override {
+  bool factorise(const std::vector<double>& value, const std::vector<double>&) override {
     cholmod_sparse A = matrix(value.data());
     cholmod_l_factorize(&A, factor_, &common_);
     if (common_.status == CHOLMOD_NOT_POSDEF) return false;
@@ -43,8 +43,8 @@ class Cholmod final : public DirectSolver {
     return size() == 0 || cholmod_l_rcond(factor_, &common_) > no_pivot;  // squared least over largest of L's diagonal
   }
 
-  void solve(std::vector<double>& x) override {
-    if (x.empty()) return;
+  bool solve(std::vector<double>& x) override {
+    if (x.empty()) return true;
     cholmod_dense b{};
     b.nrow = b.d = b.nzmax = x.size();
     b.ncol = 1;
@@ -55,6 +55,7 @@ class Cholmod final : public DirectSolver {
     refuse_failure();
     std::copy_n(static_cast<const double*>(solution->x), x.size(), x.begin());
     cholmod_l_free_dense(&solution, &common_);
+    return true;
   }
 
  private:
@@ -89,6 +90,6 @@ class Cholmod final : public DirectSolver {
 
 }  // namespace signorini
 
-extern "C" __attribute__((visibility("default"))) signorini::DirectSolver* signorini_direct_solver() {
+extern "C" __attribute__((visibility("default"))) signorini::LinearSolver* signorini_linear_solver() {
   return new signorini::Cholmod;
 }

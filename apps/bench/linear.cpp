@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "amg/algebraic_cycle.hpp"
 #include "amg/block_rows.hpp"
 #include "amg/hierarchy.hpp"
 #include "amg/registration.hpp"
@@ -23,13 +24,6 @@ double natural_residual(const Level<B>& level, const std::vector<double>& r) {
     largest = std::max(largest, block::norm<B>(d));
   }
   return largest;
-}
-
-template <int B>
-Components<B> symmetric_cycle(const Registry& registry) {
-  return {registry.create<Smoother<B>>("smoother", "adjoint"),
-          [&registry] { return registry.create<Transfer<B>>("transfer", "min_merge"); },
-          registry.create<CoarseSolver<B>>("coarse", "newton")};
 }
 
 }  // namespace
@@ -110,31 +104,6 @@ struct AlgebraicProblem {
 }  // namespace
 
 template <int B>
-struct AlgebraicCycle<B>::Parts {
-  AlgebraicProblem<B> given;
-  MonotoneMultigrid<B> multigrid;
-
-  explicit Parts(const SparseRows& A)
-      : given(A),
-        multigrid(given.problem, given.levels.prolongations, symmetric_cycle<B>(given.registry),
-                  {.pre = 2, .post = 2}) {}
-};
-
-template <int B>
-AlgebraicCycle<B>::AlgebraicCycle(const SparseRows& A) : parts_(std::make_unique<Parts>(A)) {}
-
-template <int B>
-AlgebraicCycle<B>::~AlgebraicCycle() = default;
-
-template <int B>
-void AlgebraicCycle<B>::apply(const double* r, double* z) {
-  std::vector<double>& b = parts_->given.problem.b;
-  std::copy(r, r + b.size(), b.begin());
-  std::fill_n(z, b.size(), 0.0);
-  parts_->multigrid.cycle(z);
-}
-
-template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening,
                          const NearNullSpace& near_null) {
   Stopwatch watch;
@@ -147,8 +116,6 @@ LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double 
   return result;
 }
 
-template class AlgebraicCycle<1>;
-template class AlgebraicCycle<3>;
 template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);

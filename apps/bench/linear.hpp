@@ -1,6 +1,4 @@
 #pragma once
-#include <memory>
-
 #include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
@@ -26,24 +24,7 @@ template <int B>
 LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                          const Registry& registry, double tolerance);
 
-/// One symmetric V(2,2) cycle on levels that a matrix gives, B rows to a vector, as a preconditioner.
-template <int B>
-class AlgebraicCycle {
- public:
-  explicit AlgebraicCycle(const SparseRows& A);
-  ~AlgebraicCycle();
-  AlgebraicCycle(const AlgebraicCycle&) = delete;
-  AlgebraicCycle& operator=(const AlgebraicCycle&) = delete;
-
-  /// z = M^-1 r
-  void apply(const double* r, double* z);
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
-
-/// Conjugate gradients on such levels.
+/// The same on levels that a matrix gives, B rows to a vector.
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance,
                          Coarsening coarsening = Coarsening::classical, const NearNullSpace& near_null = {});

@@ -57,10 +57,11 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
                candidates[k].size());
 }
 
-void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, Offset unknowns) {
-  const bool blocks = below == Coarsening::aggregation;
-  fmt::print("solver: method {}\n",
-             options.method == "auto" ? "auto: " + automatic::describe(options, blocks, unknowns) : options.method);
+void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, int block, Offset unknowns) {
+  const bool aggregates = below == Coarsening::aggregation;
+  fmt::print("solver: method {}\n", options.method == "auto"
+                                        ? "auto: " + automatic::describe(options, aggregates, block, unknowns)
+                                        : options.method);
   if (options.method == "pdas") return;
   if (options.method == "pgs") {
     fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
@@ -69,7 +70,7 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
   fmt::print("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle,
              options.pre, options.post, options.smoother, options.coarse);
   if (below)
-    fmt::print("        levels below the coarsest mesh by {}\n", blocks ? "aggregation" : "classical coarsening");
+    fmt::print("        levels below the coarsest mesh by {}\n", aggregates ? "aggregation" : "classical coarsening");
 }
 
 template <int D, int B>
@@ -90,7 +91,7 @@ void check(const Scene& scene, const Registry& registry) {
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
-  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels.front().vertices()),
+  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels.front().vertices()), B,
                free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));

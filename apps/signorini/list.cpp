@@ -50,7 +50,7 @@ struct Kind {
   const char* kind;
 };
 constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},  {"smoothers", "smoother"}, {"transfers", "transfer"},
-                                {"coarse", "coarse"},       {"direct", "direct"},      {"amg", "amg"},
+                                {"coarse", "coarse"},       {"linear", "linear"},      {"amg", "amg"},
                                 {"estimators", "estimator"}};
 
 void print_kind(const Kind& kind, const Catalogue& all) {

@@ -121,8 +121,8 @@ constexpr KeySpec solver[] = {
     {"max_iterations", integer, "200", "[1, 1000000]", "", "limit on the number of cycles"},
     {"method", text, "auto", "auto | monotone | tnnmg | pgs | pdas", "",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
-     "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while "
-     "phases rest, pdas where cycles are slow and unknowns no more than 150000"},
+     "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while phases rest, pdas where cycles "
+     "are slow and unknowns no more than 150000 or scalar"},
     {"cycle", text, "V", "V | W | F", "", "shape of the cycle"},
     {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
     {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},

@@ -15,12 +15,13 @@ namespace signorini {
 
 template <int B>
 ActiveSetIteration<B>::ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x,
-                                          const SolverOptions& options, const Registry& registry)
+                                          const SolverOptions& options, const Registry& registry,
+                                          const std::string& linear)
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
-      direct_(registry.create<DirectSolver>("direct", "cholmod")) {
+      linear_(registry.create<LinearSolver>("linear", linear)) {
   find_pattern();
-  direct_->analyse(start_, row_);
+  linear_->analyse(start_, row_);
   value_.resize(row_.size());
   for (Index p = 0; p < level_.vectors; ++p)
     for (int k = 0; k < B; ++k) scale_.push_back(1 / std::sqrt(problem.A.diagonal(p)[k * B + k]));
@@ -95,11 +96,10 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   const bool changed = steps_ == 1 || active_ != last;
   Step step;
   step.error = infinity;
-  const bool solved = !changed || factorise();
+  const bool solved = minimise(changed);
   if (!solved) {
     step.stuck = "the matrix is singular on the components that are not active: nothing holds the body there";
   } else {
-    solve_free();
     const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size());
     const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
     if (changed && !fresh)
@@ -117,6 +117,14 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
 
 // The start may be a body that touches nothing; with all bounds active there is something to hold it.
 template <int B>
+bool ActiveSetIteration<B>::minimise(bool changed) {
+  if ((!changed || factorise()) && solve_free()) return true;
+  if (steps_ > 1 || active_ == all_bounded()) return false;
+  active_ = all_bounded();
+  return factorise() && solve_free();
+}
+
+template <int B>
 bool ActiveSetIteration<B>::factorise() {
   const BlockMatrix<B>& A = this->problem_.A;
   std::vector<char> held(scale_.size(), 0);
@@ -130,14 +138,11 @@ bool ActiveSetIteration<B>::factorise() {
           const bool coupled = !held[row] && !held[column];
           *value++ = row == column ? 1 : coupled ? A.at(m)[k * B + i] * scale_[row] * scale_[column] : 0;
         }
-  if (direct_->factorise(value_)) return true;
-  if (steps_ > 1 || active_ == all_bounded()) return false;
-  active_ = all_bounded();
-  return factorise();
+  return linear_->factorise(value_, scale_);
 }
 
 template <int B>
-void ActiveSetIteration<B>::solve_free() {
+bool ActiveSetIteration<B>::solve_free() {
   const DiscreteProblem<B>& problem = this->problem_;
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
     if (active_[at] != 0) y_[i] = active_[at] < 0 ? lower : upper;
@@ -147,11 +152,12 @@ void ActiveSetIteration<B>::solve_free() {
     if (active_[at] != 0) r_y_[i] = 0;
   });
   for (std::size_t i = 0; i < r_y_.size(); ++i) r_y_[i] *= scale_[i];
-  direct_->solve(r_y_);
+  if (!linear_->solve(r_y_)) return false;
   for (std::size_t i = 0; i < r_y_.size(); ++i) y_[i] += scale_[i] * r_y_[i];
   residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
   this->x_ = y_;
   make_admissible(this->problem_, this->x_);
+  return true;
 }
 
 template <int B>

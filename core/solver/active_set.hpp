@@ -2,23 +2,24 @@
 #include <memory>
 #include <unordered_map>
 
-#include "core/algebra/direct_solver.hpp"
+#include "core/algebra/linear_solver.hpp"
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
 
 namespace signorini {
 
-/// Primal-dual active sets (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 2003) with a direct solver: a reference
-/// to compare the other methods with. In each step the components that the multiplier and the distance call active are
-/// put onto their bounds, and the energy is minimised over the others. Such an iterate may leave the bounds; what is
-/// measured and returned is the admissible vector next to it, whose energy may grow from step to step. The method may
-/// return to sets that it has left (it then cycles) and needs a regular matrix on the free components: in both cases it
-/// is stuck.
+/// Primal-dual active sets (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 2003) with a linear solver: a reference
+/// to compare the other methods with, and what is left where cycles are slow. In each step the components that the
+/// multiplier and the distance call active are put onto their bounds, and the energy is minimised over the others. Such
+/// an iterate may leave the bounds; what is measured and returned is the admissible vector next to it, whose energy may
+/// grow from step to step. The method may return to sets that it has left (it then cycles) and needs a regular matrix
+/// on the free components: in both cases it is stuck.
 template <int B>
 class ActiveSetIteration final : public Iteration<B> {
  public:
+  /// @param linear a registered linear solver
   ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
-                     const Registry& registry);
+                     const Registry& registry, const std::string& linear = "cholmod");
 
  private:
   using typename Iteration<B>::Step;
@@ -32,14 +33,15 @@ class ActiveSetIteration final : public Iteration<B> {
   std::vector<signed char> predicted() const;
   std::vector<signed char> at_bounds() const;
   std::vector<signed char> all_bounded() const;
+  bool minimise(bool changed);
   bool factorise();
-  void solve_free();
+  bool solve_free();
   template <class Visit>
   void visit_bounds(const Visit& visit) const;
   LevelReport report(const std::vector<signed char>& last) const;
 
   Level<B> level_;
-  std::unique_ptr<DirectSolver> direct_;
+  std::unique_ptr<LinearSolver> linear_;
   std::vector<Offset> start_;  // the lower triangle of A in compressed columns
   std::vector<Index> row_;
   std::vector<double> value_, scale_;

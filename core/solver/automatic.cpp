@@ -8,16 +8,24 @@ namespace signorini::automatic {
 
 bool may_turn(const SolverOptions& options) { return options.truncate != "none"; }
 
-std::string describe(const SolverOptions& options, bool blocks, Offset unknowns) {
+std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns) {
+  std::vector<std::string> out;
+  if (block == 1) out.push_back("amg_cg");
+  if (unknowns <= most_unknowns_for_direct) out.push_back("cholmod");
+  return out;
+}
+
+std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns) {
   std::string text = "monotone";
-  if (may_turn(options) && blocks)
+  if (may_turn(options) && aggregates)
     text += ", tnnmg from the second cycle on while it gains more than cycles with bounds";
   else if (may_turn(options))
     text += fmt::format(", tnnmg while at most {} % of the phases change, and in every second cycle after {}",
                         resting_percent, patience_with_bounds);
-  if (unknowns <= most_unknowns_for_direct)
-    text += fmt::format("; pdas after {} cycles or more, where they would be over {}", patience_with_cycles,
-                        std::min(most_cycles, options.max_iterations));
+  if (const auto solvers = solvers_for_active_sets(block, unknowns); !solvers.empty())
+    text +=
+        fmt::format("; pdas with {} after {} cycles or more, where they would be over {}",
+                    fmt::join(solvers, ", else "), patience_with_cycles, std::min(most_cycles, options.max_iterations));
   return text;
 }
 

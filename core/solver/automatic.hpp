@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/solver/options.hpp"
@@ -12,7 +13,7 @@ namespace automatic {
 /// Cycles after which corrections without bounds take turns while phases change: more than it needs where multigrid
 /// does its work.
 inline constexpr int patience_with_bounds = 10;
-/// Cycles after which a direct solver is thought of, where there would be more than most_cycles or max_iterations.
+/// Cycles after which active sets are thought of, where there would be more than most_cycles or max_iterations.
 inline constexpr int patience_with_cycles = 60, most_cycles = 200;
 /// What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
 inline constexpr Index most_unknowns_for_direct = 150'000;
@@ -28,10 +29,14 @@ inline constexpr int resting_percent = 1;
 /// Corrections without bounds need truncation.
 bool may_turn(const SolverOptions& options);
 
-/// What the rules come down to for a problem.
-/// @param blocks weights of algebraic levels are blocks: smoothed aggregation
+/// The registered linear solvers for active sets, those to be tried first in front; none: cycles have to do.
+/// @param block unknowns per vector
 /// @param unknowns on the finest level
-std::string describe(const SolverOptions& options, bool blocks, Offset unknowns);
+std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns);
+
+/// What the rules come down to for a problem.
+/// @param aggregates weights of algebraic levels are blocks: smoothed aggregation
+std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns);
 
 }  // namespace automatic
 

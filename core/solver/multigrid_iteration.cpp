@@ -71,17 +71,17 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   compare_gains(free);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
-  if (method_ == Method::automatic && leaves_to_direct()) step.stuck = "the cycles converge too slowly";
+  if (method_ == Method::automatic && leaves_to_active_sets()) step.stuck = "the cycles converge too slowly";
   return step;
 }
 
 // By the rate of the last cycles, which may change: asked again from time to time.
 template <int B>
-bool MultigridIteration<B>::leaves_to_direct() const {
+bool MultigridIteration<B>::leaves_to_active_sets() const {
   const int left = std::min(automatic::most_cycles, this->options_.max_iterations) - cycles_;
   if (cycles_ < automatic::patience_with_cycles || cycles_ % 10 != 0 || cycles_ >= this->options_.max_iterations)
     return false;
-  if (this->free_unknowns(finest()) > automatic::most_unknowns_for_direct) return false;
+  if (automatic::solvers_for_active_sets(B, this->free_unknowns(finest())).empty()) return false;
   return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);
 }
 

@@ -7,7 +7,7 @@
 namespace signorini {
 
 /// Cycles of multigrid as steps, accelerated while the phases rest. With method "auto" they end with Outcome::stuck
-/// where they have not solved a problem that is small enough for a direct solver.
+/// where they are too slow for a problem that there is a linear solver for.
 template <int B>
 class MultigridIteration final : public Iteration<B> {
  public:
@@ -24,7 +24,7 @@ class MultigridIteration final : public Iteration<B> {
   Step advance() override;
   bool goes_without_bounds() const;
   void compare_gains(bool free);
-  bool leaves_to_direct() const;
+  bool leaves_to_active_sets() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination();
   void add_gain();

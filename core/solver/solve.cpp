@@ -43,36 +43,32 @@ Summary joined(const Summary& before, Summary after) {
 }
 
 template <int B>
-Summary go_on(const Summary& before, const std::string& method, const DiscreteProblem<B>& problem,
-              std::span<const Prolongation> prolongations, std::vector<double>& x, SolverOptions options,
-              const Registry& registry, const Monitor& monitor) {
-  options.method = method;
-  const auto loop = iteration(problem, prolongations, x, options, registry);
+Summary go_on(const Summary& before, Iteration<B>&& loop, const Monitor& monitor) {
   const auto counted = [&](IterationRecord record) {
     add_coarser_levels(before, record);
     return !monitor || monitor(record);
   };
-  return loop->run(counted, before.iterations);
+  return loop.run(counted, before.iterations);
 }
 
-// All steps of a direct solve count as one, with what they did in all: the energy may grow between them.
-Summary as_one_step(Summary direct, int before) {
-  direct.reason += fmt::format(", after {} steps of a direct solver", direct.iterations);
-  IterationRecord all = direct.history.back();
+// All active sets count as one step, with what they did in all: the energy may grow between them.
+Summary as_one_step(Summary sets, const std::string& linear, int before) {
+  sets.reason += fmt::format(", after {} active sets with {}", sets.iterations, linear);
+  IterationRecord all = sets.history.back();
   LevelReport& finest = all.levels.back();
   all.changed = finest.changed = finest.renewed = 0;
   finest.seconds = 0;
-  for (const IterationRecord& step : direct.history) {
+  for (const IterationRecord& step : sets.history) {
     const LevelReport& level = step.levels.back();
     all.changed = finest.changed += level.changed;
     finest.renewed += level.renewed;
     finest.seconds += level.seconds;
   }
   all.iteration = before + 1;
-  direct.history = {all};
-  direct.iterations = 1;
-  direct.linear_phase_from = 0;
-  return direct;
+  sets.history = {all};
+  sets.iterations = 1;
+  sets.linear_phase_from = 0;
+  return sets;
 }
 
 // The coarse solver on the finest level, which is monotone also where the matrix is singular on the free components;
@@ -82,34 +78,40 @@ Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& probl
                           std::span<const Prolongation> prolongations, std::vector<double>& x,
                           const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
   Summary before = cycles;
+  SolverOptions own = options;
+  own.method = "monotone";
   if (problem.A.size() * B <= automatic::most_unknowns_for_newton && !prolongations.empty()) {
-    SolverOptions few = options;
+    SolverOptions few = own;
     few.max_iterations = std::min(options.max_iterations, cycles.iterations + automatic::newton_steps);
-    Summary newton = go_on(cycles, "monotone", problem, {}, x, few, registry, monitor);
+    Summary newton = go_on(cycles, MultigridIteration<B>(problem, {}, x, few, registry), monitor);
     newton.options.method = "newton";
     const bool more = newton.outcome == Outcome::iteration_limit && few.max_iterations < options.max_iterations;
     before = joined(cycles, std::move(newton));
     if (!more) return before;
   }
-  return joined(before, go_on(before, "monotone", problem, prolongations, x, options, registry, monitor));
+  return joined(before, go_on(before, MultigridIteration<B>(problem, prolongations, x, own, registry), monitor));
 }
 
-// Active sets from where the cycles have come to; where they fail, Newton steps that lower the energy.
+// Active sets from where the cycles have come to, with one linear solver after the other; where they fail, Newton steps
+// that lower the energy.
 template <int B>
-Summary solve_directly(const Summary& cycles, const DiscreteProblem<B>& problem,
-                       std::span<const Prolongation> prolongations, std::vector<double>& x,
-                       const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+Summary solve_by_active_sets(const Summary& cycles, const DiscreteProblem<B>& problem,
+                             std::span<const Prolongation> prolongations, std::vector<double>& x,
+                             const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
   const std::vector<double> start = x;
-  try {
-    SolverOptions own_limit = options;
-    own_limit.max_iterations += cycles.iterations;
-    Summary direct = go_on(cycles, "pdas", problem, prolongations, x, own_limit, registry, monitor);
-    if (direct.converged()) return joined(cycles, as_one_step(std::move(direct), cycles.iterations));
-    if (direct.outcome == Outcome::interrupted) return joined(cycles, std::move(direct));
-  } catch (const Error&) {  // of a library that is not there
-  } catch (const std::bad_alloc&) {
+  SolverOptions own = options;
+  own.method = "pdas";
+  own.max_iterations += cycles.iterations;
+  for (const std::string& linear : automatic::solvers_for_active_sets(B, cycles.level_unknowns.back())) {
+    try {
+      Summary sets = go_on(cycles, ActiveSetIteration<B>(problem, x, own, registry, linear), monitor);
+      if (sets.converged()) return joined(cycles, as_one_step(std::move(sets), linear, cycles.iterations));
+      if (sets.outcome == Outcome::interrupted) return joined(cycles, std::move(sets));
+    } catch (const Error&) {  // of a library that is not there
+    } catch (const std::bad_alloc&) {
+    }
+    x = start;
   }
-  x = start;
   return go_on_with_newton(cycles, problem, prolongations, x, options, registry, monitor);
 }
 
@@ -124,7 +126,7 @@ Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> p
   Summary summary = loop->run(monitor);
   if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations) {
     loop.reset();  // its memory is needed
-    summary = solve_directly(summary, problem, prolongations, x, options, registry, monitor);
+    summary = solve_by_active_sets(summary, problem, prolongations, x, options, registry, monitor);
   }
   summary.setup_seconds = ready - begin;
   summary.solve_seconds = seconds() - ready;

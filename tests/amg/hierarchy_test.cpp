@@ -84,6 +84,15 @@ TEST(ClassicalInterpolation, FallsOffTowardsPrescribedValues) {
   for (Index p = 2; p < 29; ++p) EXPECT_NEAR(sum(p), 0.5, 0.05) << p;  // half way to the boundary
 }
 
+// A spring next to which couplings are nothing: all that is interpolated there is zero, and no 0 / 0.
+TEST(ClassicalInterpolation, KnowsSpringsThatHoldAllThere) {
+  Eigen::SparseMatrix<double> A = laplacian(32);
+  for (Eigen::Index i = 0; i < A.rows(); i += 3) A.coeffRef(i, i) = 1e20;
+  DiscreteProblem<1> problem = problem_of(A);
+  for (const Prolongation& P : algebraic_hierarchy<1>(problem, min_merge<1>, 20).prolongations)
+    for (const double weight : P.weight) EXPECT_TRUE(weight >= 0 && weight <= 1) << weight;
+}
+
 /// The seven-point stencil on the inner nodes of a cube.
 Eigen::SparseMatrix<double> laplacian_of_cube(int cells) {
   const int nodes = cells - 1, plane = nodes * nodes;

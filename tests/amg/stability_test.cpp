@@ -89,6 +89,33 @@ TEST(Stability, GraphLaplaciansWithWeightsOverEightDecades) {
   for (int trial = 0; trial < 5; ++trial) expect_solved(random_box(random, random_graph(random, 50, 4, 0)));
 }
 
+// Clusters of stiff edges, which meet the bounds one after the other: few cycles see more than one of them. Each vector
+// is tied to some before it.
+TEST(Stability, RandomTreesWithWeightsOverEightDecades) {
+  Random random(77);
+  const Index n = 5000;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto tie = [&](Index p) {
+    const Index q = random.below(p);
+    const double weight = std::pow(10, random.between(0, 8));
+    for (const auto& [i, j] : {std::pair(p, q), {q, p}}) {
+      entries.emplace_back(i, j, -weight);
+      entries.emplace_back(i, i, weight);
+    }
+  };
+  for (Index p = 1; p < n; ++p) {
+    tie(p);
+    if (random.chance(0.5)) tie(p);
+  }
+  Problem p{Matrix(n, n), {}, {}, std::vector<double>(static_cast<std::size_t>(n), infinity)};
+  p.A.setFromTriplets(entries.begin(), entries.end());
+  for (Index i = 0; i < n; ++i) {
+    p.b.push_back(random.between(-0.6, 0.4));
+    p.lower.push_back(random.between(-1, -0.5));
+  }
+  EXPECT_LE(expect_solved(p), 61);
+}
+
 template <int D>
 Mesh<D> mapped(Mesh<D> mesh, const std::function<Point<D>(Point<D>)>& map) {
   for (Point<D>& x : mesh.points) x = map(x);

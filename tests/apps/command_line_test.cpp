@@ -133,7 +133,8 @@ TEST_F(CommandLine, CheckPrintsTheRulesThatAreInForce) {
     EXPECT_EQ(ended.status, 0) << ended.err;
     return ended.out;
   };
-  EXPECT_THAT(checked("solver.method=auto"), AllOf(HasSubstr("auto: monotone, tnnmg"), HasSubstr("; pdas after")));
+  EXPECT_THAT(checked("solver.method=auto"),
+              AllOf(HasSubstr("auto: monotone, tnnmg"), HasSubstr("; pdas with amg_cg, else cholmod after")));
   EXPECT_THAT(checked("solver.truncate=none"), testing::Not(HasSubstr("tnnmg")));
   EXPECT_THAT(checked("solver.method=pgs"), testing::Not(HasSubstr("V-cycle")));
 }

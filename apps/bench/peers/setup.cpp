@@ -5,7 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "apps/bench/linear.hpp"
+#include "amg/algebraic_cycle.hpp"
+#include "amg/block_rows.hpp"
 #include "apps/bench/peers/model_matrices.hpp"
 #include "apps/bench/peers/petsc.hpp"
 #include "apps/bench/peers/run.hpp"
@@ -27,7 +28,9 @@ struct Entry {
 
 template <int B>
 Preconditioner own(const SparseRows& A) {
-  return [cycle = std::make_shared<AlgebraicCycle<B>>(A)](const double* r, double* z) { cycle->apply(r, z); };
+  return [cycle = std::make_shared<AlgebraicCycle<B>>(block_matrix<B>(A), 2)](const double* r, double* z) {
+    cycle->apply(r, z);
+  };
 }
 
 std::vector<Entry> entries(const LinearSystem& system) {

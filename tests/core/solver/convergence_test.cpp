@@ -119,7 +119,7 @@ TEST(Convergence, WithoutContactIsALinearSolve) {
   std::vector<double> x, y;
   const Summary with = solve_from_zero(bounded, x), without = solve_from_zero(linear, y);
   EXPECT_EQ(with.iterations, without.iterations);
-  EXPECT_EQ(x, y);
+  EXPECT_LE((vector(x) - vector(y)).norm(), 1e-8 * vector(y).norm());
   for (const IterationRecord& r : with.history) {
     EXPECT_EQ(r.changed, 0);
     EXPECT_EQ(r.contact_nodes, 0);

@@ -1,12 +1,12 @@
 #pragma once
 #include <memory>
 
-#include "core/algebra/direct_solver.hpp"
+#include "core/algebra/linear_solver.hpp"
 
 namespace signorini {
 
 /// CHOLMOD, in a shared library of its own (signorini_cholmod, GPL) that is loaded on first use. Error(Exit::plugin)
 /// where it is missing.
-std::unique_ptr<DirectSolver> cholmod_solver();
+std::unique_ptr<LinearSolver> cholmod_solver();
 
 }  // namespace signorini
