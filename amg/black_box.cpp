@@ -149,7 +149,8 @@ class BlackBox::BlockSolver final : public Solver {
     else
       result.x.assign(start.begin(), start.end());
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
-    if (result.summary.outcome == Outcome::iteration_limit) recognise_unbounded(result);
+    if (const Outcome o = result.summary.outcome; o == Outcome::iteration_limit || o == Outcome::rounding)
+      recognise_unbounded(result);
     result.multiplier.resize(problem_.b.size());
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
     for (double& force : result.multiplier) force = -force;

@@ -18,6 +18,7 @@ constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
 constexpr std::size_t max_motions = 20;  // without energy that are projected onto what the bounds allow
 constexpr double shift = 1e-6;           // of a diagonal of ones, where there are more
+constexpr double margin = 100;           // over what rounding may do to work, before a direction is said to do some
 constexpr int worn_out = 6;              // iterations above which a new factorisation pays
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
@@ -181,7 +182,7 @@ CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
     precondition(level, r, z);
     apply_mask<B>(mask_, z);
   };
-  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)};
+  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = margin * rounding_of_work(level)};
   if (!worn_) {
     limits.without_energy = suspicious;
     const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
@@ -202,9 +203,9 @@ CgResult CoarseNewton<B>::solve_iteratively(const Level<B>& level) {
     symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
     apply_mask<B>(mask_, z);
   };
-  return masked_cg<B>(*level.A, mask_, precondition_masked,
-                      {.reduction = 1e-3, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)}, r_,
-                      d_);
+  return masked_cg<B>(
+      *level.A, mask_, precondition_masked,
+      {.reduction = 1e-3, .iterations = max_cg_iterations, .rounding = margin * rounding_of_work(level)}, r_, d_);
 }
 
 // Orthonormal, without energy, as far as the factorised components allow; its columns. None where they are too many.

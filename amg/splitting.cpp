@@ -1,7 +1,6 @@
 #include "amg/splitting.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 namespace signorini {
 
@@ -103,8 +102,8 @@ std::vector<Part> split(const StrengthGraph& depends, Part alone) {
     }
     for (const Index q : turned)
       // The first of equals leads: on structured grids that keeps to every second line.
-      for (const Coupling& other : std::views::reverse(depends.of(q)))
-        if (open.holds(other.to)) open.raise(other.to);
+      for (std::size_t k = depends.of(q).size(); k-- > 0;)
+        if (const Index other = depends.of(q)[k].to; open.holds(other)) open.raise(other);
   }
   return part;
 }

@@ -14,6 +14,10 @@ constexpr double strong = B == 1   ? 0.2
                           : B == 2 ? 0.25
                                    : 0.4;
 
+// The same of scalars in rows with a positive coupling above a part of the largest: elements stretched out, whose
+// corners are coupled by 0.25 though nothing smooth goes along these couplings, as the positive ones say.
+constexpr double strong_beside_positive = 0.3, positive = 0.25;
+
 constexpr double strong_norm = 0.2;  // of groups
 
 template <int B>
@@ -27,6 +31,11 @@ template <int B>
 double strength(const double* block) {
   if constexpr (B == 1) return std::max(0.0, -*block);
   return std::sqrt(square<B>(block));
+}
+
+template <int B>
+double part_that_is_strong(double largest, double largest_positive) {
+  return B == 1 && largest_positive > positive * largest ? strong_beside_positive : strong<B>;
 }
 
 template <int B>
@@ -49,14 +58,16 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
   std::vector<double> found;
   for (Index p = 0; p < A.size(); ++p) {
     found.clear();
-    double largest = 0;
+    double largest = 0, largest_positive = 0;
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index q = A.column[k];
+      if (q != p) largest_positive = std::max(largest_positive, *A.at(k));
       found.push_back(q == p || off[p] == all || off[q] == all ? 0 : strength<B>(A.at(k)));
       largest = std::max(largest, found.back());
     }
+    const double enough = part_that_is_strong<B>(largest, largest_positive) * largest;
     for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k] > 0 && found[k] >= strong<B> * largest)
+      if (found[k] > 0 && found[k] >= enough)
         graph.edge.push_back({A.column[A.row[p] + static_cast<Offset>(k)], static_cast<float>(found[k] / largest)});
     graph.row.push_back(static_cast<Offset>(graph.edge.size()));
   }

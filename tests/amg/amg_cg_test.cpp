@@ -46,7 +46,8 @@ struct Scaled {
 };
 
 /// Every row's unit is a thousand times that of the row before, in turns of four; some rows are held.
-Matrix in_many_units(Matrix A) {
+Matrix in_many_units(const Matrix& given) {
+  Matrix A = given;
   const auto unit = [](Eigen::Index i) { return std::pow(1000.0, static_cast<double>(i % 4)); };
   for (Eigen::Index k = 0; k < A.cols(); ++k)
     for (Matrix::InnerIterator entry(A, k); entry; ++entry) {

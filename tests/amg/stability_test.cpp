@@ -158,6 +158,36 @@ TEST(Stability, NeedleElements) {
   }
 }
 
+// Bilinear elements so many times as long as high, on the inner nodes of a square.
+Matrix stretched_elements(int nodes, double times) {
+  const auto stiffness = [](int d) { return d == 0 ? 2.0 : -1.0; };
+  const auto mass = [](int d) { return d == 0 ? 4.0 / 6 : 1.0 / 6; };
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < nodes * nodes; ++i)
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy) {
+        const int x = i % nodes + dx, y = i / nodes + dy;
+        if (std::min(x, y) < 0 || std::max(x, y) >= nodes) continue;
+        entries.emplace_back(i, y * nodes + x, stiffness(dx) * mass(dy) / times + times * mass(dx) * stiffness(dy));
+      }
+  Matrix A(nodes * nodes, nodes * nodes);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+TEST(Stability, StretchedBilinearElements) {
+  constexpr int nodes = 99;
+  for (const double times : {3, 10, 30, 100}) {
+    SCOPED_TRACE(times);
+    const Matrix A = stretched_elements(nodes, times);
+    const auto n = static_cast<std::size_t>(A.rows());
+    const double load = 1.0 / (nodes * nodes);
+    const Problem p{A, std::vector<double>(n, -load), std::vector<double>(n, -0.06 / times),
+                    std::vector<double>(n, infinity)};
+    EXPECT_LE(expect_solved(p), 16);
+  }
+}
+
 TEST(Stability, NeedleElementsOfAnElasticBody) {
   for (const double width : {1e-1, 1e-2}) {
     SCOPED_TRACE(width);
@@ -188,6 +218,28 @@ TEST(Stability, ManyFloatingBodies) {
             std::vector<double>(size, infinity)};
   for (std::size_t body = 0; body < bodies; ++body) p.lower[36 * body] = random.between(-2, 2);
   EXPECT_LE(expect_solved(p), 15);
+}
+
+// Iterates run away along the motion until the residual is rounding of them, which must not count as solved.
+TEST(Stability, WhatNothingHoldsIsNeverCalledSolved) {
+  Random random(78);
+  for (int trial = 0; trial < 30; ++trial) {
+    Matrix A = random_graph(random, 18 + trial % 24, 2, 0);
+    const auto n = static_cast<std::size_t>(A.rows());
+    std::vector<double> sign(n), b(n);
+    Index work = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Index load = random.below(7) - 3;
+      sign[i] = random.chance(0.5) ? 1 : -1;
+      b[i] = sign[i] * load;
+      work += load;
+    }
+    if (work == 0) continue;
+    for (Eigen::Index k = 0; k < A.cols(); ++k)
+      for (Matrix::InnerIterator entry(A, k); entry; ++entry) entry.valueRef() *= sign[entry.row()] * sign[entry.col()];
+    const Summary summary = BlackBox(A, 1).solve(b).summary;
+    EXPECT_FALSE(summary.converged()) << trial << ": " << summary.reason;
+  }
 }
 
 Matrix normal_equations(Index equations, Index unknowns, const std::vector<Eigen::Triplet<double>>& entries) {
