@@ -47,13 +47,10 @@ struct Scaled {
 
 /// Every row's unit is a thousand times that of the row before, in turns of four; some rows are held.
 Matrix in_many_units(const Matrix& given) {
-  Matrix A = given;
-  const auto unit = [](Eigen::Index i) { return std::pow(1000.0, static_cast<double>(i % 4)); };
-  for (Eigen::Index k = 0; k < A.cols(); ++k)
-    for (Matrix::InnerIterator entry(A, k); entry; ++entry) {
-      const bool held = (k % 7 == 3 || entry.row() % 7 == 3) && k != entry.row();
-      entry.valueRef() = held ? 0 : entry.value() * unit(k) * unit(entry.row());
-    }
+  Eigen::VectorXd unit(given.rows());
+  for (Eigen::Index i = 0; i < unit.size(); ++i) unit[i] = std::pow(1000.0, static_cast<double>(i % 4));
+  Matrix A = unit.asDiagonal() * given * unit.asDiagonal();
+  A.prune([](Eigen::Index i, Eigen::Index j, double) { return i == j || (i % 7 != 3 && j % 7 != 3); });
   return A;
 }
 
