@@ -18,9 +18,9 @@ constexpr int max_newton_steps = 12;
 constexpr int max_cg_iterations = 500;
 constexpr std::size_t max_motions = 20;  // without energy that are projected onto what the bounds allow
 constexpr double shift = 1e-6;           // of a diagonal of ones, where there are more
-constexpr double margin = 100;           // over what rounding may do to work, before a direction is said to do some
 constexpr int worn_out = 6;              // iterations above which a new factorisation pays
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
+constexpr double shortening = 0.25;      // of steps whose parts within the bounds raise the energy
 constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
 constexpr double suspicious =
     1e-5;                         // part of p'Dp below which a direction's energy may come from a stale factorisation
@@ -182,13 +182,13 @@ CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
     precondition(level, r, z);
     apply_mask<B>(mask_, z);
   };
-  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = margin * rounding_of_work(level)};
+  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)};
   if (!worn_) {
     limits.without_energy = suspicious;
     const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
     worn_ = cg.iterations > worn_out;
     if (!cg.singular) return cg;
-    limits.without_energy = CgLimits().without_energy;
+    limits.without_energy = no_energy;
   }
   factorise(level, mask_);
   const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
@@ -203,9 +203,9 @@ CgResult CoarseNewton<B>::solve_iteratively(const Level<B>& level) {
     symmetric_gauss_seidel<B>(*level.A, mask_, r, z);
     apply_mask<B>(mask_, z);
   };
-  return masked_cg<B>(
-      *level.A, mask_, precondition_masked,
-      {.reduction = 1e-3, .iterations = max_cg_iterations, .rounding = margin * rounding_of_work(level)}, r_, d_);
+  return masked_cg<B>(*level.A, mask_, precondition_masked,
+                      {.reduction = 1e-3, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)}, r_,
+                      d_);
 }
 
 // Orthonormal, without energy, as far as the factorised components allow; its columns. None where they are too many.
@@ -245,8 +245,8 @@ bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
   return (conditions.empty() ? g : project_onto_cone(G, g)).norm() > rounding * g.norm();
 }
 
-// The full step cut off component by component where that lowers the energy, else as far as the bounds allow. Along a
-// direction without energy the obstacle must end the fall.
+// The full step cut off component by component where that lowers the energy, else shorter ones, else as far as the
+// bounds allow. Along a direction without energy the obstacle must end the fall.
 template <int B>
 bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
   double largest = 0;
@@ -256,17 +256,20 @@ bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
   if (step == infinity) return false;
   const auto n = d_.size();
   const std::vector<double> before(level.x, level.x + n);
-  if (!singular && step < 1) {
-    for (std::size_t i = 0; i < n; ++i) level.x[i] += d_[i];
+  const auto take = [&](double t) {
+    for (std::size_t i = 0; i < n; ++i) level.x[i] = before[i] + t * d_[i];
     clamp<B>(level);
-    const double projected = decrease<B>(level, before);
-    std::vector<double> cut(level.x, level.x + n);
-    for (std::size_t i = 0; i < n; ++i) level.x[i] = before[i] + step * d_[i];
-    if (projected >= decrease<B>(level, before)) std::copy(cut.begin(), cut.end(), level.x);
-  } else {
-    for (std::size_t i = 0; i < n; ++i) level.x[i] += step * d_[i];
+  };
+  take(step);
+  if (singular || step == 1) return true;
+  std::vector<double> best(level.x, level.x + n);
+  const double most = decrease<B>(level, before);
+  double gained = -infinity;
+  for (double t = 1; t > step && !(gained > 0); t *= shortening) {
+    take(t);
+    gained = decrease<B>(level, before);
   }
-  clamp<B>(level);  // rounding
+  if (!(gained >= most)) std::copy(best.begin(), best.end(), level.x);
   return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/algebra/dot.hpp"
 #include "core/algebra/products.hpp"
+#include "core/solver/rounding.hpp"
 
 namespace signorini {
 
@@ -24,6 +25,10 @@ double diagonal_energy(const BlockMatrix<B>& A, const std::vector<double>& p) {
 
 // Part of p'Dp below which p is smooth: rounding adds up along all of it, and would be answered by large steps.
 constexpr double little_energy = 1e-5;
+
+// Times the bound of what rounding does to work: how much it mostly is, and how much work has to be before a direction
+// without energy is said to have no minimum.
+constexpr double typical = 0.01, beyond_doubt = 100;
 
 double largest(const std::vector<double>& v) {
   double size = 0;
@@ -74,7 +79,10 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
     const double pDp = diagonal_energy<B>(A, p);
-    if (!(pAp > little_energy * pDp) && !(rz > limits.rounding * largest(p))) return result;
+    if (!(pAp > little_energy * pDp)) {
+      const double noise = (limits.rounding + rounding_of_work<B>(A, mask, d.data(), 0, A.size())) * largest(p);
+      if (!(rz > (pAp > no_energy * pDp ? typical : beyond_doubt) * noise)) return result;
+    }
     if (!(pAp > limits.without_energy * pDp)) {
       result.singular = true;
       d = p;

@@ -13,13 +13,14 @@ struct CgResult {
   bool singular = false;   ///< d ends in a direction without energy along which the functional falls: no minimum
 };
 
+/// Part of p'Dp, D the diagonal of A, up to which p'Ap is rounding.
+inline constexpr double no_energy = 1e-13;
+
 struct CgLimits {
   double reduction = 1e-8;  ///< of the preconditioned residual, at which to stop
   int iterations = 1000;
-  /// Work along a direction with entries up to one that may be rounding, and does not make a direction without energy
-  /// one without minimum.
-  double rounding = 0;
-  double without_energy = 1e-13;  ///< part of p'Dp, D the diagonal of A, up to which p'Ap counts as nothing
+  double rounding = 0;                ///< a bound for what it may do to work along directions with entries up to one
+  double without_energy = no_energy;  ///< part of p'Dp up to which a direction of descent counts as one without minimum
 };
 
 /// Preconditioner: z from r, both zero on masked components.

@@ -24,6 +24,7 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   coarse.A = &coarse.own_matrix;
   inherit_twins(fine, rotate, coarse);
   give_slots(fine, coarse);
+  sum_terms(fine, coarse);
   if (!coarse.galerkin || !coarse.galerkin->complete) build_pattern(*fine.A, coarse.own_matrix);
   if (coarse.galerkin) adopt(*coarse.galerkin, coarse);
   coarse.chunks = divide(coarse.own_matrix);
@@ -62,6 +63,28 @@ void BlockTransfer<B>::give_slots(const Level<B>& fine, Level<B>& coarse) const 
     }
   c.lower.resize(c.vector.size() * B);
   c.upper.resize(c.vector.size() * B);
+}
+
+// Whatever is truncated: energies far below these are rounding.
+template <int B>
+void BlockTransfer<B>::sum_terms(const Level<B>& fine, Level<B>& coarse) const {
+  const auto terms_at = [&](Index p) {
+    if (!fine.terms.empty()) return fine.terms[p];
+    double largest = 0;
+    for (int i = 0; i < B; ++i)
+      if (!(fine.off[p] >> i & 1u)) largest = std::max(largest, fine.A->diagonal(p)[i * B + i]);
+    return largest;
+  };
+  coarse.terms.assign(static_cast<std::size_t>(coarse.vectors), 0.0);
+  weights::with<B>(*P_, [&](const auto& weight) {
+    for (Index p = 0; p < fine.vectors; ++p) {
+      const double terms = terms_at(p);
+      for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) {
+        const double size = weight(k).size();
+        coarse.terms[P_->column[k]] += size * size * terms;
+      }
+    }
+  });
 }
 
 template <int B>

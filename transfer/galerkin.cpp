@@ -16,7 +16,7 @@ namespace {
 // far larger.
 constexpr double lost = 1e-13;
 
-// A component is a motion without energy when its energy is less than this part of that of its fine functions by
+// A component is a motion without energy when its energy is less than this part of that of its finest functions by
 // themselves, which is rounding; a spring of this part holds it: weak, so that a body may fall onto an obstacle, and
 // strong enough that rounding of the residual does not move it.
 constexpr double nothing = 1e-14, spring = 1e-8;
@@ -241,10 +241,11 @@ void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {
   for (int i = 0; i < B; ++i) {
     double& own = diagonal[i * B + i];
     const double alone = alone_[i * B + i];
-    if (!(alone > lost * untruncated_) || !(own >= -nothing * alone))
+    const double terms = coarse.terms[q];
+    if (!(alone > lost * untruncated_) || !(own >= -nothing * terms))
       off |= static_cast<Flags>(1u << i);
-    else if (own < nothing * alone)
-      own = spring * alone;
+    else if (own < nothing * terms)
+      own = spring * terms;
   }
   decouple(C, q, off);
   // A component that came back interpolates again; whether it is truncated is for the next visit to say.

@@ -13,32 +13,29 @@
 
 namespace signorini {
 
+namespace {
+
+// Small shifts make large motions of what rounding leaves of loads that balance: these touch bounds, and so on.
+constexpr int steps_per_shift = 10;
+constexpr double largest_shift = 1e-6;
+constexpr std::size_t resting_steps = 10;  // in which the residual has to fall by half
+
+template <int B>
+double diagonal(const BlockMatrix<B>& A, Offset i) {
+  const auto k = static_cast<int>(i % B);
+  return A.diagonal(static_cast<Index>(i / B))[k * B + k];
+}
+
+}  // namespace
+
 template <int B>
 ActiveSetIteration<B>::ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x,
                                           const SolverOptions& options, const Registry& registry,
-                                          const std::string& linear)
+                                          const std::string& linear, double shift)
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
-      linear_(registry.create<LinearSolver>("linear", linear)) {
-  find_pattern();
-  linear_->analyse(start_, row_);
-  value_.resize(row_.size());
-  for (Index p = 0; p < level_.vectors; ++p)
-    for (int k = 0; k < B; ++k) scale_.push_back(1 / std::sqrt(problem.A.diagonal(p)[k * B + k]));
-}
-
-// A and its pattern are symmetric: what is to the right of the diagonal in a row is what is below it in the column.
-template <int B>
-void ActiveSetIteration<B>::find_pattern() {
-  const BlockMatrix<B>& A = this->problem_.A;
-  start_.assign(1, 0);
-  for (Index p = 0; p < A.size(); ++p)
-    for (int k = 0; k < B; ++k) {
-      for (Offset m = A.row[p]; m < A.row[p + 1]; ++m)
-        for (int i = A.column[m] == p ? k : 0; A.column[m] >= p && i < B; ++i) row_.push_back(A.column[m] * B + i);
-      start_.push_back(static_cast<Offset>(row_.size()));
-    }
-}
+      system_(problem.A, registry.create<LinearSolver>("linear", linear)),
+      shift_(shift) {}
 
 // Calls visit(number in active_, unknown, lower bound, upper bound) for what is not prescribed.
 template <int B>
@@ -58,7 +55,7 @@ template <int B>
 std::vector<signed char> ActiveSetIteration<B>::predicted() const {
   std::vector<signed char> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
-    const double target = y_[i] + r_y_[i] * scale_[i] * scale_[i];
+    const double target = y_[i] + r_y_[i] / diagonal(this->problem_.A, i);
     active[at] = lower == upper || target < lower ? -1 : target > upper ? 1 : 0;
   });
   return active;
@@ -94,25 +91,44 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   }
   const std::vector<signed char> last = std::exchange(active_, predicted());
   const bool changed = steps_ == 1 || active_ != last;
+  if (changed && shift_ > 0 && steps_ % steps_per_shift == 0) shift_ = std::min(10 * shift_, largest_shift);
   Step step;
   step.error = infinity;
   const bool solved = minimise(changed);
-  if (!solved) {
-    step.stuck = "the matrix is singular on the components that are not active: nothing holds the body there";
-  } else {
-    const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size());
-    const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
-    if (changed && !fresh)
-      step.stuck =
-          fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_);
-  }
   this->sums_ = this->evaluate(this->x_, this->r_);
   this->refuse_nan(this->sums_.natural_residual);
-  if (solved) step.error = std::sqrt(std::abs(this->sums_.correction));
+  if (solved) step.error = remaining_error(changed);
+  step.stuck = solved ? why_stuck(changed)
+                      : "the matrix is singular on the components that are not active: nothing holds the body there";
   step.levels = {report(last)};
   step.levels.front().renewed = changed ? level_.vectors : 0;
   step.levels.front().seconds = seconds() - begin;
   return step;
+}
+
+// Sets that come back do so for ever, but for shifts, with which what nothing holds falls by the same in each step.
+template <int B>
+std::string ActiveSetIteration<B>::why_stuck(bool changed) {
+  if (changed) residuals_.clear();
+  residuals_.push_back(this->sums_.natural_residual);
+  const std::size_t n = residuals_.size();
+  if (shift_ > 0)
+    return n > resting_steps && residuals_[n - 1] > 0.5 * residuals_[n - 1 - resting_steps]
+               ? "the active sets rest, but not the iterates: nothing holds the body there"
+               : "";
+  const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size());
+  const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
+  return changed && !fresh
+             ? fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_)
+             : "";
+}
+
+// The step itself bounds the error of the iterate before. With a shift the steps become shorter by and by.
+template <int B>
+double ActiveSetIteration<B>::remaining_error(bool changed) {
+  const double move = std::sqrt(std::abs(this->sums_.correction)), last = std::exchange(last_move_, move);
+  if (shift_ == 0 || changed || move == 0) return move;
+  return move < last ? move / (1 - move / last) : infinity;
 }
 
 // The start may be a body that touches nothing; with all bounds active there is something to hold it.
@@ -127,18 +143,11 @@ bool ActiveSetIteration<B>::minimise(bool changed) {
 template <int B>
 bool ActiveSetIteration<B>::factorise() {
   const BlockMatrix<B>& A = this->problem_.A;
-  std::vector<char> held(scale_.size(), 0);
+  std::vector<char> held(y_.size(), 0);
+  std::vector<double> added(y_.size());
   visit_bounds([&](std::size_t at, Offset i, double, double) { held[i] = active_[at] != 0; });
-  auto value = value_.begin();
-  for (Index p = 0; p < A.size(); ++p)
-    for (int k = 0; k < B; ++k)
-      for (Offset m = A.row[p]; m < A.row[p + 1]; ++m)
-        for (int i = A.column[m] == p ? k : 0; A.column[m] >= p && i < B; ++i) {
-          const Offset row = Offset{p} * B + k, column = Offset{A.column[m]} * B + i;
-          const bool coupled = !held[row] && !held[column];
-          *value++ = row == column ? 1 : coupled ? A.at(m)[k * B + i] * scale_[row] * scale_[column] : 0;
-        }
-  return linear_->factorise(value_, scale_);
+  for (std::size_t i = 0; i < added.size(); ++i) added[i] = shift_ * diagonal(A, static_cast<Offset>(i));
+  return system_.factorise(held, added);
 }
 
 template <int B>
@@ -151,9 +160,8 @@ bool ActiveSetIteration<B>::solve_free() {
   visit_bounds([&](std::size_t at, Offset i, double, double) {
     if (active_[at] != 0) r_y_[i] = 0;
   });
-  for (std::size_t i = 0; i < r_y_.size(); ++i) r_y_[i] *= scale_[i];
-  if (!linear_->solve(r_y_)) return false;
-  for (std::size_t i = 0; i < r_y_.size(); ++i) y_[i] += scale_[i] * r_y_[i];
+  if (!system_.solve(r_y_)) return false;
+  for (std::size_t i = 0; i < r_y_.size(); ++i) y_[i] += r_y_[i];
   residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
   this->x_ = y_;
   make_admissible(this->problem_, this->x_);

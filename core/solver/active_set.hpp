@@ -2,9 +2,9 @@
 #include <memory>
 #include <unordered_map>
 
-#include "core/algebra/linear_solver.hpp"
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
+#include "core/solver/sparse_system.hpp"
 
 namespace signorini {
 
@@ -18,8 +18,9 @@ template <int B>
 class ActiveSetIteration final : public Iteration<B> {
  public:
   /// @param linear a registered linear solver
+  /// @param shift part of the diagonal that is added to it
   ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
-                     const Registry& registry, const std::string& linear = "cholmod");
+                     const Registry& registry, const std::string& linear = "cholmod", double shift = 0);
 
  private:
   using typename Iteration<B>::Step;
@@ -29,7 +30,8 @@ class ActiveSetIteration final : public Iteration<B> {
   std::string method() const override { return "pdas"; }
   Step advance() override;
 
-  void find_pattern();
+  double remaining_error(bool changed);
+  std::string why_stuck(bool changed);
   std::vector<signed char> predicted() const;
   std::vector<signed char> at_bounds() const;
   std::vector<signed char> all_bounded() const;
@@ -41,13 +43,13 @@ class ActiveSetIteration final : public Iteration<B> {
   LevelReport report(const std::vector<signed char>& last) const;
 
   Level<B> level_;
-  std::unique_ptr<LinearSolver> linear_;
-  std::vector<Offset> start_;  // the lower triangle of A in compressed columns
-  std::vector<Index> row_;
-  std::vector<double> value_, scale_;
+  SparseSystem<B> system_;
   std::vector<double> y_, r_y_;      // the iterate, which may leave the bounds, and its residual
   std::vector<signed char> active_;  // per slot and direction: -1 at the lower bound, 1 at the upper one, 0 free
   std::unordered_map<std::size_t, int> seen_;  // fingerprints of the sets of each step
+  double shift_;
+  std::vector<double> residuals_;  // since the sets rest
+  double last_move_ = infinity;    // of the step before, in the energy norm
   int steps_ = 0;
 };
 

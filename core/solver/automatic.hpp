@@ -17,6 +17,10 @@ inline constexpr int patience_with_bounds = 10;
 inline constexpr int patience_with_cycles = 60, most_cycles = 200;
 /// What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
 inline constexpr Index most_unknowns_for_direct = 150'000;
+/// Of the diagonal: what makes a semidefinite matrix regular where active sets fail without.
+inline constexpr double shift = 1e-10;
+/// Where sets cycle.
+inline constexpr int most_interior_points = 60;
 /// Where that fails: the coarse solver on the finest level, up to so many unknowns, for so many steps.
 inline constexpr Index most_unknowns_for_newton = 12'000;
 inline constexpr int newton_steps = 40;

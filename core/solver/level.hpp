@@ -16,6 +16,9 @@ struct Level {
   BlockMatrix<B> own_matrix;                    ///< coarse levels: the Galerkin matrix that A points to
   const GalerkinMatrix<B>* galerkin = nullptr;  ///< coarse levels: what own_matrix is without truncation, if known
   std::vector<double> inverse;                  ///< inverse diagonal blocks
+  /// Per vector: the energy that its finest functions have, each by itself, which rounding of A is relative to; empty
+  /// on the finest level, where it is the largest entry of the diagonal block.
+  std::vector<double> terms;
   const double* b = nullptr;
   double* x = nullptr;
   std::vector<double> own_b, own_x;  ///< coarse levels

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/active_set.hpp"
 #include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
+#include "core/solver/interior_point.hpp"
 #include "core/solver/multigrid_iteration.hpp"
 
 namespace signorini {
@@ -51,28 +53,28 @@ Summary go_on(const Summary& before, Iteration<B>&& loop, const Monitor& monitor
   return loop.run(counted, before.iterations);
 }
 
-// All active sets count as one step, with what they did in all: the energy may grow between them.
-Summary as_one_step(Summary sets, const std::string& linear, int before) {
-  sets.reason += fmt::format(", after {} active sets with {}", sets.iterations, linear);
-  IterationRecord all = sets.history.back();
+// All steps of a method count as one, with what they did in all: the energy may grow between them.
+Summary as_one_step(Summary steps, const std::string& what, int before) {
+  steps.reason += fmt::format(", after {} {}", steps.iterations, what);
+  IterationRecord all = steps.history.back();
   LevelReport& finest = all.levels.back();
   all.changed = finest.changed = finest.renewed = 0;
   finest.seconds = 0;
-  for (const IterationRecord& step : sets.history) {
+  for (const IterationRecord& step : steps.history) {
     const LevelReport& level = step.levels.back();
     all.changed = finest.changed += level.changed;
     finest.renewed += level.renewed;
     finest.seconds += level.seconds;
   }
   all.iteration = before + 1;
-  sets.history = {all};
-  sets.iterations = 1;
-  sets.linear_phase_from = 0;
-  return sets;
+  steps.history = {all};
+  steps.iterations = 1;
+  steps.linear_phase_from = 0;
+  return steps;
 }
 
-// The coarse solver on the finest level, which is monotone also where the matrix is singular on the free components;
-// where it fails too, more of the cycles.
+// The coarse solver on the finest level, which is monotone and finds motions that nothing holds; where it fails too,
+// more of the cycles.
 template <int B>
 Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& problem,
                           std::span<const Prolongation> prolongations, std::vector<double>& x,
@@ -92,26 +94,43 @@ Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& probl
   return joined(before, go_on(before, MultigridIteration<B>(problem, prolongations, x, own, registry), monitor));
 }
 
-// Active sets from where the cycles have come to, with one linear solver after the other; where they fail, Newton steps
-// that lower the energy.
-template <int B>
-Summary solve_by_active_sets(const Summary& cycles, const DiscreteProblem<B>& problem,
-                             std::span<const Prolongation> prolongations, std::vector<double>& x,
-                             const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+/// What a method that solves linear systems makes of an iterate. Nothing where it fails: its linear solver may not be
+/// there, or out of memory.
+template <class Method, int B, class... More>
+std::optional<Summary> go_on_with(const Summary& cycles, const DiscreteProblem<B>& problem, std::vector<double>& x,
+                                  const SolverOptions& options, const Registry& registry, const Monitor& monitor,
+                                  const std::string& linear, const std::string& steps, More... more) {
   const std::vector<double> start = x;
-  SolverOptions own = options;
-  own.method = "pdas";
-  own.max_iterations += cycles.iterations;
-  for (const std::string& linear : automatic::solvers_for_active_sets(B, cycles.level_unknowns.back())) {
-    try {
-      Summary sets = go_on(cycles, ActiveSetIteration<B>(problem, x, own, registry, linear), monitor);
-      if (sets.converged()) return joined(cycles, as_one_step(std::move(sets), linear, cycles.iterations));
-      if (sets.outcome == Outcome::interrupted) return joined(cycles, std::move(sets));
-    } catch (const Error&) {  // of a library that is not there
-    } catch (const std::bad_alloc&) {
-    }
-    x = start;
+  try {
+    Summary found = go_on(cycles, Method(problem, x, options, registry, linear, more...), monitor);
+    if (found.converged())
+      return joined(cycles, as_one_step(std::move(found), fmt::format("{} with {}", steps, linear), cycles.iterations));
+    if (found.outcome == Outcome::interrupted) return joined(cycles, std::move(found));
+  } catch (const Error&) {
+  } catch (const std::bad_alloc&) {
   }
+  x = start;
+  return {};
+}
+
+// Where cycles are slow: active sets, with a shift where the matrix is singular on the free components; interior points
+// where sets cycle; where all of them fail there may be no solution.
+template <int B>
+Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>& problem,
+                                std::span<const Prolongation> prolongations, std::vector<double>& x,
+                                const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+  const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, cycles.level_unknowns.back());
+  SolverOptions own = options;
+  own.max_iterations += cycles.iterations;
+  for (const std::string& linear : solvers)
+    for (const double shift : {0.0, automatic::shift})
+      if (auto found = go_on_with<ActiveSetIteration<B>>(cycles, problem, x, own, registry, monitor, linear,
+                                                         shift > 0 ? "shifted active sets" : "active sets", shift))
+        return *found;
+  own.max_iterations = cycles.iterations + automatic::most_interior_points;
+  if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
+                                                         "interior points"))
+    return *found;
   return go_on_with_newton(cycles, problem, prolongations, x, options, registry, monitor);
 }
 
@@ -126,7 +145,7 @@ Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> p
   Summary summary = loop->run(monitor);
   if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations) {
     loop.reset();  // its memory is needed
-    summary = solve_by_active_sets(summary, problem, prolongations, x, options, registry, monitor);
+    summary = solve_by_linear_systems(summary, problem, prolongations, x, options, registry, monitor);
   }
   summary.setup_seconds = ready - begin;
   summary.solve_seconds = seconds() - ready;

@@ -220,6 +220,48 @@ TEST(Stability, ManyFloatingBodies) {
   EXPECT_LE(expect_solved(p), 15);
 }
 
+/// Chains of vectors that springs tie together, with weights over four decades and loads that balance on each chain.
+/// One in fifteen vectors has a bound: on many chains there is none.
+/// @param scaled motions are not constant, but powers of two with random signs
+Problem balanced_chains(Random& random, Index n, bool scaled) {
+  Problem p;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> scale(static_cast<std::size_t>(n), 1), load(scale.size(), 0);
+  for (double& s : scale)
+    if (scaled) s = std::ldexp(random.chance(0.5) ? 1 : -1, static_cast<int>(random.below(7)) - 3);
+  Index first = 0;  // of its chain
+  for (Index i = 0; i < n; ++i) {
+    if (i > first + 1 && i + 1 < n && random.chance(0.08)) first = i;
+    if (i == first) continue;
+    load[i] = random.below(19) - 9;
+    load[first] -= load[i];
+    const Index other = random.chance(0.7) ? i - 1 : first + random.below(i - first);
+    const double weight = std::pow(10, random.between(-2, 2));
+    for (const auto& [r, c] : {std::pair(i, other), {other, i}}) {
+      entries.emplace_back(r, c, -weight * scale[r] * scale[c]);
+      entries.emplace_back(r, r, weight * scale[r] * scale[r]);
+    }
+  }
+  p.A.resize(n, n);
+  p.A.setFromTriplets(entries.begin(), entries.end());
+  for (Index i = 0; i < n; ++i) {
+    p.b.push_back(scale[i] * load[i]);
+    p.lower.push_back(random.chance(0.07) ? random.between(-9, 1) : -infinity);
+    p.upper.push_back(random.chance(0.07) ? random.between(1, 9) : infinity);
+  }
+  return p;
+}
+
+// What rounding leaves of the forces must not move chains that nothing holds.
+TEST(Stability, BalancedChainsSomeWithoutAnyBound) {
+  Random random(79);
+  for (const bool scaled : {false, true})
+    for (int trial = 0; trial < 4; ++trial) {
+      SCOPED_TRACE(fmt::format("scaled {}, trial {}", scaled, trial));
+      expect_solved(balanced_chains(random, 3000, scaled));
+    }
+}
+
 // Iterates run away along the motion until the residual is rounding of them, which must not count as solved.
 TEST(Stability, WhatNothingHoldsIsNeverCalledSolved) {
   Random random(78);
@@ -283,6 +325,24 @@ TEST(Stability, SecondDifferencesInABox) {
             std::vector<double>(n, 1)};
   for (double& force : p.b) force = random.between(-1, 1);
   expect_solved(p);
+}
+
+// Sums of a few random unknowns, a third as many as there are unknowns: active sets cycle.
+TEST(Stability, LeastSquaresInABox) {
+  Random random(80);
+  for (const Index n : {300, 300, 1200, 1200}) {
+    SCOPED_TRACE(n);
+    const auto size = static_cast<std::size_t>(n);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index k = 0; k < n / 3; ++k)
+      for (int term = 0; term < 4; ++term) entries.emplace_back(k, random.below(n), random.between(-2, 2));
+    Problem p{normal_equations(n / 3, n, entries), std::vector<double>(size, 0), std::vector<double>(size, -10),
+              std::vector<double>(size, 10)};
+    for (const auto& entry : entries) p.b[entry.col()] += entry.value() * (entry.row() % 61 - 30);
+    for (Index i = 0; i < n; ++i)
+      if (p.A.coeff(i, i) == 0) p.A.coeffRef(i, i) = 1;
+    expect_solved(p);
+  }
 }
 
 TEST(Stability, FloatingElasticBlocks) {
