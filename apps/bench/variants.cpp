@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/bench/aggregates.hpp"
 #include "apps/bench/problems.hpp"
 #include "core/base/error.hpp"
 
@@ -214,6 +215,7 @@ void print_variants() {
   print_times();
   print_rates();
   print_algebraic_levels();
+  print_aggregates();
 }
 
 }  // namespace signorini::bench
