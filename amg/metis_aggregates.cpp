@@ -89,7 +89,7 @@ Vertices vertices_of(const StrengthGraph& graph) {
 std::vector<idx_t> cut_into(idx_t parts, Vertices& graph) {
   auto vertices = static_cast<idx_t>(graph.vector.size());
   std::vector<idx_t> part(graph.vector.size(), 0);
-  if (parts < 2) return part;  // METIS divides by the logarithm of their number
+  if (parts < 2) return part;  // nothing to cut, and METIS divides by the logarithm of their number
   idx_t options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
   options[METIS_OPTION_SEED] = 1;

@@ -38,8 +38,13 @@ LinearSolve linear(const Problem& problem, const Mesh<D>& mesh, const Aggregator
                          aggregator);
 }
 
+struct Figures {
+  double unknowns = 0;
+  std::string row;
+};
+
 template <int D, int B>
-std::string figures(const Case& c, const std::string& aggregates) {
+Figures figures(const Case& c, const std::string& aggregates) {
   std::vector<std::string> overrides = c.overrides;
   for (const char* further : {"refine.uniform=0", "solver.coarsening=aggregation"}) overrides.emplace_back(further);
   overrides.push_back("solver.aggregates=" + aggregates);
@@ -48,13 +53,15 @@ std::string figures(const Case& c, const std::string& aggregates) {
   const LinearSolve cg =
       linear<D, B>(problem, hierarchy.finest(), *problem.registry.create<Aggregator>("aggregates", aggregates));
   const Solved solved = solve_nonlinear<D, B>(problem, hierarchy);
-  return fmt::format("{:.2f} | {} | {}{} | {:.2f} | {:.2f}", cg.complexity, cg.iterations, solved.summary.iterations,
-                     solved.summary.converged() ? "" : " (limit)", cg.setup, solved.times.setup + solved.times.solve);
+  return {solved.unknowns(),
+          fmt::format("{:.2f} | {} | {}{} | {:.2f} | {:.2f}", cg.complexity, cg.iterations, solved.summary.iterations,
+                      solved.summary.converged() ? "" : " (limit)", cg.setup, solved.times.setup + solved.times.solve)};
 }
 
 template <int D, int B>
 void compare(const Case& c) {
-  fmt::print("| {} | {} | {} |\n", c.name, figures<D, B>(c, "greedy"), figures<D, B>(c, "metis"));
+  const Figures greedy = figures<D, B>(c, "greedy"), metis = figures<D, B>(c, "metis");
+  fmt::print("| {} | {:.0f} | {} | {} |\n", c.name, greedy.unknowns, greedy.row, metis.row);
   std::fflush(stdout);
 }
 
@@ -65,8 +72,9 @@ void print_aggregates() {
       "\n## Aggregates\n\nSmoothed aggregation on meshes that are not refined: entries of all matrices over those of "
       "the finest, iterations of conjugate gradients without obstacles, cycles with them, seconds for the linear "
       "set-up and for the whole solve with obstacles.\n\n"
-      "| problem | greedy: complexity | CG | cycles | set-up | all | metis: complexity | CG | cycles | set-up | all |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "| problem | unknowns | greedy: complexity | CG | cycles | set-up | all | metis: complexity | CG | cycles | "
+      "set-up | all |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   compare<2, 1>({"S2, 257 nodes along an edge", "obstacle_radial_2d.toml", {"body.0.cells=[256, 256]"}});
   compare<3, 1>({"S3, 49", "obstacle_cube_3d.toml", {"body.0.cells=[48, 48, 48]"}});
   compare<3, 3>({"E3, 33", "cube_on_bump.toml", {"body.0.cells=[32, 32, 32]"}});

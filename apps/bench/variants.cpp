@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/bench/aggregates.hpp"
 #include "apps/bench/problems.hpp"
 #include "core/base/error.hpp"
 
@@ -215,7 +214,6 @@ void print_variants() {
   print_times();
   print_rates();
   print_algebraic_levels();
-  print_aggregates();
 }
 
 }  // namespace signorini::bench
