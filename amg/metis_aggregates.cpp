@@ -124,23 +124,16 @@ std::vector<Index> pieces(const StrengthGraph& graph, const std::vector<Index>& 
   return of;
 }
 
-/// Per set, numbered by their first vectors, the vector with the strongest couplings within it, the first of equals.
+/// Per set, numbered by their first vectors, the vector with the fewest couplings, the first of equals. Sets at the
+/// surface of a body have it there, where obstacles are: a start from coarser levels knows those of the roots alone.
 std::vector<Index> roots(const StrengthGraph& graph, const std::vector<Index>& of) {
   std::vector<Index> root;
-  std::vector<float> most;
   for (Index p = 0; p < graph.size(); ++p) {
     if (of[p] == none) continue;
-    if (of[p] == static_cast<Index>(root.size())) {
+    if (of[p] == static_cast<Index>(root.size()))
       root.push_back(p);
-      most.push_back(-1);
-    }
-    float inner = 0;
-    for (const Coupling& c : graph.of(p))
-      if (of[c.to] == of[p]) inner += c.strength;
-    if (inner > most[of[p]]) {
-      most[of[p]] = inner;
+    else if (graph.of(p).size() < graph.of(root[of[p]]).size())
       root[of[p]] = p;
-    }
   }
   return root;
 }
