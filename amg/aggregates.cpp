@@ -1,6 +1,7 @@
 #include "amg/aggregates.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace signorini {
 namespace {
@@ -36,21 +37,7 @@ class Aggregation {
       if (of_[p] == none && !graph_.of(p).empty()) found(p);
   }
 
-  /// Numbered by their roots.
-  Aggregates result() && {
-    std::vector<Index> order(root_.size()), number(root_.size());
-    for (std::size_t a = 0; a < order.size(); ++a) order[a] = static_cast<Index>(a);
-    std::ranges::sort(order, {}, [&](Index a) { return root_[a]; });
-    Aggregates out;
-    for (const Index a : order) {
-      number[a] = out.size();
-      out.root.push_back(root_[a]);
-    }
-    for (Index& a : of_)
-      if (a != none) a = number[a];
-    out.of = std::move(of_);
-    return out;
-  }
+  Aggregates result() && { return rooted_at_the_surface(graph_, std::move(of_), std::move(root_)); }
 
  private:
   void found(Index p) {
@@ -66,6 +53,23 @@ class Aggregation {
 };
 
 }  // namespace
+
+Aggregates rooted_at_the_surface(const StrengthGraph& graph, std::vector<Index> of, std::vector<Index> root) {
+  for (Index p = 0; p < graph.size(); ++p)
+    if (of[p] != none && graph.of(p).size() < graph.of(root[of[p]]).size()) root[of[p]] = p;
+  std::vector<Index> order(root.size()), number(root.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Index a) { return root[a]; });
+  Aggregates out;
+  for (const Index a : order) {
+    number[a] = out.size();
+    out.root.push_back(root[a]);
+  }
+  for (Index& a : of)
+    if (a != none) a = number[a];
+  out.of = std::move(of);
+  return out;
+}
 
 Aggregates aggregate(const StrengthGraph& graph) {
   Aggregation aggregation(graph);

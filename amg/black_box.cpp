@@ -76,9 +76,10 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
     check_options(options_);
     check_near_null(near_null, A.rows, coarsening_of(options_));
-    levels_ =
-        given ? take(*given)
-              : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_), near_null);
+    const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
+    levels_ = given ? take(*given)
+                    : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_),
+                                             near_null, *aggregator);
     problem_.galerkin = levels_.matrices;
     refuse_indefinite<B>(problem_.A, levels_);
   }

@@ -86,14 +86,15 @@ class Descent {
 template <int B>
 class Chooser {
  public:
-  Chooser(Coarsening coarsening, NearNullSpace modes) : coarsening_(coarsening), modes_(std::move(modes)) {}
+  Chooser(Coarsening coarsening, NearNullSpace modes, const Aggregator& aggregator)
+      : coarsening_(coarsening), modes_(std::move(modes)), aggregator_(aggregator) {}
 
   Prolongation next(const Level<B>& level) {
     const bool known = modes_.modes > 0;
     if (coarsening_ == Coarsening::classical || (coarsening_ == Coarsening::automatic && !known))
       return classical_interpolation(*level.A, level.off);
-    if (!known) return smoothed_aggregation(*level.A, level.off);
-    ModeAggregation found = mode_aggregation(level, modes_, group_);
+    if (!known) return smoothed_aggregation(*level.A, level.off, aggregator_);
+    ModeAggregation found = mode_aggregation(level, modes_, group_, aggregator_);
     modes_ = std::move(found.coarse);
     group_ = found.group;
     return std::move(found.prolongation);
@@ -103,15 +104,17 @@ class Chooser {
   Coarsening coarsening_;
   NearNullSpace modes_;  // of the level that comes next
   Index group_ = 1;      // of its vectors that belong together
+  const Aggregator& aggregator_;
 };
 
 }  // namespace
 
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
-                                       Index enough, const AlgebraicSettings& settings, NearNullSpace near_null) {
+                                       Index enough, const AlgebraicSettings& settings, NearNullSpace near_null,
+                                       const Aggregator& aggregator) {
   Descent<B> descent(problem, settings);
-  Chooser<B> chooser(settings.coarsening, std::move(near_null));
+  Chooser<B> chooser(settings.coarsening, std::move(near_null), aggregator);
   while (descent.level().vectors > enough) {
     Prolongation P = chooser.next(descent.level());
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
@@ -131,11 +134,11 @@ AlgebraicLevels<B> galerkin_hierarchy(const DiscreteProblem<B>& problem, std::ve
 }
 
 template AlgebraicLevels<1> algebraic_hierarchy(const DiscreteProblem<1>&, const TransferFactory<1>&, Index,
-                                                const AlgebraicSettings&, NearNullSpace);
+                                                const AlgebraicSettings&, NearNullSpace, const Aggregator&);
 template AlgebraicLevels<2> algebraic_hierarchy(const DiscreteProblem<2>&, const TransferFactory<2>&, Index,
-                                                const AlgebraicSettings&, NearNullSpace);
+                                                const AlgebraicSettings&, NearNullSpace, const Aggregator&);
 template AlgebraicLevels<3> algebraic_hierarchy(const DiscreteProblem<3>&, const TransferFactory<3>&, Index,
-                                                const AlgebraicSettings&, NearNullSpace);
+                                                const AlgebraicSettings&, NearNullSpace, const Aggregator&);
 template AlgebraicLevels<1> galerkin_hierarchy(const DiscreteProblem<1>&, std::vector<Prolongation>,
                                                const TransferFactory<1>&, const AlgebraicSettings&,
                                                std::vector<BlockMatrix<1>>);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "amg/aggregates.hpp"
 #include "amg/near_null_space.hpp"
 #include "core/solver/components.hpp"
 #include "core/solver/configuration.hpp"
@@ -27,10 +28,11 @@ using TransferFactory = std::function<std::unique_ptr<Transfer<B>>()>;
 /// a geometric hierarchy downwards, or are a hierarchy of their own.
 /// @param transfer makes the transfers whose Galerkin products the coarser levels are chosen by
 /// @param near_null what coarser levels by aggregation represent exactly, on the level of `problem`
+/// @param aggregator makes the aggregates of levels by aggregation
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
                                        Index enough = enough_vectors, const AlgebraicSettings& settings = {},
-                                       NearNullSpace near_null = {});
+                                       NearNullSpace near_null = {}, const Aggregator& aggregator = GreedyAggregator());
 
 /// The matrices of given levels, whose interpolations are changed to what the settings want.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`

@@ -1,4 +1,5 @@
 #pragma once
+#include "amg/aggregates.hpp"
 #include "amg/near_null_space.hpp"
 #include "core/solver/level.hpp"
 #include "core/solver/prolongation.hpp"
@@ -21,6 +22,7 @@ struct ModeAggregation {
 /// @param fine the near null space on it, in global coordinates
 /// @param group of its consecutive vectors that belong to one node
 template <int B>
-ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fine, Index group);
+ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fine, Index group,
+                                 const Aggregator& aggregator = GreedyAggregator());
 
 }  // namespace signorini

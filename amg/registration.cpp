@@ -3,6 +3,7 @@
 #include "amg/amg_cg.hpp"
 #include "amg/cholmod_solver.hpp"
 #include "amg/coarse_newton.hpp"
+#include "amg/metis_aggregates.hpp"
 #include "core/scene/specs.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
@@ -14,7 +15,7 @@ namespace {
 std::vector<OptionSpec> options_of_levels() {
   std::vector<OptionSpec> out;
   const auto keys = find_table("solver")->keys;
-  for (const char* name : {"coarsening", "reassemble", "reach", "interpolate", "rotate"}) {
+  for (const char* name : {"coarsening", "aggregates", "reassemble", "reach", "interpolate", "rotate"}) {
     const KeySpec& key = *find_key(keys, name);
     const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
     out.push_back({key.name, type, key.fallback, key.range, key.help});
@@ -71,6 +72,15 @@ void register_coarsenings(Registry& registry) {
                   {}});
 }
 
+void register_aggregators(Registry& registry) {
+  const std::string file = file_of(reinterpret_cast<const void*>(&register_aggregators));
+  registry.add<Aggregator>({"aggregates", "greedy", "a vector with all its strong couplings", {}, file, {}},
+                           [] { return std::make_unique<GreedyAggregator>(); });
+  registry.add<Aggregator>(
+      {"aggregates", "metis", "parts of the graph of strong couplings, cut by METIS", {}, file, {}},
+      [] { return std::make_unique<MetisAggregator>(); });
+}
+
 Registry solver_components() {
   Registry registry;
   register_smoothers(registry);
@@ -78,6 +88,7 @@ Registry solver_components() {
   register_coarse_solvers(registry);
   register_linear_solvers(registry);
   register_coarsenings(registry);
+  register_aggregators(registry);
   return registry;
 }
 

@@ -12,7 +12,10 @@ void register_linear_solvers(Registry& registry);
 /// Adds how levels are chosen by the matrix, for `signorini list`: classical, aggregation. Nothing creates them.
 void register_coarsenings(Registry& registry);
 
-/// All smoothers, transfers, coarse and linear solvers and coarsenings: what a solve is composed from.
+/// Adds what makes the aggregates of smoothed aggregation: greedy, metis.
+void register_aggregators(Registry& registry);
+
+/// All smoothers, transfers, coarse and linear solvers, coarsenings and aggregators: what a solve is composed from.
 Registry solver_components();
 
 }  // namespace signorini

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "amg/aggregates.hpp"
-
 namespace signorini {
 namespace {
 
@@ -13,9 +11,10 @@ constexpr double damping = 2.0 / 3;
 }  // namespace
 
 template <int B>
-Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
+Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Flags>& off,
+                                  const Aggregator& aggregator) {
   const StrengthGraph graph = strong_couplings(A, off);
-  Aggregates aggregates = aggregate(graph);
+  Aggregates aggregates = aggregator.aggregate(graph);
   Prolongation P;
   P.coarse = aggregates.size();
   std::vector<double> sum(aggregates.root.size(), 0.0);  // zero between the rows
@@ -44,8 +43,8 @@ Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Fla
   return P;
 }
 
-template Prolongation smoothed_aggregation(const BlockMatrix<1>&, const std::vector<Flags>&);
-template Prolongation smoothed_aggregation(const BlockMatrix<2>&, const std::vector<Flags>&);
-template Prolongation smoothed_aggregation(const BlockMatrix<3>&, const std::vector<Flags>&);
+template Prolongation smoothed_aggregation(const BlockMatrix<1>&, const std::vector<Flags>&, const Aggregator&);
+template Prolongation smoothed_aggregation(const BlockMatrix<2>&, const std::vector<Flags>&, const Aggregator&);
+template Prolongation smoothed_aggregation(const BlockMatrix<3>&, const std::vector<Flags>&, const Aggregator&);
 
 }  // namespace signorini

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "amg/aggregates.hpp"
 #include "core/algebra/block_matrix.hpp"
 #include "core/solver/prolongation.hpp"
 
@@ -13,6 +14,7 @@ namespace signorini {
 /// root of its aggregate.
 /// @param off components prescribed; vectors without any other one take no part
 template <int B>
-Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Flags>& off);
+Prolongation smoothed_aggregation(const BlockMatrix<B>& A, const std::vector<Flags>& off,
+                                  const Aggregator& aggregator = GreedyAggregator());
 
 }  // namespace signorini

@@ -88,15 +88,16 @@ struct AlgebraicProblem {
   DiscreteProblem<B> problem;
   AlgebraicLevels<B> levels;
 
-  explicit AlgebraicProblem(const SparseRows& A, Coarsening coarsening = Coarsening::classical,
-                            const NearNullSpace& near_null = {}) {
+  AlgebraicProblem(const SparseRows& A, Coarsening coarsening, const NearNullSpace& near_null,
+                   const Aggregator& aggregator) {
     const auto n = static_cast<std::size_t>(A.rows);
     problem.A = block_matrix<B>(A);
     problem.b.assign(n, 0.0);
     problem.fixed.assign(n / B, 0);
     problem.start.assign(n, 0.0);
     const auto transfer = [&] { return registry.create<Transfer<B>>("transfer", "min_merge"); };
-    levels = algebraic_hierarchy<B>(problem, transfer, enough_vectors, {.coarsening = coarsening}, near_null);
+    levels =
+        algebraic_hierarchy<B>(problem, transfer, enough_vectors, {.coarsening = coarsening}, near_null, aggregator);
     problem.galerkin = levels.matrices;
   }
 };
@@ -105,9 +106,9 @@ struct AlgebraicProblem {
 
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance, Coarsening coarsening,
-                         const NearNullSpace& near_null) {
+                         const NearNullSpace& near_null, const Aggregator& aggregator) {
   Stopwatch watch;
-  AlgebraicProblem<B> given(A, coarsening, near_null);
+  AlgebraicProblem<B> given(A, coarsening, near_null, aggregator);
   given.problem.b.assign(b.begin(), b.end());
   const double hierarchy = watch.elapsed();
   LinearSolve result = multigrid_cg<B>(given.problem, given.levels.prolongations, given.registry, tolerance);
@@ -120,8 +121,8 @@ template LinearSolve multigrid_cg(const DiscreteProblem<1>&, std::span<const Pro
 template LinearSolve multigrid_cg(const DiscreteProblem<2>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve multigrid_cg(const DiscreteProblem<3>&, std::span<const Prolongation>, const Registry&, double);
 template LinearSolve algebraic_cg<1>(const SparseRows&, std::span<const double>, double, Coarsening,
-                                     const NearNullSpace&);
+                                     const NearNullSpace&, const Aggregator&);
 template LinearSolve algebraic_cg<3>(const SparseRows&, std::span<const double>, double, Coarsening,
-                                     const NearNullSpace&);
+                                     const NearNullSpace&, const Aggregator&);
 
 }  // namespace signorini::bench

@@ -1,4 +1,5 @@
 #pragma once
+#include "amg/aggregates.hpp"
 #include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
@@ -27,6 +28,7 @@ LinearSolve multigrid_cg(const DiscreteProblem<B>& problem, std::span<const Prol
 /// The same on levels that a matrix gives, B rows to a vector.
 template <int B>
 LinearSolve algebraic_cg(const SparseRows& A, std::span<const double> b, double tolerance,
-                         Coarsening coarsening = Coarsening::classical, const NearNullSpace& near_null = {});
+                         Coarsening coarsening = Coarsening::classical, const NearNullSpace& near_null = {},
+                         const Aggregator& aggregator = GreedyAggregator());
 
 }  // namespace signorini::bench

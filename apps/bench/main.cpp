@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
 #include "apps/bench/choice.hpp"
@@ -180,13 +181,15 @@ void fetch_memory() {
 
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
-  bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false;
+  bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
+       aggregates = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
   app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
+  app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
   CLI::Option* compared = app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
   app.add_option("--only", only, "of these, problems with this text in their names")->needs(compared);
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
@@ -198,8 +201,9 @@ int main(int argc, char** argv) {
     if (boundary) signorini::bench::print_boundary(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
+    if (variants || aggregates) signorini::bench::print_aggregates();
     if (choice) signorini::bench::print_choice(only);
-    if (!algebraic && !boundary && !memory && !variants && !choice) signorini::bench::run(quick);
+    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates) signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

@@ -70,7 +70,8 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
   fmt::print("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle,
              options.pre, options.post, options.smoother, options.coarse);
   if (below)
-    fmt::print("        levels below the coarsest mesh by {}\n", aggregates ? "aggregation" : "classical coarsening");
+    fmt::print("        levels below the coarsest mesh by {}\n",
+               aggregates ? "aggregation, aggregates " + options.aggregates : "classical coarsening");
 }
 
 template <int D, int B>

@@ -59,6 +59,7 @@ void check_components(const Scene& scene, const Registry& registry) {
   check("smoother", "smoother", scene.solver.smoother);
   check("transfer", "transfer", scene.solver.transfer);
   check("coarse", "coarse", scene.solver.coarse);
+  check("aggregates", "aggregates", scene.solver.aggregates);
 }
 
 }  // namespace signorini

@@ -85,7 +85,8 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const AlgebraicSettings settings = algebraic_settings(options_);
   auto modes =
       *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
-  auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes));
+  const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
+  auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
                         std::make_move_iterator(below.prolongations.end()));

@@ -48,6 +48,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.reach = reader.text("reach");
   solver.interpolate = reader.text("interpolate");
   solver.coarsening = reader.text("coarsening");
+  solver.aggregates = reader.text("aggregates");
   solver.krylov = reader.flag("krylov");
   solver.start = reader.text("start");
   solver.threads = reader.integer("threads");

@@ -151,6 +151,8 @@ constexpr KeySpec solver[] = {
      "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
      "for "
      "elastic bodies"},
+    {"aggregates", text, "greedy", "", "",
+     "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`"},
     {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
     {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
     {"threads", integer, "1", "[1, 4096]", "",

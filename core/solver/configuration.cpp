@@ -68,6 +68,9 @@ Method check_options(const SolverOptions& o) {
   const bool restricted = only_twins(o), rotated = local_components(o);
   require(coarsening_of(o) != Coarsening::aggregation || !(restricted || rotated), "coarsening", o.coarsening,
           "'auto' or 'classical' with reach 'twins' or interpolate 'local'");
+  require(o.aggregates == "greedy" || algebraic_settings(o).coarsening != Coarsening::classical, "aggregates",
+          o.aggregates,
+          "'greedy' with coarsening 'classical', reach 'twins' or interpolate 'local', which make no aggregates");
   return method;
 }
 

@@ -17,6 +17,7 @@ struct SolverOptions {
   std::string coarse = "newton";       ///< a registered coarse solver
   std::string truncate = "normal";     ///< none, normal or tangential
   std::string coarsening = "auto";     ///< of algebraic levels: auto, classical or aggregation
+  std::string aggregates = "greedy";   ///< of levels by aggregation: a registered kind
   double cut = 0;              ///< truncate also at distances up to this part of the last cycle's largest change
   std::string rotate = "all";  ///< all, not_coarsest, meshes or none
   bool reassemble = true;      ///< renew the matrices of algebraic levels where phases have changed

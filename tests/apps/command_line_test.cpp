@@ -111,6 +111,8 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   for (const char* text : {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)",
                            "all | twins", "global | local", "(true or false, default true)"})
     EXPECT_THAT(amg.out, HasSubstr(text));
+  EXPECT_THAT(amg.out, HasSubstr("`signorini list aggregates` (text, default greedy)"));
+  EXPECT_THAT(signorini({"list", "aggregates"}).out, AllOf(HasSubstr("greedy "), HasSubstr("metis ")));
   EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
 }
 
@@ -137,6 +139,11 @@ TEST_F(CommandLine, CheckPrintsTheRulesThatAreInForce) {
               AllOf(HasSubstr("auto: monotone, tnnmg"), HasSubstr("; pdas with amg_cg, else cholmod after")));
   EXPECT_THAT(checked("solver.truncate=none"), testing::Not(HasSubstr("tnnmg")));
   EXPECT_THAT(checked("solver.method=pgs"), testing::Not(HasSubstr("V-cycle")));
+  write("punch.toml", punch);
+  EXPECT_THAT(signorini({"check", "punch.toml", "--set", "body.0.cells=[10, 10, 10]", "--set", "refine.uniform=0",
+                         "--set", "solver.aggregates=metis"})
+                  .out,
+              HasSubstr("levels below the coarsest mesh by aggregation, aggregates metis"));
 }
 
 TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {

@@ -86,6 +86,7 @@ TEST(Scene, DefaultsOfTheSolverAreThoseOfItsOptions) {
   EXPECT_EQ(scene.solver.relaxation, options.relaxation);
   EXPECT_EQ(scene.solver.transfer, options.transfer);
   EXPECT_EQ(scene.solver.coarse, options.coarse);
+  EXPECT_EQ(scene.solver.aggregates, options.aggregates);
   EXPECT_EQ(scene.solver.truncate, options.truncate);
   EXPECT_EQ(scene.solver.rotate, options.rotate);
   EXPECT_EQ(scene.solver.krylov, options.krylov);
@@ -104,6 +105,7 @@ smoother = "forward"
 relaxation = 1.5
 transfer = "other"
 coarse = "direct"
+aggregates = "metis"
 truncate = "none"
 rotate = "not_coarsest"
 start = "zero"
@@ -125,6 +127,7 @@ convergence = false
   EXPECT_EQ(scene.solver.relaxation, 1.5);
   EXPECT_EQ(scene.solver.transfer, "other");
   EXPECT_EQ(scene.solver.coarse, "direct");
+  EXPECT_EQ(scene.solver.aggregates, "metis");
   EXPECT_EQ(scene.solver.truncate, "none");
   EXPECT_EQ(scene.solver.rotate, "not_coarsest");
   EXPECT_EQ(scene.solver.start, "zero");
