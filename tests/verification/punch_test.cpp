@@ -121,7 +121,8 @@ normal = [0, 0, 1])",
   EXPECT_NEAR(r.contact().area, 1, 1e-9);
   EXPECT_GT(r.contact().nodes, 30);
   for (const auto& node : r.results.contact.nodes) {
-    if (node.contact) ASSERT_NEAR(node.pressure, 0.01, 1e-11);
+    if (!node.contact) continue;
+    ASSERT_NEAR(node.pressure, 0.01, 1e-11);
   }
 }
 
