@@ -32,47 +32,37 @@ class Served {
   std::vector<Index> vector_;
 };
 
-/// Vectors in buckets by their worth, each a doubly linked list; of equals the last one put in leads.
-class Buckets {
+/// Vectors in stacks by their worth, which only rises: of equals the last one put in leads. What has been raised or
+/// removed since is passed over.
+class Stacks {
  public:
-  Buckets(std::size_t vectors, std::size_t largest) : first_(largest + 1, none), vector_(vectors) {}
+  Stacks(std::size_t vectors, std::size_t largest) : stack_(largest + 1), worth_(vectors, none) {}
 
-  bool holds(Index p) const { return vector_[p].worth >= 0; }
+  bool holds(Index p) const { return worth_[p] != none; }
 
   void insert(Index p, Index worth) {
-    vector_[p] = {first_[worth], none, worth};
-    if (first_[worth] != none) vector_[first_[worth]].previous = p;
-    first_[worth] = p;
+    worth_[p] = worth;
+    stack_[worth].push_back(p);
     top_ = std::max(top_, worth);
   }
 
-  void remove(Index p) {
-    const Vector out = vector_[p];
-    (out.previous == none ? first_[out.worth] : vector_[out.previous].next) = out.next;
-    if (out.next != none) vector_[out.next].previous = out.previous;
-    vector_[p].worth = none;
-  }
+  void remove(Index p) { worth_[p] = none; }
 
-  void raise(Index p) {
-    const Index worth = vector_[p].worth;
-    remove(p);
-    insert(p, worth + 1);
-  }
+  void raise(Index p) { insert(p, worth_[p] + 1); }
 
-  /// One of the most worth, -1: all buckets are empty.
+  /// One of the most worth, -1: there is none.
   Index best() {
-    while (top_ > 0 && first_[top_] == none) --top_;
-    return first_[top_];
+    for (; top_ >= 0; --top_)
+      for (std::vector<Index>& stack = stack_[top_]; !stack.empty(); stack.pop_back())
+        if (worth_[stack.back()] == top_) return stack.back();
+    return none;
   }
 
  private:
   static constexpr Index none = -1;
-  struct Vector {
-    Index next = none, previous = none, worth = none;  // worth none: in no bucket
-  };
-  std::vector<Index> first_;
-  std::vector<Vector> vector_;
-  Index top_ = 0;
+  std::vector<std::vector<Index>> stack_;
+  std::vector<Index> worth_;
+  Index top_ = none;
 };
 
 }  // namespace
@@ -82,7 +72,7 @@ std::vector<Part> split(const StrengthGraph& depends, Part alone) {
   const Index n = depends.size();
   std::vector<Part> part(static_cast<std::size_t>(n), Part::fine);
   // No vector can be worth more than by all that it serves turning fine.
-  Buckets open(part.size(), 2 * static_cast<std::size_t>(served.most()));
+  Stacks open(part.size(), 2 * static_cast<std::size_t>(served.most()));
   for (Index p = n - 1; p >= 0; --p) {
     const auto worth = static_cast<Index>(served.by(p).size());
     if (depends.of(p).empty() && worth == 0)

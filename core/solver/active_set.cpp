@@ -31,11 +31,11 @@ double diagonal(const BlockMatrix<B>& A, Offset i) {
 template <int B>
 ActiveSetIteration<B>::ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x,
                                           const SolverOptions& options, const Registry& registry,
-                                          const std::string& linear, double shift)
+                                          const std::string& linear, double shift_if_singular)
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
       system_(problem.A, registry.create<LinearSolver>("linear", linear)),
-      shift_(shift) {}
+      shift_if_singular_(shift_if_singular) {}
 
 // Calls visit(number in active_, unknown, lower bound, upper bound) for what is not prescribed.
 template <int B>
@@ -106,21 +106,19 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   return step;
 }
 
-// Sets that come back do so for ever, but for shifts, with which what nothing holds falls by the same in each step.
+// Sets that come back do so for ever, but for shifts that grow. With a shift what nothing holds falls by the same in
+// each step.
 template <int B>
 std::string ActiveSetIteration<B>::why_stuck(bool changed) {
   if (changed) residuals_.clear();
   residuals_.push_back(this->sums_.natural_residual);
   const std::size_t n = residuals_.size();
-  if (shift_ > 0)
-    return n > resting_steps && residuals_[n - 1] > 0.5 * residuals_[n - 1 - resting_steps]
-               ? "the active sets rest, but not the iterates: nothing holds the body there"
-               : "";
+  if (shift_ > 0 && n > resting_steps && residuals_[n - 1] > 0.5 * residuals_[n - 1 - resting_steps])
+    return "the active sets rest, but not the iterates: nothing holds the body there";
   const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size());
   const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
-  return changed && !fresh
-             ? fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_)
-             : "";
+  if (!changed || fresh || (shift_ > 0 && shift_ < largest_shift)) return "";
+  return fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_);
 }
 
 // The step itself bounds the error of the iterate before. With a shift the steps become shorter by and by.
@@ -131,12 +129,17 @@ double ActiveSetIteration<B>::remaining_error(bool changed) {
   return move < last ? move / (1 - move / last) : infinity;
 }
 
-// The start may be a body that touches nothing; with all bounds active there is something to hold it.
+// The start may be a body that touches nothing; with all bounds active there may be something to hold it.
 template <int B>
 bool ActiveSetIteration<B>::minimise(bool changed) {
   if ((!changed || factorise()) && solve_free()) return true;
-  if (steps_ > 1 || active_ == all_bounded()) return false;
-  active_ = all_bounded();
+  if (steps_ == 1 && active_ != all_bounded()) {
+    active_ = all_bounded();
+    if (factorise() && solve_free()) return true;
+  }
+  if (shift_ > 0 || shift_if_singular_ == 0) return false;
+  shift_ = shift_if_singular_;
+  seen_.clear();
   return factorise() && solve_free();
 }
 

@@ -18,9 +18,10 @@ template <int B>
 class ActiveSetIteration final : public Iteration<B> {
  public:
   /// @param linear a registered linear solver
-  /// @param shift part of the diagonal that is added to it
+  /// @param shift_if_singular part of the diagonal that is added to it once the matrix turns out to be singular on the
+  ///     free components; zero: stuck then
   ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
-                     const Registry& registry, const std::string& linear = "cholmod", double shift = 0);
+                     const Registry& registry, const std::string& linear = "cholmod", double shift_if_singular = 0);
 
  private:
   using typename Iteration<B>::Step;
@@ -47,7 +48,7 @@ class ActiveSetIteration final : public Iteration<B> {
   std::vector<double> y_, r_y_;      // the iterate, which may leave the bounds, and its residual
   std::vector<signed char> active_;  // per slot and direction: -1 at the lower bound, 1 at the upper one, 0 free
   std::unordered_map<std::size_t, int> seen_;  // fingerprints of the sets of each step
-  double shift_;
+  double shift_if_singular_, shift_ = 0;
   std::vector<double> residuals_;  // since the sets rest
   double last_move_ = infinity;    // of the step before, in the energy norm
   int steps_ = 0;

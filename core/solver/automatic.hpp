@@ -17,11 +17,12 @@ inline constexpr int patience_with_bounds = 10;
 inline constexpr int patience_with_cycles = 60, most_cycles = 200;
 /// What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
 inline constexpr Index most_unknowns_for_direct = 150'000;
-/// Of the diagonal: what makes a semidefinite matrix regular where active sets fail without.
-inline constexpr double shift = 1e-10;
-/// Where sets cycle.
+/// Of the diagonal, where active sets meet a matrix that is singular on the free components.
+inline constexpr double shift_if_singular = 1e-10;
+/// Where sets cycle: interior points, up to so many unknowns and of them, each with a factorisation.
+inline constexpr Index most_unknowns_for_interior_points = 50'000;
 inline constexpr int most_interior_points = 60;
-/// Where that fails: the coarse solver on the finest level, up to so many unknowns, for so many steps.
+/// Where those fail: the coarse solver on the finest level, up to so many unknowns, for so many steps.
 inline constexpr Index most_unknowns_for_newton = 12'000;
 inline constexpr int newton_steps = 40;
 /// Of the energy gained in the cycle before: where weights are blocks, bounds come back after a correction without them

@@ -12,7 +12,9 @@ namespace {
 
 constexpr double to_the_boundary = 0.995;  // part of the longest step that keeps distances and multipliers positive
 constexpr double shift = 1e-8;             // of the diagonal, for what no bound holds
-constexpr double inside = 0.1;             // of the way between two bounds, or of the size of x: first distances
+constexpr int patience = 10;               // steps without an error less than this part of the least one
+constexpr double less = 0.9;
+constexpr double inside = 0.1;  // of the way between two bounds, or of the size of x: first distances
 
 }  // namespace
 
@@ -81,8 +83,16 @@ typename InteriorPointIteration<B>::Step InteriorPointIteration<B>::advance() {
   this->refuse_nan(this->sums_.natural_residual);
   const double last_gain = std::sqrt(2 * std::abs(this->sums_.gain));  // what falls for ever has no gap
   step.error = this->sums_.natural_residual == 0 ? 0 : std::max(error_bound(), last_gain);
+  if (step.stuck.empty() && !progresses(step.error)) step.stuck = "the interior points make no progress";
   step.levels = {report()};
   return step;
+}
+
+template <int B>
+bool InteriorPointIteration<B>::progresses(double error) {
+  idle_ = error < less * least_error_ ? 0 : idle_ + 1;
+  least_error_ = std::min(least_error_, error);
+  return idle_ < patience;
 }
 
 template <int B>

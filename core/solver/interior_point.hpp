@@ -42,6 +42,7 @@ class InteriorPointIteration final : public Iteration<B> {
   double complementarity(double step) const;
   void put_onto_bounds();
   double error_bound() const;
+  bool progresses(double error);
   LevelReport report() const;
   double diagonal(Offset i) const;
 
@@ -52,6 +53,8 @@ class InteriorPointIteration final : public Iteration<B> {
   std::vector<double> y_, force_, d_;  // the iterate, b - A y, and the direction
   std::vector<double> added_;
   bool started_ = false;
+  double least_error_ = infinity;
+  int idle_ = 0;
 };
 
 }  // namespace signorini

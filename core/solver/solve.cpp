@@ -123,14 +123,14 @@ Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>&
   SolverOptions own = options;
   own.max_iterations += cycles.iterations;
   for (const std::string& linear : solvers)
-    for (const double shift : {0.0, automatic::shift})
-      if (auto found = go_on_with<ActiveSetIteration<B>>(cycles, problem, x, own, registry, monitor, linear,
-                                                         shift > 0 ? "shifted active sets" : "active sets", shift))
-        return *found;
+    if (auto found = go_on_with<ActiveSetIteration<B>>(cycles, problem, x, own, registry, monitor, linear,
+                                                       "active sets", automatic::shift_if_singular))
+      return *found;
   own.max_iterations = cycles.iterations + automatic::most_interior_points;
-  if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
-                                                         "interior points"))
-    return *found;
+  if (problem.A.size() * B <= automatic::most_unknowns_for_interior_points)
+    if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
+                                                           "interior points"))
+      return *found;
   return go_on_with_newton(cycles, problem, prolongations, x, options, registry, monitor);
 }
 
