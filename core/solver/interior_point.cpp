@@ -59,6 +59,7 @@ void InteriorPointIteration<B>::start() {
   double size = 0;
   for (std::size_t i = 0; i < y_.size(); ++i)
     size = std::max({size, std::abs(y_[i]), std::abs(this->r_before_[i]) / diagonal(static_cast<Offset>(i))});
+  if (size == 0) size = 1;  // the start is the solution
   const Constraints<B>& c = level_.constraints;
   for (Side& s : sides_) {
     const Offset at = Offset{c.slot[s.i / B]} * B + s.i % B;

@@ -77,6 +77,10 @@ TEST(InteriorPoint, SemidefiniteMatricesAreSolvedWhereTheBoundsHold) {
   EXPECT_TRUE(by_interior_points(floating(-0.25, infinity), x).converged()) << "loads that balance";
   EXPECT_NEAR(x[1] - x[0], 0.25, 1e-7);
   EXPECT_FALSE(by_interior_points(floating(0.5, infinity), x).converged()) << "falls for ever";
+  DiscreteProblem<1> nothing = floating(0, 1);
+  nothing.b = {0, 0};
+  EXPECT_TRUE(by_interior_points(nothing, x).converged());
+  EXPECT_THAT(x, testing::ElementsAre(0, 0));
 }
 
 TEST(InteriorPoint, StopsAtTheIterationLimit) {
