@@ -79,7 +79,7 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
     const double pDp = diagonal_energy<B>(A, p);
-    if (!(pAp > little_energy * pDp)) {
+    if (limits.rounding > 0 && !(pAp > little_energy * pDp)) {
       const double noise = (limits.rounding + rounding_of_work<B>(A, mask, d.data(), 0, A.size())) * largest(p);
       if (!(rz > (pAp > no_energy * pDp ? typical : beyond_doubt) * noise)) return result;
     }

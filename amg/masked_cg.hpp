@@ -19,7 +19,7 @@ inline constexpr double no_energy = 1e-13;
 struct CgLimits {
   double reduction = 1e-8;  ///< of the preconditioned residual, at which to stop
   int iterations = 1000;
-  double rounding = 0;                ///< a bound for what it may do to work along directions with entries up to one
+  double rounding = 0;  ///< a bound for what it may do to work along directions with entries up to one; 0: all counts
   double without_energy = no_energy;  ///< part of p'Dp up to which a direction of descent counts as one without minimum
 };
 
