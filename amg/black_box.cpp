@@ -84,7 +84,12 @@ class BlackBox::BlockSolver final : public Solver {
     refuse_indefinite<B>(problem_.A, levels_);
   }
 
-  void set_tolerance(double tolerance) override { options_.tolerance = tolerance; }
+  void set_tolerance(double tolerance) override {
+    SolverOptions changed = options_;
+    changed.tolerance = tolerance;
+    check_options(changed);
+    options_ = std::move(changed);
+  }
 
   Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                std::span<const double> start, const Monitor& monitor) override {

@@ -50,7 +50,8 @@ class BlackBox {
   BlackBox(BlackBox&&) noexcept;
   BlackBox& operator=(BlackBox&&) noexcept;
 
-  /// For the solves from now on; in (0, 1).
+  /// For the solves from now on.
+  /// @throws Error(Exit::input) outside (0, 1); nothing has changed then
   void set_tolerance(double tolerance);
 
   /// Bounds may be infinite, and lower and upper ones equal. Whether a solution was found, or what prevented it, is in

@@ -257,6 +257,9 @@ TEST(BlackBoxOptions, AreThoseOfTheSolver) {
   const std::vector<double> b(9, 1);
   expect_error([&] { BlackBox(A, 1, {.tolerance = 0}).solve(b); }, "solver.tolerance");
   expect_error([&] { BlackBox(A, 1, {.method = "magic"}).solve(b); }, "solver.method");
+  BlackBox solver(A, 1);
+  expect_error([&] { solver.set_tolerance(2); }, "solver.tolerance");
+  EXPECT_TRUE(solver.solve(b).summary.converged()) << "with the tolerance it had";
   EXPECT_EQ(BlackBox(laplacian(40), 1, {.max_iterations = 1}).solve(std::vector<double>(39 * 39, 1)).summary.outcome,
             Outcome::iteration_limit);
 }
