@@ -80,7 +80,9 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     const double pAp = dot(p, Ap);
     const double pDp = diagonal_energy<B>(A, p);
     if (limits.rounding > 0 && !(pAp > little_energy * pDp)) {
-      const double noise = (limits.rounding + rounding_of_work<B>(A, mask, d.data(), 0, A.size())) * largest(p);
+      const double of_step =
+          rounding_of_work<B>(mask, 0, A.size(), [&](Index q, int k) { return terms_of_product(A, d.data(), q, k); });
+      const double noise = (limits.rounding + of_step) * largest(p);
       if (!(rz > (pAp > no_energy * pDp ? typical : beyond_doubt) * noise)) return result;
     }
     if (!(pAp > limits.without_energy * pDp)) {

@@ -20,12 +20,6 @@ constexpr int steps_per_shift = 10;
 constexpr double largest_shift = 1e-6;
 constexpr std::size_t resting_steps = 10;  // in which the residual has to fall by half
 
-template <int B>
-double diagonal(const BlockMatrix<B>& A, Offset i) {
-  const auto k = static_cast<int>(i % B);
-  return A.diagonal(static_cast<Index>(i / B))[k * B + k];
-}
-
 }  // namespace
 
 template <int B>
@@ -55,7 +49,7 @@ template <int B>
 std::vector<signed char> ActiveSetIteration<B>::predicted() const {
   std::vector<signed char> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
-    const double target = y_[i] + r_y_[i] / diagonal(this->problem_.A, i);
+    const double target = y_[i] + r_y_[i] / system_.diagonal(i);
     active[at] = lower == upper || target < lower ? -1 : target > upper ? 1 : 0;
   });
   return active;
@@ -145,11 +139,10 @@ bool ActiveSetIteration<B>::minimise(bool changed) {
 
 template <int B>
 bool ActiveSetIteration<B>::factorise() {
-  const BlockMatrix<B>& A = this->problem_.A;
   std::vector<char> held(y_.size(), 0);
   std::vector<double> added(y_.size());
   visit_bounds([&](std::size_t at, Offset i, double, double) { held[i] = active_[at] != 0; });
-  for (std::size_t i = 0; i < added.size(); ++i) added[i] = shift_ * diagonal(A, static_cast<Offset>(i));
+  for (std::size_t i = 0; i < added.size(); ++i) added[i] = shift_ * system_.diagonal(static_cast<Offset>(i));
   return system_.factorise(held, added);
 }
 

@@ -24,8 +24,9 @@ std::string describe(const SolverOptions& options, bool aggregates, int block, O
                         resting_percent, patience_with_bounds);
   if (const auto solvers = solvers_for_active_sets(block, unknowns); !solvers.empty())
     text +=
-        fmt::format("; pdas with {} after {} cycles or more, where they would be over {}; then interior points",
-                    fmt::join(solvers, ", else "), patience_with_cycles, std::min(most_cycles, options.max_iterations));
+        fmt::format("; pdas with {} after {} cycles or more, where they would be over {}{}",
+                    fmt::join(solvers, ", else "), patience_with_cycles, std::min(most_cycles, options.max_iterations),
+                    unknowns <= most_unknowns_for_interior_points ? "; then interior points" : "");
   return text;
 }
 

@@ -29,12 +29,6 @@ InteriorPointIteration<B>::InteriorPointIteration(const DiscreteProblem<B>& prob
       added_(x.size()) {}
 
 template <int B>
-double InteriorPointIteration<B>::diagonal(Offset i) const {
-  const auto k = static_cast<int>(i % B);
-  return level_.A->diagonal(static_cast<Index>(i / B))[k * B + k];
-}
-
-template <int B>
 void InteriorPointIteration<B>::collect_sides() {
   const Constraints<B>& c = level_.constraints;
   for (Index slot = 0; slot < c.size(); ++slot)
@@ -58,7 +52,7 @@ void InteriorPointIteration<B>::start() {
   force_.resize(y_.size());
   double size = 0;
   for (std::size_t i = 0; i < y_.size(); ++i)
-    size = std::max({size, std::abs(y_[i]), std::abs(this->r_before_[i]) / diagonal(static_cast<Offset>(i))});
+    size = std::max({size, std::abs(y_[i]), std::abs(this->r_before_[i]) / system_.diagonal(static_cast<Offset>(i))});
   if (size == 0) size = 1;  // the start is the solution
   const Constraints<B>& c = level_.constraints;
   for (Side& s : sides_) {
@@ -69,7 +63,7 @@ void InteriorPointIteration<B>::start() {
   residual<B>(*level_.A, y_.data(), this->problem_.b.data(), force_.data());
   for (Side& s : sides_) {
     s.distance = s.sign * (y_[s.i] - s.value);
-    s.multiplier = std::max(-s.sign * force_[s.i], 0.0) + diagonal(s.i) * inside * size;
+    s.multiplier = std::max(-s.sign * force_[s.i], 0.0) + system_.diagonal(s.i) * inside * size;
   }
 }
 
@@ -126,7 +120,7 @@ bool InteriorPointIteration<B>::predict_and_correct() {
 
 template <int B>
 bool InteriorPointIteration<B>::factorise() {
-  for (std::size_t i = 0; i < added_.size(); ++i) added_[i] = shift * diagonal(static_cast<Offset>(i));
+  for (std::size_t i = 0; i < added_.size(); ++i) added_[i] = shift * system_.diagonal(static_cast<Offset>(i));
   for (const Side& s : sides_) added_[s.i] += s.multiplier / s.distance;
   return system_.factorise(held_, added_);
 }
@@ -181,7 +175,7 @@ template <int B>
 void InteriorPointIteration<B>::put_onto_bounds() {
   this->x_ = y_;
   for (const Side& s : sides_)
-    if (s.distance * diagonal(s.i) < s.multiplier) this->x_[s.i] = s.value;
+    if (s.distance * system_.diagonal(s.i) < s.multiplier) this->x_[s.i] = s.value;
 }
 
 // Where the forces balance, J(y) - J(x*) <= the sum of distance * multiplier.

@@ -44,7 +44,6 @@ class InteriorPointIteration final : public Iteration<B> {
   double error_bound() const;
   bool progresses(double error);
   LevelReport report() const;
-  double diagonal(Offset i) const;
 
   Level<B> level_;
   SparseSystem<B> system_;

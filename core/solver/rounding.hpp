@@ -6,28 +6,31 @@
 
 namespace signorini {
 
-/// What rounding may do to the work d'Ax along directions d with entries up to one at the vectors first <= p < last. A
-/// row of A is taken for some multiple of its diagonal.
+/// What rounding may do to the work along directions with entries up to one of the forces at the vectors first <= p <
+/// last.
 /// @param off per vector: components that do no work
-template <int B>
-double rounding_of_work(const BlockMatrix<B>& A, const std::vector<Flags>& off, const double* x, Index first,
-                        Index last) {
-  double forces = 0;
+/// @param terms terms(p, k): the sizes of what the force is a sum of, together
+template <int B, class Terms>
+double rounding_of_work(const std::vector<Flags>& off, Index first, Index last, const Terms& terms) {
+  double sum = 0;
   for (Index p = first; p < last; ++p)
     for (int k = 0; k < B; ++k)
-      if (!(off[p] >> k & 1u)) forces += A.diagonal(p)[k * B + k] * std::abs(x[Offset{p} * B + k]);
-  return 128 * std::numeric_limits<double>::epsilon() * forces;
+      if (!(off[p] >> k & 1u)) sum += terms(p, k);
+  return 16 * std::numeric_limits<double>::epsilon() * sum;
 }
 
-/// The same for the residual b - A x of a level.
+/// The terms of Ax: a row of A is taken for some multiple of its diagonal.
+template <int B>
+double terms_of_product(const BlockMatrix<B>& A, const double* x, Index p, int k) {
+  return 8 * A.diagonal(p)[k * B + k] * std::abs(x[Offset{p} * B + k]);
+}
+
+/// For the residual b - A x of a level.
 template <int B>
 double rounding_of_work(const Level<B>& level, Index first, Index last) {
-  double loads = 0;
-  for (Index p = first; p < last; ++p)
-    for (int k = 0; k < B; ++k)
-      if (!(level.off[p] >> k & 1u)) loads += std::abs(level.b[Offset{p} * B + k]);
-  return 16 * std::numeric_limits<double>::epsilon() * loads +
-         rounding_of_work(*level.A, level.off, level.x, first, last);
+  return rounding_of_work<B>(level.off, first, last, [&](Index p, int k) {
+    return std::abs(level.b[Offset{p} * B + k]) + terms_of_product(*level.A, level.x, p, k);
+  });
 }
 
 /// On the whole level, and what comes down with the residual from the finer ones. Interpolation has weights that sum to

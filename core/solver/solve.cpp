@@ -127,7 +127,7 @@ Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>&
                                                        "active sets", automatic::shift_if_singular))
       return *found;
   own.max_iterations = cycles.iterations + automatic::most_interior_points;
-  if (problem.A.size() * B <= automatic::most_unknowns_for_interior_points)
+  if (cycles.level_unknowns.back() <= automatic::most_unknowns_for_interior_points)
     if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
                                                            "interior points"))
       return *found;

@@ -33,12 +33,15 @@ void SparseSystem<B>::visit_lower_triangle(const Visit& visit) const {
 }
 
 template <int B>
+double SparseSystem<B>::diagonal(Offset i) const {
+  const auto k = static_cast<int>(i % B);
+  return A_.diagonal(static_cast<Index>(i / B))[k * B + k];
+}
+
+template <int B>
 bool SparseSystem<B>::factorise(const std::vector<char>& held, const std::vector<double>& added) {
-  for (Index p = 0; p < A_.size(); ++p)
-    for (int k = 0; k < B; ++k) {
-      const Offset i = Offset{p} * B + k;
-      scale_[i] = 1 / std::sqrt(A_.diagonal(p)[k * B + k] + added[i]);
-    }
+  for (std::size_t i = 0; i < scale_.size(); ++i)
+    scale_[i] = 1 / std::sqrt(diagonal(static_cast<Offset>(i)) + added[i]);
   auto value = value_.begin();
   visit_lower_triangle([&](Offset column, Offset row, double entry) {
     const bool coupled = !held[row] && !held[column];

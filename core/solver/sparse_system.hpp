@@ -15,6 +15,9 @@ class SparseSystem {
   /// Keeps a reference to A.
   SparseSystem(const BlockMatrix<B>& A, std::unique_ptr<LinearSolver> linear);
 
+  /// Of A.
+  double diagonal(Offset i) const;
+
   /// @param held per unknown: 0 or decoupled from all others
   /// @param added per unknown: >= 0, to the diagonal
   /// @return whether the matrix is positive definite, as far as that is seen here
