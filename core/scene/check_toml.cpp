@@ -87,6 +87,14 @@ class Walk {
       fail(fmt::format("a {} in the middle of a value", c));
   }
 
+  // The TOML library goes on over the white space after a backslash at the end of a line, and is undefined on most
+  // characters that are not ASCII where it looks for its end.
+  void expect_ascii_after_line_end() const {
+    const std::size_t next = text_.find_first_not_of(" \t\n\v\f\r", at_ + 1);
+    if (next != std::string_view::npos && static_cast<unsigned char>(text_[next]) >= 127)
+      fail("a character that is not plain ASCII after a '\\'; expected an escape, or the line's end and plain text");
+  }
+
   void string(char quote) {
     expect_token_start(quote);
     const std::string triple(3, quote);
@@ -98,7 +106,9 @@ class Walk {
         if (!multiline) return;  // no TOML
         ++line_;
       }
-      at_ += quote == '"' && text_[at_] == '\\' ? 2 : 1;
+      const bool escape = quote == '"' && text_[at_] == '\\';
+      if (escape && multiline) expect_ascii_after_line_end();
+      at_ += escape ? 2 : 1;
     }
     at_ = std::min(at_ + close.size(), text_.size());
     // A multi-line string may end in up to five quotes.

@@ -28,6 +28,8 @@ const std::vector<Broken> broken = {
     {ball, "title = ", "title = \"\"\ntitle = ", {"scene.toml:2:", "title"}},
     {ball, "[[fix]]", "[[fix]", {"scene.toml:14:"}},
     {ball, "= 2\n", "= \xd1\xa2\n", {"scene.toml:35:", "ASCII"}},
+    {ball, "title = ", "title = \"\"\"a \\\xef\xbb\xbb\"\"\" #", {"scene.toml:1:", "ASCII"}},
+    {ball, "title = ", "title = \"\"\"\na\\ \n \xc3\xa9\"\"\" #", {"scene.toml:2:", "ASCII"}},
     {ball, "= [0, 0, 0]\nradius", "= [0, }\nradius", {"scene.toml:6:", "expected ']', found '}'"}},
     {ball, "= 2\n", "= 2]\n", {"scene.toml:35:", "closes nothing"}},
     {ball, "= 2\n", "= 2[\"\xd2\x96\"]\n", {"scene.toml:35:", "in the middle of a value"}},
