@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -33,6 +34,8 @@ class RowBuilder {
   explicit RowBuilder(Index vectors) : position_(static_cast<std::size_t>(vectors), -1) {}
 
   void append(const SparseRows& matrix, Index p, BlockMatrix<B>& A) {
+    if constexpr (B == 1)
+      if (ascends(matrix, p)) return append_ascending(matrix, p, A);
     place_of(p);
     for (Index i = 0; i < B; ++i)
       for (Offset k = matrix.row[p * B + i]; k < matrix.row[p * B + i + 1]; ++k) {
@@ -53,6 +56,27 @@ class RowBuilder {
   }
 
  private:
+  static bool ascends(const SparseRows& matrix, Index i) {
+    const auto column = matrix.column.begin();
+    return std::ranges::is_sorted(column + matrix.row[i], column + matrix.row[i + 1], std::less_equal{});
+  }
+
+  // A row without duplicates: nothing is to be added up or sorted.
+  static void append_ascending(const SparseRows& matrix, Index p, BlockMatrix<1>& A) {
+    const auto diagonal = static_cast<std::size_t>(A.row.back());
+    A.column.push_back(p);
+    A.value.push_back(0);
+    for (Offset k = matrix.row[p]; k < matrix.row[p + 1]; ++k) {
+      if (matrix.column[k] == p) {
+        A.value[diagonal] = matrix.value[k];
+      } else if (matrix.value[k] != 0) {
+        A.column.push_back(matrix.column[k]);
+        A.value.push_back(matrix.value[k]);
+      }
+    }
+    A.row.push_back(static_cast<Offset>(A.column.size()));
+  }
+
   std::size_t place_of(Index q) {
     if (position_[q] < 0) {
       position_[q] = static_cast<Offset>(values_.size());

@@ -72,6 +72,7 @@ class Row {
 StrengthGraph to_coarse(const StrengthGraph& graph, const CoarseVectors& coarse) {
   StrengthGraph out;
   out.row.reserve(graph.row.size());
+  out.edge.reserve(graph.edge.size());
   for (Index p = 0; p < graph.size(); ++p) {
     for (const Coupling& c : graph.of(p))
       if (const Index q = coarse.number[c.to]; q >= 0) out.edge.push_back({q, c.strength});
@@ -93,11 +94,14 @@ class Weights {
         row_(coarse.size()) {}
 
   void append_row(Index p, Prolongation& P) {
-    if (coarse_.number[p] >= 0)
-      row_.add(coarse_.number[p], 1);
-    else
+    if (coarse_.number[p] >= 0) {
+      P.column.push_back(coarse_.number[p]);
+      P.weight.push_back(1);
+      P.row.push_back(static_cast<Offset>(P.column.size()));
+    } else {
       interpolate(p);
-    row_.append_to(P);
+      row_.append_to(P);
+    }
   }
 
  private:
@@ -133,8 +137,17 @@ class Weights {
   Row row_;
 };
 
-Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coarse) {
+/// For so many weights without growing.
+Prolongation rows_for(Index rows, std::size_t weights) {
   Prolongation P;
+  P.row.reserve(static_cast<std::size_t>(rows) + 1);
+  P.column.reserve(weights);
+  P.weight.reserve(weights);
+  return P;
+}
+
+Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coarse) {
+  Prolongation P = rows_for(graph.size(), graph.edge.size());
   P.coarse = coarse.size();
   P.twin = coarse.vector;
   Weights weights(graph, coarse);
@@ -144,7 +157,7 @@ Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coar
 
 /// Interpolation by `first` from the vectors that `second` interpolates to.
 Prolongation product(const Prolongation& first, const Prolongation& second) {
-  Prolongation P;
+  Prolongation P = rows_for(first.fine(), first.column.size());
   P.coarse = second.coarse;
   for (const Index q : second.twin) P.twin.push_back(first.twin[q]);
   Row row(P.coarse);
@@ -161,11 +174,12 @@ Prolongation product(const Prolongation& first, const Prolongation& second) {
 
 template <int B>
 Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
-  const StrengthGraph graph = strong_couplings(A, off);
+  StrengthGraph graph = strong_couplings(A, off);
   const CoarseVectors coarse(split(graph, Part::fine));  // the smoother solves for what is coupled to nothing
   Prolongation P = interpolation(graph, coarse);
   if (coarse.size() <= many * graph.size()) return P;
   const StrengthGraph further = couplings_among(coarse, graph);
+  graph = {};  // what follows takes its memory
   return product(P, interpolation(further, CoarseVectors(split(further, Part::coarse))));
 }
 

@@ -52,12 +52,13 @@ class Descent {
     P.local = settings_.local;
     if (settings_.only_twins) reach_from_twins(level_.constraints.slot, P);
     Level<B> coarse;
-    transfer.prepare(level_, P, true, coarse);
-    coarse.clear_phases();
-    if (known)
+    if (known) {
+      transfer.prepare(level_, P, true, coarse);
+      coarse.clear_phases();
       fill_in(*known, coarse.own_matrix);
-    else
-      transfer.assemble(level_, coarse);
+    } else {
+      transfer.prepare_assembled(level_, P, true, coarse);
+    }
     leave();
     prolongations_.push_back(std::move(P));
     level_ = std::move(coarse);

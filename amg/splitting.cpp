@@ -1,6 +1,8 @@
 #include "amg/splitting.hpp"
 
 #include <algorithm>
+#include <ranges>
+#include <span>
 
 namespace signorini {
 
@@ -8,29 +10,48 @@ namespace {
 
 constexpr double by_several_paths = 0.6;  // part of the largest coupling of a row
 
-/// Per vector those that are coupled to it.
-class Served {
- public:
-  explicit Served(const StrengthGraph& graph) : row_(graph.row.size(), 0), vector_(graph.edge.size()) {
-    for (const Coupling& c : graph.edge) ++row_[static_cast<std::size_t>(c.to) + 1];
-    for (std::size_t p = 1; p < row_.size(); ++p) row_[p] += row_[p - 1];
-    std::vector<Offset> next(row_.begin(), row_.end() - 1);
-    for (Index p = 0; p < graph.size(); ++p)
-      for (const Coupling& c : graph.of(p)) vector_[next[c.to]++] = p;
-  }
+/// Lists of vectors, one per vector.
+struct Lists {
+  std::vector<Offset> row;
+  std::vector<Index> vector;
 
-  std::span<const Index> by(Index p) const { return {vector_.data() + row_[p], vector_.data() + row_[p + 1]}; }
-
-  Offset most() const {
+  std::span<const Index> of(Index p) const { return {vector.data() + row[p], vector.data() + row[p + 1]}; }
+  std::size_t longest() const {
     Offset out = 0;
-    for (std::size_t p = 1; p < row_.size(); ++p) out = std::max(out, row_[p] - row_[p - 1]);
-    return out;
+    for (std::size_t p = 1; p < row.size(); ++p) out = std::max(out, row[p] - row[p - 1]);
+    return static_cast<std::size_t>(out);
   }
-
- private:
-  std::vector<Offset> row_;
-  std::vector<Index> vector_;
 };
+
+/// Whether the transpose is the same. False also where the lists do not ascend.
+bool is_symmetric(const Lists& lists) {
+  std::vector<Offset> next(lists.row.begin(), lists.row.end() - 1);
+  for (Index p = 0; p < static_cast<Index>(next.size()); ++p)
+    for (const Index q : lists.of(p)) {
+      if (next[q] == lists.row[q + 1] || lists.vector[next[q]] != p) return false;
+      ++next[q];
+    }
+  return true;
+}
+
+/// Per vector those that it is coupled to.
+Lists needed(const StrengthGraph& graph) {
+  Lists out{graph.row, {}};
+  out.vector.reserve(graph.edge.size());
+  for (const Coupling& c : graph.edge) out.vector.push_back(c.to);
+  return out;
+}
+
+/// Per vector those that are coupled to it, ascending.
+Lists served(const StrengthGraph& graph) {
+  Lists out{std::vector<Offset>(graph.row.size(), 0), std::vector<Index>(graph.edge.size())};
+  for (const Coupling& c : graph.edge) ++out.row[static_cast<std::size_t>(c.to) + 1];
+  for (std::size_t p = 1; p < out.row.size(); ++p) out.row[p] += out.row[p - 1];
+  std::vector<Offset> next(out.row.begin(), out.row.end() - 1);
+  for (Index p = 0; p < graph.size(); ++p)
+    for (const Coupling& c : graph.of(p)) out.vector[next[c.to]++] = p;
+  return out;
+}
 
 /// Vectors in stacks by their worth, which only rises: of equals the last one put in leads. What has been raised or
 /// removed since is passed over.
@@ -67,15 +88,17 @@ class Stacks {
 
 }  // namespace
 
-std::vector<Part> split(const StrengthGraph& depends, Part alone) {
-  const Served served(depends);
-  const Index n = depends.size();
+std::vector<Part> split(const StrengthGraph& graph, Part alone) {
+  // Where both are the same, one that stays in the cache.
+  const Lists needs = needed(graph), transposed = is_symmetric(needs) ? Lists{} : served(graph);
+  const Lists& serves = transposed.row.empty() ? needs : transposed;
+  const Index n = graph.size();
   std::vector<Part> part(static_cast<std::size_t>(n), Part::fine);
   // No vector can be worth more than by all that it serves turning fine.
-  Stacks open(part.size(), 2 * static_cast<std::size_t>(served.most()));
+  Stacks open(part.size(), 2 * serves.longest());
   for (Index p = n - 1; p >= 0; --p) {
-    const auto worth = static_cast<Index>(served.by(p).size());
-    if (depends.of(p).empty() && worth == 0)
+    const auto worth = static_cast<Index>(serves.of(p).size());
+    if (needs.of(p).empty() && worth == 0)
       part[p] = alone;
     else
       open.insert(p, worth);
@@ -85,15 +108,16 @@ std::vector<Part> split(const StrengthGraph& depends, Part alone) {
     part[p] = Part::coarse;
     open.remove(p);
     turned.clear();
-    for (const Index q : served.by(p)) {
+    for (const Index q : serves.of(p)) {
       if (!open.holds(q)) continue;
       open.remove(q);
       turned.push_back(q);
+      __builtin_prefetch(needs.of(q).data());
     }
     for (const Index q : turned)
       // The first of equals leads: on structured grids that keeps to every second line.
-      for (std::size_t k = depends.of(q).size(); k-- > 0;)
-        if (const Index other = depends.of(q)[k].to; open.holds(other)) open.raise(other);
+      for (const Index other : std::views::reverse(needs.of(q)))
+        if (open.holds(other)) open.raise(other);
   }
   return part;
 }
@@ -108,6 +132,7 @@ CoarseVectors::CoarseVectors(const std::vector<Part>& part) : number(part.size()
 
 StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph) {
   StrengthGraph out;
+  out.edge.reserve(graph.edge.size());
   std::vector<double> total(static_cast<std::size_t>(graph.size()), 0.0);
   for (Index p = 0; p < graph.size(); ++p)
     for (const Coupling& c : graph.of(p)) total[p] += c.strength;
@@ -128,9 +153,10 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     for (const Coupling& c : graph.of(p)) {
       const double onward = c.strength * graph.balanced[c.to];
       add(c.to, c.strength);
+      const double part = onward / total[c.to];
       if (coarse.number[c.to] < 0) ended += c.strength - onward;
       for (const Coupling& further : graph.of(c.to))
-        if (further.to != p) add(further.to, onward * further.strength / total[c.to]);
+        if (further.to != p) add(further.to, part * further.strength);
     }
     double largest = 0;
     for (const Index q : found) largest = std::max(largest, sum[q]);

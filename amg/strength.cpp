@@ -38,14 +38,6 @@ double part_that_is_strong(double largest, double largest_positive) {
   return B == 1 && largest_positive > positive * largest ? strong_beside_positive : strong<B>;
 }
 
-template <int B>
-double balanced(const BlockMatrix<B>& A, Index p) {
-  if constexpr (B > 1) return 1;
-  double sum = 0;
-  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) sum += *A.at(k);
-  return 1 - std::clamp(sum / *A.diagonal(p), 0.0, 1.0);
-}
-
 }  // namespace
 
 template <int B>
@@ -54,21 +46,24 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
   StrengthGraph graph;
   graph.row.reserve(static_cast<std::size_t>(A.size()) + 1);
   graph.edge.reserve(A.column.size());
-  for (Index p = 0; p < A.size(); ++p) graph.balanced.push_back(balanced(A, p));
+  graph.balanced.assign(static_cast<std::size_t>(A.size()), 1.0);
   std::vector<double> found;
   for (Index p = 0; p < A.size(); ++p) {
-    found.clear();
-    double largest = 0, largest_positive = 0;
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+    const Offset begin = A.row[p], end = A.row[p + 1];
+    found.resize(static_cast<std::size_t>(end - begin));
+    double largest = 0, largest_positive = 0, sum = *A.at(begin);
+    for (Offset k = begin + 1; k < end; ++k) {
       const Index q = A.column[k];
-      if (q != p) largest_positive = std::max(largest_positive, *A.at(k));
-      found.push_back(q == p || off[p] == all || off[q] == all ? 0 : strength<B>(A.at(k)));
-      largest = std::max(largest, found.back());
+      sum += *A.at(k);
+      largest_positive = std::max(largest_positive, *A.at(k));
+      found[k - begin] = off[p] == all || off[q] == all ? 0 : strength<B>(A.at(k));
+      largest = std::max(largest, found[k - begin]);
     }
+    if (B == 1) graph.balanced[p] = 1 - std::clamp(sum / *A.at(begin), 0.0, 1.0);
     const double enough = part_that_is_strong<B>(largest, largest_positive) * largest;
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (found[k] > 0 && found[k] >= enough)
-        graph.edge.push_back({A.column[A.row[p] + static_cast<Offset>(k)], static_cast<float>(found[k] / largest)});
+    for (Offset k = begin + 1; k < end; ++k)
+      if (const double s = found[k - begin]; s > 0 && s >= enough)
+        graph.edge.push_back({A.column[k], static_cast<float>(s / largest)});
     graph.row.push_back(static_cast<Offset>(graph.edge.size()));
   }
   return graph;

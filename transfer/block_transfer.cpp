@@ -10,10 +10,27 @@ namespace signorini {
 
 template <int B>
 void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
+  begin(fine, prolongation, rotate, coarse);
+  if (!coarse.galerkin || !coarse.galerkin->complete) build_pattern(*fine.A, coarse.own_matrix);
+  if (coarse.galerkin) adopt(*coarse.galerkin, coarse);
+  coarse.chunks = divide(coarse.own_matrix);
+}
+
+template <int B>
+void BlockTransfer<B>::prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
+                                         Level<B>& coarse) {
+  begin(fine, prolongation, rotate, coarse);
+  coarse.clear_phases();
+  create(fine, coarse);
+  coarse.chunks = divide(coarse.own_matrix);
+}
+
+template <int B>
+void BlockTransfer<B>::begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
   assert(prolongation.fine() == fine.vectors);
   P_ = &prolongation;
   const auto n = static_cast<std::size_t>(prolongation.coarse);
-  position_.assign(n, 0);
+  position_.assign(n, -1);
   marked_.assign(n, 0);
   coarse.vectors = prolongation.coarse;
   coarse.inverse.resize(n * B * B);
@@ -25,9 +42,6 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
   inherit_twins(fine, rotate, coarse);
   give_slots(fine, coarse);
   sum_terms(fine, coarse);
-  if (!coarse.galerkin || !coarse.galerkin->complete) build_pattern(*fine.A, coarse.own_matrix);
-  if (coarse.galerkin) adopt(*coarse.galerkin, coarse);
-  coarse.chunks = divide(coarse.own_matrix);
 }
 
 // A frame, and what is prescribed in it, passes from a vector to its coarse twin. Without the frame nothing can be

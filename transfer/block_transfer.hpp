@@ -9,6 +9,8 @@ template <int B>
 class BlockTransfer : public Transfer<B> {
  public:
   void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) override;
+  void prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
+                         Level<B>& coarse) override;
   Index assemble(Level<B>& fine, Level<B>& coarse) override;
   void begin_restriction(Level<B>& coarse) const override;
   void restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
@@ -23,26 +25,33 @@ class BlockTransfer : public Transfer<B> {
   const Frames<B>& frames(const Level<B>& fine) const { return P_->local ? no_frames_ : fine.frames; }
 
  private:
+  void begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse);
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
   void sum_terms(const Level<B>& fine, Level<B>& coarse) const;
   void adopt(const GalerkinMatrix<B>& known, Level<B>& coarse);
   void fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void transpose_weights();
+  void begin_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
+  void append_pattern(Index q, BlockMatrix<B>& coarse);
+  void create(const Level<B>& fine, Level<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);
   void mark_parents(Index p, std::vector<Index>& rows);
+  void clear_reached();
+  Index reach(Index r);
+  void reach_neighbours(const BlockMatrix<B>& A, Index q);
   template <class Weight>
-  void sum_children(const Level<B>& fine, Index q, const Weight& weight);
+  bool sum_children(const Level<B>& fine, Index q, const Weight& weight);
   template <class Weight>
-  void assemble_row(const Level<B>& fine, Level<B>& coarse, Index q, const Weight& weight);
+  void sum_parents(Level<B>& coarse, Index q, std::size_t summed, const Weight& weight);
   template <class Weight>
   void add_alone(const Level<B>& fine, Index p, const double* M, const Weight& W);
   void finish_row(Level<B>& coarse, Index q);
 
   struct Child {
     Index vector;
-    Offset entry;  // of the weights
+    Index entry;  // of its weights
   };
   const Prolongation* P_ = nullptr;
   const Frames<B> no_frames_{};

@@ -2,6 +2,8 @@
 // rows near a phase change gives bitwise what a full assembly gives (Krause, 4.5).
 #include <algorithm>
 #include <cassert>
+#include <numeric>
+#include <span>
 
 #include "core/solver/weights.hpp"
 #include "transfer/block_transfer.hpp"
@@ -74,45 +76,66 @@ void BlockTransfer<B>::transpose_weights() {
   child_.resize(P_->column.size());
   std::vector<Offset> next(child_row_.begin(), child_row_.end() - 1);
   for (Index p = 0; p < P_->fine(); ++p)
-    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k) child_[next[P_->column[k]]++] = {p, k};
+    for (Offset k = P_->row[p]; k < P_->row[p + 1]; ++k)
+      child_[next[P_->column[k]]++] = {p, static_cast<Index>(k - P_->row[p])};
+}
+
+template <int B>
+void BlockTransfer<B>::begin_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
+  transpose_weights();
+  coarse.row.assign(1, 0);
+  coarse.row.reserve(static_cast<std::size_t>(P_->coarse) + 1);
+  coarse.column.clear();
+  const std::size_t blocks = P_->column.size() + static_cast<std::size_t>(P_->coarse);  // a guess
+  coarse.column.reserve(blocks);
+  coarse.value.clear();
+  coarse.value.reserve(blocks * B * B);
+  place_.assign(static_cast<std::size_t>(A.size()), -1);
 }
 
 // The coarse vectors that a row reaches through the fine ones that its children are coupled to.
 template <int B>
 void BlockTransfer<B>::build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
-  transpose_weights();
-  const Index n = P_->coarse;
-  coarse.row.assign(1, 0);
-  coarse.row.reserve(static_cast<std::size_t>(n) + 1);
-  coarse.column.clear();
-  coarse.column.reserve(P_->column.size() + static_cast<std::size_t>(n));
-  std::vector<Index> seen(static_cast<std::size_t>(n), -1), seen_fine(static_cast<std::size_t>(A.size()), -1);
-  std::vector<Index> row;
-  for (Index q = 0; q < n; ++q) {
-    row.clear();
-    seen[q] = q;
-    const auto add_parents = [&](Index r) {
-      if (seen_fine[r] == q) return;
-      seen_fine[r] = q;
-      for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m)
-        if (const Index s = P_->column[m]; seen[s] != q) {
-          seen[s] = q;
-          row.push_back(s);
-        }
-    };
-    for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
-      const Index p = child_[c].vector;
-      if (P_->midpoints)
-        add_parents(p);
-      else
-        for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) add_parents(A.column[k]);
-    }
-    std::sort(row.begin(), row.end());
-    coarse.column.push_back(q);
-    coarse.column.insert(coarse.column.end(), row.begin(), row.end());
-    coarse.row.push_back(static_cast<Offset>(coarse.column.size()));
+  begin_pattern(A, coarse);
+  for (Index q = 0; q < P_->coarse; ++q) {
+    clear_reached();
+    reach_neighbours(A, q);
+    append_pattern(q, coarse);
   }
-  coarse.value.assign(coarse.column.size() * B * B, 0.0);
+}
+
+// Row q from the fine vectors reached, zero.
+template <int B>
+void BlockTransfer<B>::append_pattern(Index q, BlockMatrix<B>& coarse) {
+  const auto begin = static_cast<Offset>(coarse.column.size());  // positions of earlier rows lie before
+  const auto add = [&](Index s) {
+    if (position_[s] >= begin) return;
+    position_[s] = begin;
+    coarse.column.push_back(s);
+  };
+  add(q);
+  for (const Index r : reached_)
+    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) add(P_->column[m]);
+  std::sort(coarse.column.begin() + begin + 1, coarse.column.end());
+  coarse.row.push_back(static_cast<Offset>(coarse.column.size()));
+  coarse.value.resize(coarse.column.size() * B * B, 0.0);
+}
+
+template <int B>
+void BlockTransfer<B>::create(const Level<B>& fine, Level<B>& coarse) {
+  prescribed_ = coarse.off;
+  begin_pattern(*fine.A, coarse.own_matrix);
+  weights::with<B>(*P_, [&](const auto& weight) {
+    for (Index q = 0; q < P_->coarse; ++q) {
+      const bool complete = sum_children(fine, q, weight);
+      const std::size_t summed = reached_.size();
+      if (!complete) reach_neighbours(*fine.A, q);  // what is truncated now may come back
+      append_pattern(q, coarse.own_matrix);
+      sum_parents(coarse, q, summed, weight);
+      finish_row(coarse, q);
+    }
+  });
+  assembled_ = true;
 }
 
 template <int B>
@@ -121,7 +144,7 @@ Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
   if (!assembled_) {
     prescribed_ = coarse.off;
     rows.resize(static_cast<std::size_t>(coarse.vectors));
-    for (Index q = 0; q < coarse.vectors; ++q) rows[q] = q;
+    std::iota(rows.begin(), rows.end(), Index{0});
   } else {
     rows = affected_rows(fine);
   }
@@ -129,9 +152,12 @@ Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
   fine.renewed.clear();
   if (!rows.empty() && child_row_.empty()) transpose_weights();
   place_.resize(static_cast<std::size_t>(fine.vectors), -1);
+  BlockMatrix<B>& C = coarse.own_matrix;
   weights::with<B>(*P_, [&](const auto& weight) {
     for (const Index q : rows) {
-      assemble_row(fine, coarse, q, weight);
+      sum_children(fine, q, weight);
+      std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
+      sum_parents(coarse, q, reached_.size(), weight);
       finish_row(coarse, q);
     }
   });
@@ -175,28 +201,73 @@ void BlockTransfer<B>::add_alone(const Level<B>& fine, Index p, const double* M,
   W.add_from_right(half, alone_);
 }
 
-// Row q of P'A in global coordinates, for the fine vectors reached.
 template <int B>
-template <class Weight>
-void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight& weight) {
-  const BlockMatrix<B>& A = *fine.A;
-  constexpr Flags all = (1u << B) - 1;
+void BlockTransfer<B>::clear_reached() {
   for (const Index r : reached_) place_[r] = -1;
   reached_.clear();
-  sums_.clear();
-  std::fill_n(alone_, B * B, 0.0);
-  untruncated_ = 0;
+}
+
+/// @return the place of fine vector r among those reached
+template <int B>
+Index BlockTransfer<B>::reach(Index r) {
+  if (place_[r] < 0) {
+    place_[r] = static_cast<Index>(reached_.size());
+    reached_.push_back(r);
+  }
+  return place_[r];
+}
+
+// The fine vectors that the children of a coarse one are coupled to.
+template <int B>
+void BlockTransfer<B>::reach_neighbours(const BlockMatrix<B>& A, Index q) {
   for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
     const Index p = child_[c].vector;
-    const auto W = weight(child_[c].entry);
+    if (P_->midpoints)
+      reach(p);
+    else
+      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) reach(A.column[k]);
+  }
+}
+
+// Row q of P'A in global coordinates, for the fine vectors reached. Returns whether nothing was left out as truncated.
+template <int B>
+template <class Weight>
+bool BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight& weight) {
+  const BlockMatrix<B>& A = *fine.A;
+  constexpr Flags all = (1u << B) - 1;
+  bool complete = true;
+  clear_reached();
+  std::fill_n(alone_, B * B, 0.0);
+  untruncated_ = 0;
+  const auto sum_at = [this](Index r) {
+    const bool first = place_[r] < 0;
+    const std::size_t at = static_cast<std::size_t>(reach(r)) * B * B;
+    if (first) {
+      if (at == sums_.size()) sums_.resize(2 * at + B * B);
+      std::fill_n(sums_.data() + at, B * B, 0.0);
+    }
+    return sums_.data() + at;
+  };
+  for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
+    const Offset k = A.row[child_[c].vector];
+    __builtin_prefetch(A.column.data() + k);
+    __builtin_prefetch(A.at(k));
+  }
+  for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
+    const Index p = child_[c].vector;
+    const auto W = weight(P_->row[p] + child_[c].entry);
     if (fine.removed[p] == all) {
       add_alone(fine, p, nullptr, W);
+      complete = false;
       continue;
     }
     const bool plain = modifier::is_plain<B>(fine, frames(fine), p);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k];
-      if (fine.removed[r] == all) continue;
+      if (fine.removed[r] == all) {
+        complete = false;
+        continue;
+      }
       const double* M = A.at(k);
       double modified[B * B];
       if (!plain || !modifier::is_plain<B>(fine, frames(fine), r)) {
@@ -204,25 +275,20 @@ void BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
         M = modified;
       }
       if (r == p) add_alone(fine, p, M, W);
-      if (place_[r] < 0) {
-        place_[r] = static_cast<Index>(reached_.size());
-        reached_.push_back(r);
-        sums_.resize(sums_.size() + B * B, 0.0);
-      }
-      W.add_from_left(M, sums_.data() + Offset{place_[r]} * B * B);
+      W.add_from_left(M, sum_at(r));
     }
   }
+  return complete;
 }
 
+// Adds (P'A)P to row q, of the first `summed` fine vectors reached.
 template <int B>
 template <class Weight>
-void BlockTransfer<B>::assemble_row(const Level<B>& fine, Level<B>& coarse, Index q, const Weight& weight) {
+void BlockTransfer<B>::sum_parents(Level<B>& coarse, Index q, std::size_t summed, const Weight& weight) {
   BlockMatrix<B>& C = coarse.own_matrix;
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
-  std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
-  sum_children(fine, q, weight);
   const double* sum = sums_.data();
-  for (const Index r : reached_) {
+  for (const Index r : std::span(reached_).first(summed)) {
     for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) weight(m).add_from_right(sum, C.at(position_[P_->column[m]]));
     sum += B * B;
   }

@@ -39,6 +39,9 @@ class Transfer {
   /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level, and its matrix where
   /// coarse.galerkin knows that.
   virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) = 0;
+  /// prepare() and a first assemble(), with what is truncated on the fine level now, in one pass over its matrix.
+  virtual void prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
+                                 Level<B>& coarse) = 0;
   /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time if none is known; clears
   /// both lists, and appends what it recomputed to `coarse.renewed`. Returns the number of rows.
   virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;

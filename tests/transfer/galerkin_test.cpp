@@ -128,6 +128,39 @@ TYPED_TEST(Galerkin, ReassemblesLocallyToTheBitWhatAFullAssemblyGives) {
   }
 }
 
+// What is truncated when the matrix is made may come back later: its couplings are in the pattern all the same.
+TYPED_TEST(Galerkin, InOnePassIsToTheBitThatOfPatternAndValuesOneByOne) {
+  constexpr int B = TypeParam::value;
+  constexpr Index n = 60;
+  Random random(24);
+  for (int trial = 0; trial < 24; ++trial) {
+    const bool rotate = trial % 2 == 0;
+    TwoLevels<B> t(random, n, rotate, trial % 8 > 3);
+    truncate(t.fine, random_flags<B>(random, n, 0.3 * (trial % 4)));
+    MinMerge<B> transfer;
+    Level<B> coarse;
+    transfer.prepare_assembled(t.fine, t.P, rotate, coarse);
+    const auto expect_same = [&] {
+      EXPECT_EQ(coarse.own_matrix.row, t.coarse.own_matrix.row) << trial;
+      EXPECT_EQ(coarse.own_matrix.column, t.coarse.own_matrix.column) << trial;
+      EXPECT_EQ(coarse.own_matrix.value, t.coarse.own_matrix.value) << trial;
+      EXPECT_EQ(coarse.inverse, t.coarse.inverse) << trial;
+      EXPECT_EQ(coarse.off, t.coarse.off) << trial;
+      EXPECT_EQ(coarse.removed, t.coarse.removed) << trial;
+    };
+    Level<B> same = t.fine;
+    t.transfer.assemble(t.fine, t.coarse);
+    expect_same();
+    for (Level<B>* fine : {&t.fine, &same}) {
+      fine->changed.clear();
+      truncate(*fine, std::vector<Flags>(n, 0));
+    }
+    t.transfer.assemble(t.fine, t.coarse);
+    transfer.assemble(same, coarse);
+    expect_same();
+  }
+}
+
 TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
   constexpr int B = TypeParam::value;
   constexpr Index n = 240;
