@@ -14,8 +14,8 @@ class Aggregation {
 
   void take_free_neighbourhoods() {
     for (Index p = 0; p < graph_.size(); ++p)
-      if (of_[p] == none && !graph_.of(p).empty() &&
-          std::ranges::all_of(graph_.of(p), [&](const Coupling& c) { return of_[c.to] == none; }))
+      if (of_[p] == none && !graph_.neighbours(p).empty() &&
+          std::ranges::all_of(graph_.neighbours(p), [&](Index q) { return of_[q] == none; }))
         found(p);
   }
 
@@ -34,7 +34,7 @@ class Aggregation {
 
   void gather_the_rest() {
     for (Index p = 0; p < graph_.size(); ++p)
-      if (of_[p] == none && !graph_.of(p).empty()) found(p);
+      if (of_[p] == none && !graph_.neighbours(p).empty()) found(p);
   }
 
   Aggregates result() && { return rooted_at_the_surface(graph_, std::move(of_), std::move(root_)); }
@@ -44,8 +44,8 @@ class Aggregation {
     const auto a = static_cast<Index>(root_.size());
     root_.push_back(p);
     of_[p] = a;
-    for (const Coupling& c : graph_.of(p))
-      if (of_[c.to] == none) of_[c.to] = a;
+    for (const Index q : graph_.neighbours(p))
+      if (of_[q] == none) of_[q] = a;
   }
 
   const StrengthGraph& graph_;
@@ -56,7 +56,7 @@ class Aggregation {
 
 Aggregates rooted_at_the_surface(const StrengthGraph& graph, std::vector<Index> of, std::vector<Index> root) {
   for (Index p = 0; p < graph.size(); ++p)
-    if (of[p] != none && graph.of(p).size() < graph.of(root[of[p]]).size()) root[of[p]] = p;
+    if (of[p] != none && graph.neighbours(p).size() < graph.neighbours(root[of[p]]).size()) root[of[p]] = p;
   std::vector<Index> order(root.size()), number(root.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](Index a) { return root[a]; });

@@ -29,54 +29,52 @@ class Row {
     sum_[q] += weight;
   }
 
-  void append_to(Prolongation& P) {
+  /// By ascending column, until take() is called again; begins the next row.
+  const std::vector<Weight>& take() {
+    taken_.clear();
+    std::swap(taken_, found_);
     const double all = collect();
     keep_the_largest();
     double kept = 0;
-    for (const Weight& c : found_) kept += c.value;
-    for (const Weight& c : found_) {
-      P.column.push_back(c.to);
-      P.weight.push_back(c.value * (all / kept));
-    }
-    P.row.push_back(static_cast<Offset>(P.column.size()));
-    found_.clear();
+    for (const Weight& c : taken_) kept += c.value;
+    for (Weight& c : taken_) c.value *= all / kept;
+    return taken_;
   }
 
  private:
   double collect() {
     double largest = 0, sum = 0;
-    for (Weight& c : found_) {
+    for (Weight& c : taken_) {
       c.value = sum_[c.to];
       sum_[c.to] = 0;
       largest = std::max(largest, c.value);
       sum += c.value;
     }
-    std::erase_if(found_, [=](const Weight& c) { return c.value < negligible * largest; });
+    std::erase_if(taken_, [=](const Weight& c) { return c.value < negligible * largest; });
     return sum;
   }
 
   void keep_the_largest() {
-    if (found_.size() > most_weights) {
-      std::ranges::nth_element(found_, found_.begin() + most_weights, {},
+    if (taken_.size() > most_weights) {
+      std::ranges::nth_element(taken_, taken_.begin() + most_weights, {},
                                [](const Weight& c) { return std::pair(-c.value, c.to); });
-      found_.resize(most_weights);
+      taken_.resize(most_weights);
     }
-    std::ranges::sort(found_, {}, &Weight::to);
+    std::ranges::sort(taken_, {}, &Weight::to);
   }
 
   std::vector<double> sum_;  // zero between the rows
-  std::vector<Weight> found_;
+  std::vector<Weight> found_, taken_;
 };
 
 /// The couplings of each vector to coarse ones, these by their coarse numbers.
 StrengthGraph to_coarse(const StrengthGraph& graph, const CoarseVectors& coarse) {
   StrengthGraph out;
-  out.row.reserve(graph.row.size());
-  out.edge.reserve(graph.edge.size());
+  out.reserve(graph.size(), graph.to.size());
   for (Index p = 0; p < graph.size(); ++p) {
     for (const Coupling& c : graph.of(p))
-      if (const Index q = coarse.number[c.to]; q >= 0) out.edge.push_back({q, c.strength});
-    out.row.push_back(static_cast<Offset>(out.edge.size()));
+      if (const Index q = coarse.number[c.to]; q >= 0) out.add({q, c.strength});
+    out.end_row();
   }
   return out;
 }
@@ -93,23 +91,22 @@ class Weights {
         seen_(coarse.vector.size(), -1),
         row_(coarse.size()) {}
 
-  void append_row(Index p, Prolongation& P) {
+  /// Those of vector p, until the next call.
+  const std::vector<Weight>& of(Index p) {
     if (coarse_.number[p] >= 0) {
-      P.column.push_back(coarse_.number[p]);
-      P.weight.push_back(1);
-      P.row.push_back(static_cast<Offset>(P.column.size()));
-    } else {
-      interpolate(p);
-      row_.append_to(P);
+      itself_ = {{coarse_.number[p], 1}};
+      return itself_;
     }
+    interpolate(p);
+    return row_.take();
   }
 
  private:
   void interpolate(Index p) {
-    for (const Coupling& c : to_coarse_.of(p)) seen_[c.to] = p;
+    for (const Index q : to_coarse_.neighbours(p)) seen_[q] = p;
     double total = 0;
     for (const Coupling& c : graph_.of(p))
-      if (coarse_.number[c.to] >= 0 || !to_coarse_.of(c.to).empty()) total += c.strength;
+      if (coarse_.number[c.to] >= 0 || !to_coarse_.neighbours(c.to).empty()) total += c.strength;
     const double scale = graph_.balanced[p] / total;
     for (const Coupling& c : graph_.of(p)) {
       if (const Index q = coarse_.number[c.to]; q >= 0)
@@ -135,37 +132,47 @@ class Weights {
   StrengthGraph to_coarse_;
   std::vector<Index> seen_;  // per coarse vector: the last vector that it is a neighbour of
   Row row_;
+  std::vector<Weight> itself_;
 };
 
-/// For so many weights without growing.
-Prolongation rows_for(Index rows, std::size_t weights) {
+/// For rows from a graph, and from its coarse vectors to their twins.
+Prolongation no_rows(const StrengthGraph& graph, Index coarse, std::vector<Index> twin) {
   Prolongation P;
-  P.row.reserve(static_cast<std::size_t>(rows) + 1);
-  P.column.reserve(weights);
-  P.weight.reserve(weights);
+  P.coarse = coarse;
+  P.twin = std::move(twin);
+  P.row.reserve(graph.row.size());
+  P.column.reserve(graph.to.size());
+  P.weight.reserve(graph.to.size());
   return P;
+}
+
+void append(const std::vector<Weight>& row, Prolongation& P) {
+  for (const Weight& c : row) {
+    P.column.push_back(c.to);
+    P.weight.push_back(c.value);
+  }
+  P.row.push_back(static_cast<Offset>(P.column.size()));
 }
 
 Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coarse) {
-  Prolongation P = rows_for(graph.size(), graph.edge.size());
-  P.coarse = coarse.size();
-  P.twin = coarse.vector;
+  Prolongation P = no_rows(graph, coarse.size(), coarse.vector);
   Weights weights(graph, coarse);
-  for (Index p = 0; p < graph.size(); ++p) weights.append_row(p, P);
+  for (Index p = 0; p < graph.size(); ++p) append(weights.of(p), P);
   return P;
 }
 
-/// Interpolation by `first` from the vectors that `second` interpolates to.
-Prolongation product(const Prolongation& first, const Prolongation& second) {
-  Prolongation P = rows_for(first.fine(), first.column.size());
-  P.coarse = second.coarse;
-  for (const Index q : second.twin) P.twin.push_back(first.twin[q]);
+/// Interpolation from the vectors that `further` interpolates from to the coarse ones, and from these.
+Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coarse, const Prolongation& further) {
+  std::vector<Index> twin;
+  for (const Index q : further.twin) twin.push_back(coarse.vector[q]);
+  Prolongation P = no_rows(graph, further.coarse, std::move(twin));
+  Weights weights(graph, coarse);
   Row row(P.coarse);
-  for (Index p = 0; p < first.fine(); ++p) {
-    for (Offset k = first.row[p]; k < first.row[p + 1]; ++k)
-      for (Offset m = second.row[first.column[k]]; m < second.row[first.column[k] + 1]; ++m)
-        row.add(second.column[m], first.weight[k] * second.weight[m]);
-    row.append_to(P);
+  for (Index p = 0; p < graph.size(); ++p) {
+    for (const Weight& c : weights.of(p))
+      for (Offset m = further.row[c.to]; m < further.row[c.to + 1]; ++m)
+        row.add(further.column[m], c.value * further.weight[m]);
+    append(row.take(), P);
   }
   return P;
 }
@@ -174,13 +181,11 @@ Prolongation product(const Prolongation& first, const Prolongation& second) {
 
 template <int B>
 Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
-  StrengthGraph graph = strong_couplings(A, off);
+  const StrengthGraph graph = strong_couplings(A, off);
   const CoarseVectors coarse(split(graph, Part::fine));  // the smoother solves for what is coupled to nothing
-  Prolongation P = interpolation(graph, coarse);
-  if (coarse.size() <= many * graph.size()) return P;
+  if (coarse.size() <= many * graph.size()) return interpolation(graph, coarse);
   const StrengthGraph further = couplings_among(coarse, graph);
-  graph = {};  // what follows takes its memory
-  return product(P, interpolation(further, CoarseVectors(split(further, Part::coarse))));
+  return interpolation(graph, coarse, interpolation(further, CoarseVectors(split(further, Part::coarse))));
 }
 
 template Prolongation classical_interpolation(const BlockMatrix<1>&, const std::vector<Flags>&);

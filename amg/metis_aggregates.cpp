@@ -17,19 +17,6 @@ namespace {
 constexpr Index none = -1;
 constexpr const char* place = "solver.aggregates";
 
-/// Its rows ascend.
-StrengthGraph reversed(const StrengthGraph& graph) {
-  StrengthGraph out;
-  out.row.assign(graph.row.size(), 0);
-  for (const Coupling& c : graph.edge) ++out.row[c.to + 1];
-  std::partial_sum(out.row.begin(), out.row.end(), out.row.begin());
-  out.edge.resize(graph.edge.size());
-  std::vector<Offset> next(out.row.begin(), out.row.end() - 1);
-  for (Index p = 0; p < graph.size(); ++p)
-    for (const Coupling& c : graph.of(p)) out.edge[next[c.to]++] = {p, c.strength};
-  return out;
-}
-
 /// The sum of both directions: a coupling may be strong for one of its ends alone.
 StrengthGraph symmetric(const StrengthGraph& graph) {
   const StrengthGraph in = reversed(graph), out = reversed(in);
@@ -38,13 +25,13 @@ StrengthGraph symmetric(const StrengthGraph& graph) {
   for (Index p = 0; p < graph.size(); ++p) {
     found.clear();
     std::ranges::merge(in.of(p), out.of(p), std::back_inserter(found), {}, &Coupling::to, &Coupling::to);
-    const std::size_t first = both.edge.size();
+    const std::size_t first = both.to.size();
     for (const Coupling& c : found)
-      if (both.edge.size() > first && both.edge.back().to == c.to)
-        both.edge.back().strength += c.strength;
+      if (both.to.size() > first && both.to.back() == c.to)
+        both.strength.back() += c.strength;
       else
-        both.edge.push_back(c);
-    both.row.push_back(static_cast<Offset>(both.edge.size()));
+        both.add(c);
+    both.end_row();
   }
   return both;
 }
@@ -71,9 +58,9 @@ Vertices vertices_of(const StrengthGraph& graph) {
   std::vector<idx_t> number(static_cast<std::size_t>(graph.size()));
   for (Index p = 0; p < graph.size(); ++p) {
     number[p] = static_cast<idx_t>(out.vector.size());
-    if (!graph.of(p).empty()) out.vector.push_back(p);
+    if (!graph.neighbours(p).empty()) out.vector.push_back(p);
   }
-  const double unit = scale(static_cast<Offset>(graph.edge.size()));
+  const double unit = scale(static_cast<Offset>(graph.to.size()));
   for (const Index p : out.vector) {
     for (const Coupling& c : graph.of(p)) {
       out.column.push_back(number[c.to]);

@@ -102,7 +102,7 @@ class SmoothedRows {
     const BlockMatrix<B>& A = *level_.A;
     const Index own = aggregate_of(p), node = p / group_;
     place(own);
-    for (const Coupling& c : graph_.of(node)) strong_to_[c.to] = node;
+    for (const Index to : graph_.neighbours(node)) strong_to_[to] = node;
     bool any_weak = false;
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k], a = aggregate_of(r);

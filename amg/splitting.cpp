@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <ranges>
-#include <span>
 
 namespace signorini {
 
@@ -10,46 +9,20 @@ namespace {
 
 constexpr double by_several_paths = 0.6;  // part of the largest coupling of a row
 
-/// Lists of vectors, one per vector.
-struct Lists {
-  std::vector<Offset> row;
-  std::vector<Index> vector;
-
-  std::span<const Index> of(Index p) const { return {vector.data() + row[p], vector.data() + row[p + 1]}; }
-  std::size_t longest() const {
-    Offset out = 0;
-    for (std::size_t p = 1; p < row.size(); ++p) out = std::max(out, row[p] - row[p - 1]);
-    return static_cast<std::size_t>(out);
-  }
-};
-
-/// Whether the transpose is the same. False also where the lists do not ascend.
-bool is_symmetric(const Lists& lists) {
-  std::vector<Offset> next(lists.row.begin(), lists.row.end() - 1);
-  for (Index p = 0; p < static_cast<Index>(next.size()); ++p)
-    for (const Index q : lists.of(p)) {
-      if (next[q] == lists.row[q + 1] || lists.vector[next[q]] != p) return false;
+/// Whether neighbours are neighbours of each other. False also where the rows do not ascend.
+bool is_symmetric(const StrengthGraph& graph) {
+  std::vector<Offset> next(graph.row.begin(), graph.row.end() - 1);
+  for (Index p = 0; p < graph.size(); ++p)
+    for (const Index q : graph.neighbours(p)) {
+      if (next[q] == graph.row[q + 1] || graph.to[next[q]] != p) return false;
       ++next[q];
     }
   return true;
 }
 
-/// Per vector those that it is coupled to.
-Lists needed(const StrengthGraph& graph) {
-  Lists out{graph.row, {}};
-  out.vector.reserve(graph.edge.size());
-  for (const Coupling& c : graph.edge) out.vector.push_back(c.to);
-  return out;
-}
-
-/// Per vector those that are coupled to it, ascending.
-Lists served(const StrengthGraph& graph) {
-  Lists out{std::vector<Offset>(graph.row.size(), 0), std::vector<Index>(graph.edge.size())};
-  for (const Coupling& c : graph.edge) ++out.row[static_cast<std::size_t>(c.to) + 1];
-  for (std::size_t p = 1; p < out.row.size(); ++p) out.row[p] += out.row[p - 1];
-  std::vector<Offset> next(out.row.begin(), out.row.end() - 1);
-  for (Index p = 0; p < graph.size(); ++p)
-    for (const Coupling& c : graph.of(p)) out.vector[next[c.to]++] = p;
+std::size_t longest_row(const StrengthGraph& graph) {
+  std::size_t out = 0;
+  for (Index p = 0; p < graph.size(); ++p) out = std::max(out, graph.neighbours(p).size());
   return out;
 }
 
@@ -88,17 +61,18 @@ class Stacks {
 
 }  // namespace
 
-std::vector<Part> split(const StrengthGraph& graph, Part alone) {
+std::vector<Part> split(const StrengthGraph& needs, Part alone) {
   // Where both are the same, one that stays in the cache.
-  const Lists needs = needed(graph), transposed = is_symmetric(needs) ? Lists{} : served(graph);
-  const Lists& serves = transposed.row.empty() ? needs : transposed;
-  const Index n = graph.size();
+  const bool one = is_symmetric(needs);
+  const StrengthGraph backwards = one ? StrengthGraph{} : reversed(needs);
+  const StrengthGraph& serves = one ? needs : backwards;
+  const Index n = needs.size();
   std::vector<Part> part(static_cast<std::size_t>(n), Part::fine);
   // No vector can be worth more than by all that it serves turning fine.
-  Stacks open(part.size(), 2 * serves.longest());
+  Stacks open(part.size(), 2 * longest_row(serves));
   for (Index p = n - 1; p >= 0; --p) {
-    const auto worth = static_cast<Index>(serves.of(p).size());
-    if (needs.of(p).empty() && worth == 0)
+    const auto worth = static_cast<Index>(serves.neighbours(p).size());
+    if (needs.neighbours(p).empty() && worth == 0)
       part[p] = alone;
     else
       open.insert(p, worth);
@@ -108,15 +82,15 @@ std::vector<Part> split(const StrengthGraph& graph, Part alone) {
     part[p] = Part::coarse;
     open.remove(p);
     turned.clear();
-    for (const Index q : serves.of(p)) {
+    for (const Index q : serves.neighbours(p)) {
       if (!open.holds(q)) continue;
       open.remove(q);
       turned.push_back(q);
-      __builtin_prefetch(needs.of(q).data());
+      __builtin_prefetch(needs.neighbours(q).data());
     }
     for (const Index q : turned)
       // The first of equals leads: on structured grids that keeps to every second line.
-      for (const Index other : std::views::reverse(needs.of(q)))
+      for (const Index other : std::views::reverse(needs.neighbours(q)))
         if (open.holds(other)) open.raise(other);
   }
   return part;
@@ -132,7 +106,7 @@ CoarseVectors::CoarseVectors(const std::vector<Part>& part) : number(part.size()
 
 StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph) {
   StrengthGraph out;
-  out.edge.reserve(graph.edge.size());
+  out.reserve(coarse.size(), graph.to.size());
   std::vector<double> total(static_cast<std::size_t>(graph.size()), 0.0);
   for (Index p = 0; p < graph.size(); ++p)
     for (const Coupling& c : graph.of(p)) total[p] += c.strength;
@@ -161,10 +135,10 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     double largest = 0;
     for (const Index q : found) largest = std::max(largest, sum[q]);
     for (const Index q : found) {
-      if (sum[q] >= by_several_paths * largest) out.edge.push_back({q, static_cast<float>(sum[q] / largest)});
+      if (sum[q] >= by_several_paths * largest) out.add({q, static_cast<float>(sum[q] / largest)});
       sum[q] = 0;
     }
-    out.row.push_back(static_cast<Offset>(out.edge.size()));
+    out.end_row();
     out.balanced.push_back(reached > 0 ? reached / (reached + ended) : 1);
   }
   return out;

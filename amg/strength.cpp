@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace signorini {
 
@@ -40,12 +41,28 @@ double part_that_is_strong(double largest, double largest_positive) {
 
 }  // namespace
 
+StrengthGraph reversed(const StrengthGraph& graph) {
+  StrengthGraph out;
+  out.row.assign(graph.row.size(), 0);
+  for (const Index q : graph.to) ++out.row[static_cast<std::size_t>(q) + 1];
+  std::partial_sum(out.row.begin(), out.row.end(), out.row.begin());
+  out.to.resize(graph.to.size());
+  out.strength.resize(graph.to.size());
+  std::vector<Offset> next(out.row.begin(), out.row.end() - 1);
+  for (Index p = 0; p < graph.size(); ++p)
+    for (Offset k = graph.row[p]; k < graph.row[p + 1]; ++k) {
+      const Offset at = next[graph.to[k]]++;
+      out.to[at] = p;
+      out.strength[at] = graph.strength[k];
+    }
+  return out;
+}
+
 template <int B>
 StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
   constexpr Flags all = (1u << B) - 1;
   StrengthGraph graph;
-  graph.row.reserve(static_cast<std::size_t>(A.size()) + 1);
-  graph.edge.reserve(A.column.size());
+  graph.reserve(A.size(), A.column.size());
   graph.balanced.assign(static_cast<std::size_t>(A.size()), 1.0);
   std::vector<double> found;
   for (Index p = 0; p < A.size(); ++p) {
@@ -63,8 +80,8 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
     const double enough = part_that_is_strong<B>(largest, largest_positive) * largest;
     for (Offset k = begin + 1; k < end; ++k)
       if (const double s = found[k - begin]; s > 0 && s >= enough)
-        graph.edge.push_back({A.column[k], static_cast<float>(s / largest)});
-    graph.row.push_back(static_cast<Offset>(graph.edge.size()));
+        graph.add({A.column[k], static_cast<float>(s / largest)});
+    graph.end_row();
   }
   return graph;
 }
@@ -91,10 +108,10 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
     std::ranges::sort(found);
     for (const Index h : found) {
       if (sum[h] > 0 && sum[h] >= strong_norm * strong_norm * largest)
-        graph.edge.push_back({h, static_cast<float>(std::sqrt(sum[h] / largest))});
+        graph.add({h, static_cast<float>(std::sqrt(sum[h] / largest))});
       sum[h] = 0;
     }
-    graph.row.push_back(static_cast<Offset>(graph.edge.size()));
+    graph.end_row();
   }
   return graph;
 }

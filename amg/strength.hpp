@@ -1,4 +1,5 @@
 #pragma once
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -15,14 +16,34 @@ struct Coupling {
 /// The strong couplings of each vector, in compressed rows.
 struct StrengthGraph {
   std::vector<Offset> row{0};
-  std::vector<Coupling> edge;
+  std::vector<Index> to;
+  std::vector<float> strength;
   /// Per vector, in [0, 1]: the part of a scalar's diagonal that its couplings to others balance, which is less than
   /// one next to prescribed values; one for blocks.
   std::vector<double> balanced;
 
   Index size() const { return static_cast<Index>(row.size()) - 1; }
-  std::span<const Coupling> of(Index p) const { return {edge.data() + row[p], edge.data() + row[p + 1]}; }
+  std::span<const Index> neighbours(Index p) const { return {to.data() + row[p], to.data() + row[p + 1]}; }
+  auto of(Index p) const {
+    return std::views::iota(row[p], row[p + 1]) | std::views::transform([this](Offset k) {
+             return Coupling{to[k], strength[k]};
+           });
+  }
+
+  void reserve(Index vectors, std::size_t couplings) {
+    row.reserve(static_cast<std::size_t>(vectors) + 1);
+    to.reserve(couplings);
+    strength.reserve(couplings);
+  }
+  void add(const Coupling& c) {
+    to.push_back(c.to);
+    strength.push_back(c.strength);
+  }
+  void end_row() { row.push_back(static_cast<Offset>(to.size())); }
 };
+
+/// Whom the couplings of a graph come from, in rows that ascend; `balanced` is left out.
+StrengthGraph reversed(const StrengthGraph& graph);
 
 /// Couplings that are no small part of the largest one of their row. A scalar coupling counts where it is negative, a
 /// block by its norm, so that local rotations change nothing.

@@ -173,9 +173,9 @@ TEST(MetisAggregates, LeaveOutWhatIsCoupledToNothing) {
 TEST(MetisAggregates, FollowCouplingsOfOneDirection) {
   StrengthGraph graph;
   for (Index p = 0; p < 60; ++p) {
-    if (p % 2 == 1) graph.edge.push_back({p - 1, 1});
-    if (p % 2 == 1 && p < 59) graph.edge.push_back({p + 1, 0.5f});
-    graph.row.push_back(static_cast<Offset>(graph.edge.size()));
+    if (p % 2 == 1) graph.add({p - 1, 1});
+    if (p % 2 == 1 && p < 59) graph.add({p + 1, 0.5f});
+    graph.end_row();
   }
   expect_aggregates(graph);
 }
