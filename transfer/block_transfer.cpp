@@ -11,8 +11,12 @@ namespace signorini {
 template <int B>
 void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
   begin(fine, prolongation, rotate, coarse);
-  if (!coarse.galerkin || !coarse.galerkin->complete) build_pattern(*fine.A, coarse.own_matrix);
-  if (coarse.galerkin) adopt(*coarse.galerkin, coarse);
+  const GalerkinMatrix<B>* known = coarse.galerkin;
+  // A product of fewer couplings than the finer level has here lacks some as well.
+  const bool fewer = fine.galerkin && fine.galerkin->A.column.size() < fine.A->column.size();
+  const bool complete = known && known->complete && !fewer;
+  if (!complete) build_pattern(*fine.A, coarse.own_matrix);
+  if (known) adopt(*known, complete, coarse);
   coarse.chunks = divide(coarse.own_matrix);
 }
 

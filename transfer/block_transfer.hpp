@@ -29,7 +29,7 @@ class BlockTransfer : public Transfer<B> {
   void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
   void sum_terms(const Level<B>& fine, Level<B>& coarse) const;
-  void adopt(const GalerkinMatrix<B>& known, Level<B>& coarse);
+  void adopt(const GalerkinMatrix<B>& known, bool complete, Level<B>& coarse);
   void fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void transpose_weights();
   void begin_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);

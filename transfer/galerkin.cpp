@@ -45,8 +45,8 @@ void invert_diagonal(Level<B>& level, Index q) {
 }  // namespace
 
 template <int B>
-void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, Level<B>& coarse) {
-  if (known.complete)
+void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, bool complete, Level<B>& coarse) {
+  if (complete)
     coarse.own_matrix = known.A;
   else
     fill_in(known.A, coarse.own_matrix);
@@ -289,7 +289,11 @@ void BlockTransfer<B>::sum_parents(Level<B>& coarse, Index q, std::size_t summed
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
   const double* sum = sums_.data();
   for (const Index r : std::span(reached_).first(summed)) {
-    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) weight(m).add_from_right(sum, C.at(position_[P_->column[m]]));
+    for (Offset m = P_->row[r]; m < P_->row[r + 1]; ++m) {
+      const Offset k = position_[P_->column[m]];
+      assert(k >= C.row[q] && k < C.row[q + 1] && C.column[k] == P_->column[m]);
+      weight(m).add_from_right(sum, C.at(k));
+    }
     sum += B * B;
   }
 }

@@ -186,6 +186,36 @@ TYPED_TEST(Galerkin, TakesOverMatricesKnownWithoutTruncation) {
   }
 }
 
+// The stiffness of boxes of tetrahedra is zero between vertices that truncation on a finer mesh couples. Levels below,
+// computed from that stiffness without the zeros, lack their products.
+TEST(GalerkinBelowNestedMeshes, HasTheCouplingsThatTruncationBrings) {
+  const MeshHierarchy<3> meshes = hierarchy<3>(box({0, 0, 0}, {1, 1, 1}, {5, 5, 5}), 1);
+  const auto on_mesh = [&](std::size_t k) {
+    DiscreteProblem<1> problem;
+    problem.A = stiffness<3, 1>(meshes.levels[k], {});
+    problem.b.assign(static_cast<std::size_t>(problem.A.size()), 0);
+    problem.fixed.assign(static_cast<std::size_t>(problem.A.size()), 0);
+    return problem;
+  };
+  const DiscreteProblem<1> fine = on_mesh(1), coarse = on_mesh(0);
+  Random random(26);
+  const std::array<Prolongation, 2> P{random_prolongation(random, coarse.A.size() / 4, coarse.A.size()),
+                                      prolongation(meshes.refinements[0], coarse.A.size())};
+  Level<1> above = finest_level(coarse), below;
+  above.clear_phases();
+  MinMerge<1>().prepare_assembled(above, P[0], true, below);
+  const std::vector<GalerkinMatrix<1>> known{{below.own_matrix, below.off}, {coarse.A, coarse.fixed, false}};
+  Chain<1> chain(fine, P, true, known), fresh(fine, P, true);
+  ASSERT_GT(chain.levels[1].own_matrix.column.size(), coarse.A.column.size()) << "no zeros are left out";
+  const std::vector<Flags> truncated = random_flags<1>(random, fine.A.size(), 0.3), none(coarse.fixed);
+  chain.assemble(truncated, none);
+  fresh.assemble(truncated, none);
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::MatrixXd expected = dense(fresh.levels[k].own_matrix);
+    EXPECT_LE((dense(chain.levels[k].own_matrix) - expected).norm(), 1e-13 * expected.norm()) << "level " << k;
+  }
+}
+
 template <int D, int B>
 void expect_coarse_stiffness(const Mesh<D>& coarsest) {
   Model<B> model;
