@@ -1,7 +1,7 @@
 #include "amg/splitting.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <span>
 
 namespace signorini {
 
@@ -88,10 +88,12 @@ std::vector<Part> split(const StrengthGraph& needs, Part alone) {
       turned.push_back(q);
       __builtin_prefetch(needs.neighbours(q).data());
     }
-    for (const Index q : turned)
+    for (const Index q : turned) {
+      const std::span<const Index> others = needs.neighbours(q);
       // The first of equals leads: on structured grids that keeps to every second line.
-      for (const Index other : std::views::reverse(needs.neighbours(q)))
-        if (open.holds(other)) open.raise(other);
+      for (std::size_t k = others.size(); k-- > 0;)
+        if (open.holds(others[k])) open.raise(others[k]);
+    }
   }
   return part;
 }

@@ -1,5 +1,5 @@
 #pragma once
-#include <ranges>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -13,6 +13,29 @@ struct Coupling {
   float strength;
 };
 
+/// Those of one vector.
+struct Couplings {
+  struct Iterator {
+    using difference_type = std::ptrdiff_t;
+    using value_type = Coupling;
+    const Index* to;
+    const float* strength;
+
+    Coupling operator*() const { return {*to, *strength}; }
+    Iterator& operator++() {
+      ++to;
+      ++strength;
+      return *this;
+    }
+    Iterator operator++(int) { return {to++, strength++}; }
+    bool operator==(const Iterator& other) const { return to == other.to; }
+  };
+  Iterator first, last;
+
+  Iterator begin() const { return first; }
+  Iterator end() const { return last; }
+};
+
 /// The strong couplings of each vector, in compressed rows.
 struct StrengthGraph {
   std::vector<Offset> row{0};
@@ -24,10 +47,8 @@ struct StrengthGraph {
 
   Index size() const { return static_cast<Index>(row.size()) - 1; }
   std::span<const Index> neighbours(Index p) const { return {to.data() + row[p], to.data() + row[p + 1]}; }
-  auto of(Index p) const {
-    return std::views::iota(row[p], row[p + 1]) | std::views::transform([this](Offset k) {
-             return Coupling{to[k], strength[k]};
-           });
+  Couplings of(Index p) const {
+    return {{to.data() + row[p], strength.data() + row[p]}, {to.data() + row[p + 1], strength.data() + row[p + 1]}};
   }
 
   void reserve(Index vectors, std::size_t couplings) {

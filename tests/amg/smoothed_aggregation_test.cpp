@@ -32,7 +32,7 @@ TEST(Aggregates, AreNeighbourhoodsWithTheirRootsAtTheSurface) {
     ASSERT_GE(a, 0);
     const Index root = aggregates.root[a];
     EXPECT_LE(std::abs(p / nodes - root / nodes) + std::abs(p % nodes - root % nodes), 4);
-    EXPECT_LE(graph.of(root).size(), graph.of(p).size());
+    EXPECT_LE(graph.neighbours(root).size(), graph.neighbours(p).size());
     ++size[a];
   }
   for (std::size_t a = 0; a < size.size(); ++a) {
