@@ -142,7 +142,7 @@ class BlackBox::BlockSolver final : public Solver {
 
   AlgebraicLevels<B> take(const GivenLevels& given) const {
     std::vector<Prolongation> levels = given_levels(given.interpolations, problem_.A.size());
-    std::vector<BlockMatrix<B>> matrices = given_matrices<B>(problem_.A, levels, given.matrices);
+    std::vector<BlockMatrix<B>> matrices = given_matrices<B>(problem_.A, problem_.fixed, levels, given.matrices);
     return galerkin_hierarchy<B>(problem_, std::move(levels), transfer(), {}, std::move(matrices));
   }
 

@@ -37,13 +37,29 @@ Prolongation prolongation(const SparseRows& P) {
   return out;
 }
 
-/// y = P'AP z
+/// A matrix whose rows that are zero have a diagonal that was put there.
 template <int B>
-std::vector<double> galerkin_product(const BlockMatrix<B>& A, const Prolongation& P, const std::vector<double>& z) {
-  std::vector<double> fine(Offset{P.fine()} * B), image(fine.size()), y(z.size());
+struct Given {
+  const BlockMatrix<B>& A;
+  const std::vector<Flags>& zero;  ///< per vector the components of these rows
+
+  /// The product without these diagonals.
+  std::vector<double> times(std::vector<double> z) const {
+    for (std::size_t i = 0; i < z.size(); ++i)
+      if (zero[i / B] >> (i % B) & 1u) z[i] = 0;
+    std::vector<double> y(z.size());
+    product(A, z.data(), y.data());
+    return y;
+  }
+};
+
+/// P'AP z
+template <int B>
+std::vector<double> galerkin_product(const Given<B>& A, const Prolongation& P, const std::vector<double>& z) {
+  std::vector<double> fine(Offset{P.fine()} * B), y(z.size());
   const auto weight = [&](Offset k) { return weights::Scalar<B>{P.weight[k]}; };
   for (Index p = 0; p < P.fine(); ++p) weights::interpolate<B>(P, weight, p, z.data(), fine.data() + Offset{p} * B);
-  product(A, fine.data(), image.data());
+  const std::vector<double> image = A.times(std::move(fine));
   for (Index p = 0; p < P.fine(); ++p)
     for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
       weight(k).add_force(image.data() + Offset{p} * B, y.data() + Offset{P.column[k]} * B);
@@ -57,21 +73,21 @@ void replace_by_moduli(Values& values) {
 
 /// What bounds the rounding errors of galerkin_product().
 template <int B>
-std::vector<double> product_of_moduli(BlockMatrix<B> A, Prolongation P, std::vector<double> z) {
+std::vector<double> product_of_moduli(const Given<B>& matrix, Prolongation P, std::vector<double> z) {
+  BlockMatrix<B> A = matrix.A;
   replace_by_moduli(A.value);
   replace_by_moduli(P.weight);
   replace_by_moduli(z);
-  return galerkin_product(A, P, z);
+  return galerkin_product<B>({A, matrix.zero}, P, z);
 }
 
 template <int B>
-void require_galerkin(const BlockMatrix<B>& A, const Prolongation& P, const BlockMatrix<B>& coarse,
-                      const std::string& place) {
-  std::vector<double> z(Offset{P.coarse} * B), found(z.size());
+void require_galerkin(const Given<B>& A, const Prolongation& P, const Given<B>& coarse, const std::string& place) {
+  std::vector<double> z(Offset{P.coarse} * B);
   std::minstd_rand random;
   for (double& value : z) value = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
-  product(coarse, z.data(), found.data());
-  const std::vector<double> expected = galerkin_product(A, P, z), size = product_of_moduli(A, P, z);
+  const std::vector<double> found = coarse.times(z), expected = galerkin_product(A, P, z),
+                            size = product_of_moduli(A, P, z);
   for (std::size_t i = 0; i < z.size(); ++i)
     if (!(std::abs(found[i] - expected[i]) <= rounding * size[i]))
       input_error(place,
@@ -80,13 +96,15 @@ void require_galerkin(const BlockMatrix<B>& A, const Prolongation& P, const Bloc
                               i + 1));
 }
 
+/// @param zero its rows that are zero, where interpolation comes from such rows alone
 template <int B>
-BlockMatrix<B> coarse_matrix(const SparseRows& matrix, const Prolongation& P, const std::string& place) {
+BlockMatrix<B> coarse_matrix(const SparseRows& matrix, const Prolongation& P, const std::string& place,
+                             std::vector<Flags>& zero) {
   if (matrix.rows != P.coarse * B)
     input_error(place, fmt::format("found {} rows, expected {}, the number of columns of the interpolation{}",
                                    matrix.rows, P.coarse * B, B > 1 ? " times the block size" : ""));
   try {
-    return block_matrix<B>(matrix);
+    return block_matrix<B>(matrix, &zero);
   } catch (const Error& error) {
     throw Error(error.status(), fmt::format("{}: {}", place, error.what()));
   }
@@ -112,26 +130,29 @@ std::vector<Prolongation> given_levels(std::span<const SparseRows> interpolation
 }
 
 template <int B>
-std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, std::span<const Prolongation> levels,
-                                           std::span<const SparseRows> matrices) {
+std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, const std::vector<Flags>& zero,
+                                           std::span<const Prolongation> levels, std::span<const SparseRows> matrices) {
   if (matrices.empty()) return {};
   if (matrices.size() != levels.size())
     input_error("coarse matrices",
                 fmt::format("found {}, expected {}, one for each interpolation", matrices.size(), levels.size()));
-  std::vector<BlockMatrix<B>> out;
+  std::vector<BlockMatrix<B>> out(levels.size());
+  std::vector<std::vector<Flags>> zeros(levels.size());
   for (std::size_t k = 0; k < levels.size(); ++k)
-    out.push_back(coarse_matrix<B>(matrices[k], levels[k], name("coarse matrix", k, levels.size())));
-  for (std::size_t k = levels.size(); k-- > 0;)
-    require_galerkin(k + 1 < levels.size() ? out[k + 1] : A, levels[k], out[k],
-                     name("coarse matrix", k, levels.size()));
+    out[k] = coarse_matrix<B>(matrices[k], levels[k], name("coarse matrix", k, levels.size()), zeros[k]);
+  for (std::size_t k = levels.size(); k-- > 0;) {
+    const bool finest = k + 1 == levels.size();
+    require_galerkin<B>({finest ? A : out[k + 1], finest ? zero : zeros[k + 1]}, levels[k], {out[k], zeros[k]},
+                        name("coarse matrix", k, levels.size()));
+  }
   return out;
 }
 
-template std::vector<BlockMatrix<1>> given_matrices(const BlockMatrix<1>&, std::span<const Prolongation>,
-                                                    std::span<const SparseRows>);
-template std::vector<BlockMatrix<2>> given_matrices(const BlockMatrix<2>&, std::span<const Prolongation>,
-                                                    std::span<const SparseRows>);
-template std::vector<BlockMatrix<3>> given_matrices(const BlockMatrix<3>&, std::span<const Prolongation>,
-                                                    std::span<const SparseRows>);
+template std::vector<BlockMatrix<1>> given_matrices(const BlockMatrix<1>&, const std::vector<Flags>&,
+                                                    std::span<const Prolongation>, std::span<const SparseRows>);
+template std::vector<BlockMatrix<2>> given_matrices(const BlockMatrix<2>&, const std::vector<Flags>&,
+                                                    std::span<const Prolongation>, std::span<const SparseRows>);
+template std::vector<BlockMatrix<3>> given_matrices(const BlockMatrix<3>&, const std::vector<Flags>&,
+                                                    std::span<const Prolongation>, std::span<const SparseRows>);
 
 }  // namespace signorini

@@ -16,8 +16,9 @@ std::vector<Prolongation> given_levels(std::span<const SparseRows> interpolation
 /// Its coarse matrices, one for each of these levels, or none.
 /// Error(Exit::input) naming the matrix that is none of a level, by its size, symmetry or diagonal, or that is not the
 /// Galerkin product P'AP of the next finer one: the products with one random vector are compared.
+/// @param zero per vector of A the components whose rows are zero but for the diagonal that was put there
 template <int B>
-std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, std::span<const Prolongation> levels,
-                                           std::span<const SparseRows> matrices);
+std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, const std::vector<Flags>& zero,
+                                           std::span<const Prolongation> levels, std::span<const SparseRows> matrices);
 
 }  // namespace signorini

@@ -141,6 +141,28 @@ TEST(BlackBox, TakesTheMatricesOfAnotherCode) {
   expect_solution(solver, given, problem);
 }
 
+// Coarse functions of zero rows alone have zero rows themselves.
+TEST(BlackBox, TakesTheMatricesOfAnotherCodeAboveZeroRows) {
+  constexpr int n = 64;
+  Matrix A = laplacian(n + 1), pairs(n * n, n * n / 2);
+  A.prune([](int row, int column, double) {
+    const auto zero = [](int i) { return i % 8 == 1 || i / 2 == 33; };
+    return !zero(row) && !zero(column);
+  });
+  for (int i = 0; i < n * n; ++i) pairs.insert(i, i / 2) = 1;
+  Matrix fours(n * n / 2, n * n / 4);
+  for (int i = 0; i < n * n / 2; ++i) fours.insert(i, i / 2) = 1;
+  const std::vector<Matrix> weights{fours, pairs};
+  const std::vector<SparseRows> interpolations(weights.begin(), weights.end());
+  const std::vector<double> b(n * n, 1), lower(n * n, -1), upper(n * n, 20);
+  const auto found = BlackBox(A, interpolations, 1, {}, galerkin_products(A, weights)).solve(b, lower, upper),
+             usual = BlackBox(A).solve(b, lower, upper);
+  EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+  EXPECT_EQ(found.x[1], 20);
+  EXPECT_EQ(found.x[66], 20);
+  EXPECT_LE((vector(found.x) - vector(usual.x)).norm(), 1e-6 * vector(usual.x).norm());
+}
+
 TEST(BlackBox, OneSetUpServesSeveralLoadsAndBounds) {
   Random random(82);
   auto problem = random_problem<2>(random, 300);
