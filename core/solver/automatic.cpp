@@ -26,7 +26,7 @@ std::string describe(const SolverOptions& options, bool aggregates, int block, O
     text +=
         fmt::format("; pdas with {} after {} cycles or more, where they would be over {}{}",
                     fmt::join(solvers, ", else "), patience_with_cycles, std::min(most_cycles, options.max_iterations),
-                    unknowns <= most_unknowns_for_interior_points ? "; then interior points" : "");
+                    unknowns <= most_unknowns_where_sets_cycle ? "; then interior points" : "");
   return text;
 }
 

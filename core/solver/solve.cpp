@@ -82,7 +82,7 @@ Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& probl
   Summary before = cycles;
   SolverOptions own = options;
   own.method = "monotone";
-  if (problem.A.size() * B <= automatic::most_unknowns_for_newton && !prolongations.empty()) {
+  if (problem.A.size() * B <= automatic::most_unknowns_where_sets_cycle && !prolongations.empty()) {
     SolverOptions few = own;
     few.max_iterations = std::min(options.max_iterations, cycles.iterations + automatic::newton_steps);
     Summary newton = go_on(cycles, MultigridIteration<B>(problem, {}, x, few, registry), monitor);
@@ -127,7 +127,7 @@ Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>&
                                                        "active sets", automatic::shift_if_singular))
       return *found;
   own.max_iterations = cycles.iterations + automatic::most_interior_points;
-  if (cycles.level_unknowns.back() <= automatic::most_unknowns_for_interior_points)
+  if (cycles.level_unknowns.back() <= automatic::most_unknowns_where_sets_cycle)
     if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
                                                            "interior points"))
       return *found;
