@@ -58,7 +58,8 @@ class RowBuilder {
  private:
   static bool ascends(const SparseRows& matrix, Index i) {
     const auto column = matrix.column.begin();
-    return std::ranges::is_sorted(column + matrix.row[i], column + matrix.row[i + 1], std::less_equal{});
+    const auto end = column + matrix.row[i + 1];
+    return std::ranges::adjacent_find(column + matrix.row[i], end, std::greater_equal{}) == end;
   }
 
   // A row without duplicates: nothing is to be added up or sorted.

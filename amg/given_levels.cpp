@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -96,7 +97,7 @@ void require_galerkin(const Given<B>& A, const Prolongation& P, const Given<B>& 
                               i + 1));
 }
 
-/// @param zero its rows that are zero, where interpolation comes from such rows alone
+/// @param zero its rows that are zero
 template <int B>
 BlockMatrix<B> coarse_matrix(const SparseRows& matrix, const Prolongation& P, const std::string& place,
                              std::vector<Flags>& zero) {
@@ -145,7 +146,11 @@ std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, const std::v
     require_galerkin<B>({finest ? A : out[k + 1], finest ? zero : zeros[k + 1]}, levels[k], {out[k], zeros[k]},
                         name("coarse matrix", k, levels.size()));
   }
-  return out;
+  // What has no energy is held in one way or another where products are computed.
+  const bool any_zero = std::ranges::any_of(zeros, [](const std::vector<Flags>& level) {
+    return std::ranges::any_of(level, [](Flags f) { return f != 0; });
+  });
+  return any_zero ? std::vector<BlockMatrix<B>>{} : out;
 }
 
 template std::vector<BlockMatrix<1>> given_matrices(const BlockMatrix<1>&, const std::vector<Flags>&,

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <mutex>
-#include <numeric>
 
 #include "core/base/error.hpp"
 

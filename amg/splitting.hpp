@@ -9,7 +9,7 @@ enum class Part : std::uint8_t { coarse, fine };
 
 /// The first pass of Ruge and Stueben (Multigrid Methods, SIAM 1987, ch. 4.6), in linear time: vectors become coarse in
 /// the order of how many open ones would interpolate from them, most first, and those then are fine. Vectors without
-/// any coupling are fine.
+/// any coupling are `alone`.
 std::vector<Part> split(const StrengthGraph& needs, Part alone);
 
 /// The coarse ones among the vectors of a graph.

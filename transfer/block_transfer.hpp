@@ -58,11 +58,11 @@ class BlockTransfer : public Transfer<B> {
   std::vector<Offset> child_row_;  // transposed weights: the fine vectors that a coarse one interpolates to
   std::vector<Child> child_;
   std::vector<Flags> prescribed_;  // per coarse vector: components off whatever is truncated
-  std::vector<Offset> position_;   // per coarse vector: its block in the row at work
+  std::vector<Offset> position_;   // per coarse vector: its block in the row at work, or in an earlier one, -1: in none
   std::vector<char> marked_;       // per coarse vector
   std::vector<Index> place_;       // per fine vector: its block among `sums_`, -1: none
   std::vector<Index> reached_;     // fine vectors that the row at work is coupled to
-  std::vector<double> sums_;       // their blocks
+  std::vector<double> sums_;       // the blocks of those that are summed, which come first
   double alone_[B * B] = {};       // of the row at work: what its diagonal would be if no fine vectors were coupled
   double untruncated_ = 0;         // the size of that without truncation
   bool assembled_ = false;

@@ -61,7 +61,7 @@ void BlockTransfer<B>::fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) 
   for (Index q = 0; q < coarse.size(); ++q) {
     for (Offset k = coarse.row[q]; k < coarse.row[q + 1]; ++k) position_[coarse.column[k]] = k;
     for (Offset k = A.row[q]; k < A.row[q + 1]; ++k) {
-      assert(coarse.column[position_[A.column[k]]] == A.column[k] && position_[A.column[k]] >= coarse.row[q]);
+      assert(position_[A.column[k]] >= coarse.row[q] && coarse.column[position_[A.column[k]]] == A.column[k]);
       std::copy_n(A.at(k), B * B, coarse.at(position_[A.column[k]]));
     }
   }

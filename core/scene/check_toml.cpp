@@ -107,7 +107,10 @@ class Walk {
         ++line_;
       }
       const bool escape = quote == '"' && text_[at_] == '\\';
-      if (escape && multiline) expect_ascii_after_line_end();
+      if (escape && multiline) {
+        expect_ascii_after_line_end();
+        if (text_.substr(at_ + 1, 1) == "\n") ++line_;
+      }
       at_ += escape ? 2 : 1;
     }
     at_ = std::min(at_ + close.size(), text_.size());

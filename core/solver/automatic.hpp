@@ -20,7 +20,7 @@ inline constexpr Index most_unknowns_for_direct = 150'000;
 /// Of the diagonal, where active sets meet a matrix that is singular on the free components.
 inline constexpr double shift_if_singular = 1e-10;
 /// Where sets cycle: interior points, and where those fail the coarse solver on the finest level, for up to so many
-/// unknowns, which are factorised in each of so many steps.
+/// unknowns, and for so many steps, each of which may need a factorisation.
 inline constexpr Index most_unknowns_where_sets_cycle = 50'000;
 inline constexpr int most_interior_points = 60, newton_steps = 40;
 /// Of the energy gained in the cycle before: where weights are blocks, bounds come back after a correction without them

@@ -39,7 +39,8 @@ class Transfer {
   /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level, and its matrix where
   /// coarse.galerkin knows that.
   virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) = 0;
-  /// prepare() and a first assemble(), with what is truncated on the fine level now, in one pass over its matrix.
+  /// prepare() with the whole matrix, from what is truncated on the fine level now and nothing on the coarse one, in
+  /// one pass over the fine matrix. Does not look at coarse.galerkin, nor touch the lists of what changed.
   virtual void prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
                                  Level<B>& coarse) = 0;
   /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time if none is known; clears

@@ -94,6 +94,13 @@ Matrix weights_of(const Prolongation& P) {
   return out;
 }
 
+/// From half as many vectors, with the same weight each.
+Matrix pairs(int n, double weight) {
+  Matrix out(n, n / 2);
+  for (int i = 0; i < n; ++i) out.insert(i, i / 2) = weight;
+  return out;
+}
+
 /// The Galerkin products of the finest matrix, coarsest first.
 std::vector<SparseRows> galerkin_products(Matrix A, const std::vector<Matrix>& interpolations) {
   std::vector<SparseRows> out;
@@ -134,33 +141,51 @@ TEST(BlackBox, TakesTheMatricesOfAnotherCode) {
   Random random(86);
   const auto problem = random_problem<2>(random, 300);
   const Given<2> given(problem);
-  Matrix pairs(300, 150);
-  for (int i = 0; i < 300; ++i) pairs.insert(i, i / 2) = 0.75;
-  BlackBox solver(given.A, std::vector<SparseRows>{pairs}, 2, {},
-                  galerkin_products(given.A, {for_components(pairs, 2)}));
+  const Matrix P = pairs(300, 0.75);
+  BlackBox solver(given.A, std::vector<SparseRows>{P}, 2, {}, galerkin_products(given.A, {for_components(P, 2)}));
   expect_solution(solver, given, problem);
 }
 
 // Coarse functions of zero rows alone have zero rows themselves.
 TEST(BlackBox, TakesTheMatricesOfAnotherCodeAboveZeroRows) {
-  constexpr int n = 64;
-  Matrix A = laplacian(n + 1), pairs(n * n, n * n / 2);
+  constexpr int n = 64 * 64;
+  Matrix A = laplacian(65);
   A.prune([](int row, int column, double) {
     const auto zero = [](int i) { return i % 8 == 1 || i / 2 == 33; };
     return !zero(row) && !zero(column);
   });
-  for (int i = 0; i < n * n; ++i) pairs.insert(i, i / 2) = 1;
-  Matrix fours(n * n / 2, n * n / 4);
-  for (int i = 0; i < n * n / 2; ++i) fours.insert(i, i / 2) = 1;
-  const std::vector<Matrix> weights{fours, pairs};
-  const std::vector<SparseRows> interpolations(weights.begin(), weights.end());
-  const std::vector<double> b(n * n, 1), lower(n * n, -1), upper(n * n, 20);
-  const auto found = BlackBox(A, interpolations, 1, {}, galerkin_products(A, weights)).solve(b, lower, upper),
-             usual = BlackBox(A).solve(b, lower, upper);
+  const std::vector<double> b(n, 1), lower(n, -1), upper(n, 20);
+  const auto usual = BlackBox(A).solve(b, lower, upper);
+  for (const double weight : {1.0, 0.5}) {
+    const std::vector<Matrix> weights{pairs(n / 2, weight), pairs(n, weight)};
+    const std::vector<SparseRows> interpolations(weights.begin(), weights.end());
+    const auto found = BlackBox(A, interpolations, 1, {}, galerkin_products(A, weights)).solve(b, lower, upper);
+    EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+    EXPECT_EQ(found.x[1], 20);
+    EXPECT_EQ(found.x[66], 20);
+    EXPECT_LE((vector(found.x) - vector(usual.x)).norm(), 1e-6 * vector(usual.x).norm()) << weight;
+  }
+}
+
+// The coarse function is the motion of a floating chain, its matrix exactly zero; a small load moves it far.
+TEST(BlackBox, TakesACoarseMatrixThatIsZero) {
+  constexpr int n = 16;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i + 1 < n; ++i)
+    for (const auto& [row, column, value] : {std::tuple{i, i, 1}, {i + 1, i + 1, 1}, {i, i + 1, -1}, {i + 1, i, -1}})
+      entries.emplace_back(row, column, value);
+  Matrix A(n, n), constant(n, 1);
+  A.setFromTriplets(entries.begin(), entries.end());
+  for (int i = 0; i < n; ++i) constant.insert(i, 0) = 1;
+  std::vector<double> b(n, -1e-4), lower(n, -1000);
+  lower[3] = -7;
+  const std::vector<SparseRows> interpolation{constant};
+  const auto found = BlackBox(A, interpolation, 1, {}, galerkin_products(A, {constant})).solve(b, lower),
+             usual = BlackBox(A, interpolation).solve(b, lower);
   EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
-  EXPECT_EQ(found.x[1], 20);
-  EXPECT_EQ(found.x[66], 20);
-  EXPECT_LE((vector(found.x) - vector(usual.x)).norm(), 1e-6 * vector(usual.x).norm());
+  EXPECT_EQ(found.summary.iterations, usual.summary.iterations);
+  EXPECT_EQ(found.x[3], -7);
+  EXPECT_NEAR(found.multiplier[3], n * 1e-4, 1e-9);
 }
 
 TEST(BlackBox, OneSetUpServesSeveralLoadsAndBounds) {

@@ -30,6 +30,7 @@ const std::vector<Broken> broken = {
     {ball, "= 2\n", "= \xd1\xa2\n", {"scene.toml:35:", "ASCII"}},
     {ball, "title = ", "title = \"\"\"a \\\xef\xbb\xbb\"\"\" #", {"scene.toml:1:", "ASCII"}},
     {ball, "title = ", "title = \"\"\"\na\\ \n \xc3\xa9\"\"\" #", {"scene.toml:2:", "ASCII"}},
+    {ball, "title = ", "title = \"\"\"\na\\\n  b\"\"\" #\nx = \xc3\xa9\n", {"scene.toml:4:", "ASCII"}},
     {ball, "= [0, 0, 0]\nradius", "= [0, }\nradius", {"scene.toml:6:", "expected ']', found '}'"}},
     {ball, "= 2\n", "= 2]\n", {"scene.toml:35:", "closes nothing"}},
     {ball, "= 2\n", "= 2[\"\xd2\x96\"]\n", {"scene.toml:35:", "in the middle of a value"}},
