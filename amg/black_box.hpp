@@ -40,7 +40,7 @@ class BlackBox {
   /// alike, by a scalar weight. None at all is a single level.
   /// @param coarse_matrices of that code, one for each interpolation, in the same order; none: they are computed. Only
   ///     Galerkin products P'AP of the next finer matrix will do: with others a cycle may raise the energy. Where
-  ///     phases are truncated their rows are computed anew in any case.
+  ///     phases are truncated their rows are computed anew in any case; where one has zero rows, all are computed.
   /// @throws Error(Exit::input) for a matrix as above, and naming the interpolation or the coarse matrix that does not
   ///     fit
   BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block = 1,

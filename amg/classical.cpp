@@ -161,7 +161,7 @@ Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coar
   return P;
 }
 
-/// Interpolation from the vectors that `further` interpolates from to the coarse ones, and from these.
+/// The same in two steps: from the coarse vectors of `further` to those of this graph, and from these on.
 Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coarse, const Prolongation& further) {
   std::vector<Index> twin;
   for (const Index q : further.twin) twin.push_back(coarse.vector[q]);

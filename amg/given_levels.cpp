@@ -150,7 +150,8 @@ std::vector<BlockMatrix<B>> given_matrices(const BlockMatrix<B>& A, const std::v
   const bool any_zero = std::ranges::any_of(zeros, [](const std::vector<Flags>& level) {
     return std::ranges::any_of(level, [](Flags f) { return f != 0; });
   });
-  return any_zero ? std::vector<BlockMatrix<B>>{} : out;
+  if (any_zero) out.clear();
+  return out;
 }
 
 template std::vector<BlockMatrix<1>> given_matrices(const BlockMatrix<1>&, const std::vector<Flags>&,
