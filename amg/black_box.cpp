@@ -11,12 +11,15 @@
 #include "amg/definite.hpp"
 #include "amg/given_levels.hpp"
 #include "amg/hierarchy.hpp"
+#include "amg/motions.hpp"
 #include "amg/nested_start.hpp"
 #include "amg/recession.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/solver/admissible.hpp"
 #include "core/solver/configuration.hpp"
+#include "core/solver/convergence.hpp"
 
 namespace signorini {
 namespace {
@@ -74,6 +77,7 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.A = block_matrix<B>(A, &problem_.fixed);
     problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
     problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
+    motions_.emplace(problem_.A);
     check_options(options_);
     check_near_null(near_null, A.rows, coarsening_of(options_));
     const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
@@ -81,7 +85,7 @@ class BlackBox::BlockSolver final : public Solver {
                     : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_),
                                              near_null, *aggregator);
     problem_.galerkin = levels_.matrices;
-    refuse_indefinite<B>(problem_.A, levels_);
+    if (!motions_->complete()) refuse_indefinite<B>(problem_.A, levels_);
   }
 
   void set_tolerance(double tolerance) override {
@@ -103,7 +107,9 @@ class BlackBox::BlockSolver final : public Solver {
     for (std::size_t i = 0; i < n; ++i)
       if (decoupled(i)) prescribe(i, lower.empty() ? -infinity : lower[i], upper.empty() ? infinity : upper[i], start);
     Result result;
-    if (!algebraic_settings(options_).only_twins)
+    if (const auto row = motions_->falling(problem_.b, problem_.constraints))
+      result = without_solution(*row, start);
+    else if (!algebraic_settings(options_).only_twins)
       result = solve(levels_, start, monitor);
     else
       result = solve(galerkin_hierarchy<B>(problem_, levels_.prolongations, transfer(), {.only_twins = true}), start,
@@ -155,24 +161,50 @@ class BlackBox::BlockSolver final : public Solver {
     else
       result.x.assign(start.begin(), start.end());
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
-    if (const Outcome o = result.summary.outcome; o == Outcome::iteration_limit || o == Outcome::rounding)
+    if (const Outcome o = result.summary.outcome; o != Outcome::interrupted && o != Outcome::unbounded)
       recognise_unbounded(result);
+    add_multiplier(result);
+    return result;
+  }
+
+  void add_multiplier(Result& result) const {
     result.multiplier.resize(problem_.b.size());
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
     for (double& force : result.multiplier) force = -force;
+  }
+
+  /// The admissible vector next to the start, and why there is no better one.
+  Result without_solution(Offset row, std::span<const double> start) const {
+    Result result;
+    result.x.assign(start.begin(), start.end());
+    result.x.resize(problem_.b.size(), 0);
+    make_admissible(problem_, result.x);
+    add_multiplier(result);
+    set_unbounded(result.summary, row);
+    result.summary.options = options_;
+    result.summary.energy = energy(problem_, result.x);
     return result;
   }
 
   void recognise_unbounded(Result& result) const {
     if (!falls_forever(problem_, result.x)) return;
-    result.summary.outcome = Outcome::unbounded;
-    result.summary.reason = "the energy is unbounded below: the iterates run away along a direction without energy";
+    const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    set_unbounded(result.summary, std::max_element(result.x.begin(), result.x.end(), larger) - result.x.begin());
+  }
+
+  static void set_unbounded(Summary& summary, Offset row) {
+    summary.outcome = Outcome::unbounded;
+    summary.reason = fmt::format(
+        "the energy is unbounded below: the load does work along a direction without energy that no bound ends; its "
+        "largest entry is in row {}",
+        row + 1);
   }
 
   SolverOptions options_;
   Registry registry_;
   DiscreteProblem<B> problem_;
   AlgebraicLevels<B> levels_;
+  std::optional<Motions<B>> motions_;
 };
 
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,

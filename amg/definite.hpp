@@ -1,11 +1,16 @@
 #pragma once
+#include "amg/direction.hpp"
 #include "amg/hierarchy.hpp"
 
 namespace signorini {
 
-/// Error(Exit::input) where a direction d with d'Ad < 0 is found, naming the row of its largest entry: by a few
-/// conjugate gradient steps on every level, so that rough directions show as well as smooth ones. Where the diagonal
-/// dominates there is none; else this is a search, no proof.
+/// Error(Exit::input) where the energy along a direction is negative by more than rounding.
+/// @param row of the direction's largest entry, for the message
+void refuse_if_negative(const DirectionEnergy& energy, Offset row);
+
+/// Error(Exit::input) where a direction d with d'Ad < 0 is found, naming the row of its largest entry: by the smooth
+/// directions of least energy, from the coarsest level upwards, and by a few conjugate gradient steps on every level,
+/// which see the rough ones. This is a search, no proof.
 /// @param A with a positive diagonal
 template <int B>
 void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels);

@@ -10,29 +10,37 @@ constexpr double no_pivot = 1e-11;  // where the diagonal is 1
 
 }  // namespace
 
-void HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S) {
+bool HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S, double most_operations) {
   decltype(order_) inverse;
   Eigen::AMDOrdering<int>()(S.selfadjointView<Eigen::Lower>(), inverse);
   order_ = inverse.inverse();
   Upper reordered(S.rows(), S.cols());
   reordered.selfadjointView<Eigen::Upper>() = S.selfadjointView<Eigen::Lower>().twistedBy(order_);
-  analyse(reordered);
+  held_.clear();
+  falling_ = -1;
+  if (analyse(reordered) > most_operations) {
+    pivot_.clear();
+    return false;
+  }
+  row_.resize(static_cast<std::size_t>(start_.back()));
+  value_.resize(row_.size());
   const auto n = static_cast<int>(S.rows());
   pivot_.resize(static_cast<std::size_t>(n));
-  held_.clear();
   std::vector<int> seen(static_cast<std::size_t>(n), -1);
   std::vector<double> y(static_cast<std::size_t>(n), 0.0);
   for (int k = 0; k < n; ++k) {
     factorise_row(reordered, k, seen, y);
     if (pivot_[k] > no_pivot) continue;
+    if (pivot_[k] < -no_pivot && falling_ < 0) falling_ = k;
     pivot_[k] = 1;
     held_.push_back(inverse.indices()[k]);
   }
+  return true;
 }
 
 // The elimination tree and how many entries the columns of L have: row k of L has one in each column on the way from an
-// entry of S in that row up to k.
-void HeldCholesky::analyse(const Upper& S) {
+// entry of S in that row up to k. Returns the multiplications that it takes to find them.
+double HeldCholesky::analyse(const Upper& S) {
   const auto n = static_cast<int>(S.rows());
   parent_.assign(static_cast<std::size_t>(n), -1);
   start_.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -46,10 +54,15 @@ void HeldCholesky::analyse(const Upper& S) {
         ++start_[i + 1];
       }
   }
-  for (int k = 0; k < n; ++k) start_[k + 1] += start_[k];
+  double operations = 0;
+  for (int k = 0; k < n; ++k) {
+    operations += 0.5 * static_cast<double>(start_[k + 1]) * static_cast<double>(start_[k + 1]);
+    start_[k + 1] += start_[k];
+  }
   end_.assign(start_.begin(), start_.end() - 1);
-  row_.resize(static_cast<std::size_t>(start_.back()));
-  value_.resize(row_.size());
+  row_.clear();
+  value_.clear();
+  return operations;
 }
 
 // Row k of L from a triangular solve with the rows above it. Children in the tree come before their parents.
@@ -86,12 +99,23 @@ Eigen::VectorXd HeldCholesky::solve(const Eigen::VectorXd& b) const {
   const Eigen::Index n = size();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[row_[m]] -= value_[m] * x[i];
-  for (Eigen::Index i = n - 1; i >= 0; --i) {
-    double sum = x[i] / pivot_[i];
-    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) sum -= value_[m] * x[row_[m]];
-    x[i] = sum;
-  }
+  for (Eigen::Index i = 0; i < n; ++i) x[i] /= pivot_[i];
+  solve_transposed(x);
   return order_.inverse() * x;
+}
+
+// The rows of L below the pivot have no part in it.
+Eigen::VectorXd HeldCholesky::falling_direction() const {
+  if (falling_ < 0) return {};
+  Eigen::VectorXd x = Eigen::VectorXd::Unit(size(), falling_);
+  solve_transposed(x);
+  return order_.inverse() * x;
+}
+
+// x = L^-T x
+void HeldCholesky::solve_transposed(Eigen::VectorXd& x) const {
+  for (Eigen::Index i = size() - 1; i >= 0; --i)
+    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[i] -= value_[m] * x[row_[m]];
 }
 
 }  // namespace signorini

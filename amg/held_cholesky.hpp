@@ -2,6 +2,8 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "core/base/types.hpp"
+
 namespace signorini {
 
 /// L D L' of a sparse symmetric positive semidefinite matrix with a diagonal of ones. Where a pivot vanishes there is a
@@ -12,15 +14,20 @@ namespace signorini {
 class HeldCholesky {
  public:
   /// @param S its lower triangle is used
-  void factorise(const Eigen::SparseMatrix<double>& S);
+  /// @param most_operations returns false, and knows nothing, where it would take more
+  bool factorise(const Eigen::SparseMatrix<double>& S, double most_operations = infinity);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::Index size() const { return static_cast<Eigen::Index>(pivot_.size()); }
   /// Each spring stands for one motion without energy: that which it alone resists, solve() of its unit vector.
   const std::vector<Eigen::Index>& held() const { return held_; }
+  /// A direction d with d'Sd < 0, but for rounding: that of the first pivot that is clearly negative. Empty: there is
+  /// none.
+  Eigen::VectorXd falling_direction() const;
 
  private:
   using Upper = Eigen::SparseMatrix<double>;  // of the reordered matrix, in columns
-  void analyse(const Upper& S);
+  double analyse(const Upper& S);
+  void solve_transposed(Eigen::VectorXd& x) const;
   void factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<double>& y);
 
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_;
@@ -30,6 +37,7 @@ class HeldCholesky {
   std::vector<int> row_;
   std::vector<double> value_, pivot_;
   std::vector<Eigen::Index> held_;
+  Eigen::Index falling_ = -1;        // row of the first negative pivot
   std::vector<int> pattern_, path_;  // of one row
 };
 

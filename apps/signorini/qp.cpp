@@ -138,9 +138,7 @@ class QpRun {
     result_ = solver.solve(vectors_.load, vectors_.lower, vectors_.upper, vectors_.start, monitor);
     stop_if_interrupted();
     if (result_.summary.outcome == Outcome::unbounded)
-      throw Error(Exit::no_solution,
-                  fmt::format("{}: the energy is unbounded below within the bounds, as far as rounding lets one tell",
-                              arguments_.matrix.string()));
+      throw Error(Exit::no_solution, fmt::format("{}: {}", arguments_.matrix.string(), result_.summary.reason));
     time_.solve = lap_.lap();
     active_ = active(result_.x, vectors_);
   }

@@ -57,6 +57,14 @@ SparseRows compressed(Index rows, Index columns, std::vector<Entry> entries) {
   return out;
 }
 
+/// Rows may be empty; but a size that the entries are nowhere near is a mistake, and not to be allocated.
+void refuse_size_without_entries(const MatrixMarketInput& input) {
+  constexpr Offset always_allowed = 1'000'000, most_rows_per_entry = 100;
+  if (const Offset entries = input.entries(); input.rows() > std::max(always_allowed, most_rows_per_entry * entries))
+    input.fail(fmt::format("found {} rows, but {} entries only, expected one in every {} rows at least", input.rows(),
+                           entries, most_rows_per_entry));
+}
+
 /// Fails at the line where an entry stands for the second time.
 void refuse_second(std::string_view text, std::string_view place, Index row, Index column) {
   MatrixMarketInput input(text, place);
@@ -111,9 +119,7 @@ Columns read_columns(const std::filesystem::path& path, Index size, Index fewest
 
 SparseRows parse_matrix(std::string_view text, std::string_view place) {
   MatrixMarketInput input(text, place);
-  if (input.rows() > input.entries())
-    input.fail(fmt::format("found {} rows, but {} entries only, expected at least one in each row", input.rows(),
-                           input.entries()));
+  refuse_size_without_entries(input);
   SparseRows matrix = compressed(input.rows(), input.columns(), all_entries(input));
   refuse_duplicates(matrix, text, place);
   return matrix;

@@ -130,6 +130,12 @@ TEST(MatrixMarket, RefusesSizesThatTheFileCannotHold) {
   wrong(coordinate + "2000000000 2000000000 1\n1 1 1\n", "2000000000 rows, but 1 entries only");
 }
 
+TEST(MatrixMarket, RowsMayBeEmpty) {
+  const SparseRows found = matrix(coordinate + "4 4 2\n2 2 7\n4 4 1\n");
+  EXPECT_THAT(found.row, ElementsAre(0, 0, 1, 1, 2));
+  EXPECT_EQ(matrix(coordinate + "3 3 0\n").rows, 3);
+}
+
 TEST(MatrixMarket, ReadsColumnsRowByRow) {
   const auto columns = [](const std::string& text, Index size, Index fewest, Index most) {
     return parse_columns(text, "v.mtx", size, fewest, most);
