@@ -39,7 +39,9 @@ constexpr const char* check_exit_status = R"(Exit status:
 
 constexpr const char* qp_notes =
     R"(Files are Matrix Market files: coordinate or array, real or integer, general or symmetric, packed by gzip or not. Of a
-vector in coordinates what is left out is zero. inf and -inf in bounds mean none.
+vector in coordinates what is left out is zero. inf and -inf in bounds mean none. Output files are replaced when all are
+complete, links followed; devices and pipes are written through. What is read-only or an input is refused. Where an
+output goes to standard output, the summary goes to standard error.
 
 Exit status:
   0    solved to the tolerance
@@ -115,8 +117,8 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--start", qp.start, "where to start; default: from coarser levels");
   file("--near-null", qp.near_null, "directions of little energy, one per column");
   file("--coordinates", qp.coordinates, "positions of elastic vectors, one row each, in place of --near-null");
-  file("--out", qp.out, "file for the solution; default, or '-': print a summary only");
-  file("--report", qp.report, "JSON file for what the solver did");
+  file("--out", qp.out, "file for the solution, '-' for standard output; default: print a summary only");
+  file("--report", qp.report, "JSON file for what the solver did, '-' for standard output");
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
       ->capture_default_str();

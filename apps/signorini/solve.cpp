@@ -89,6 +89,19 @@ class SolveRun {
   Results<D, B> results_;
 };
 
+/// The files that a scene reads.
+std::vector<std::filesystem::path> inputs(const Scene& scene) {
+  std::vector<std::filesystem::path> files{scene.file};
+  for (const Scene::Body& body : scene.bodies) {
+    if (const auto* mesh = std::get_if<Scene::MeshFile>(&body.shape)) files.push_back(mesh->file);
+    if (const auto* solid = std::get_if<geometry::Solid>(&body.shape)) files.push_back(solid->file);
+  }
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (obstacle.shape)
+      if (const auto* surface = std::get_if<Scene::SurfaceShape>(&*obstacle.shape)) files.push_back(surface->file);
+  return files;
+}
+
 void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
   fmt::print("{}\n", report.title);
@@ -115,13 +128,14 @@ Exit solve_command(const SolveArguments& arguments) {
   Registry registry = solver_components();
   check_components(scene, registry);
   report.plugins = load_plugins(scene, registry);
-  AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out);
+  AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
+                    inputs(scene));
   dispatch(scene, [&]<int D, int B>() { SolveRun<D, B>(scene, registry, progress, files, report).run(); });
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
   stop_if_interrupted();
-  const auto written = files.commit(is_result_file);
+  const auto written = files.commit();
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

@@ -157,6 +157,27 @@ TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
   EXPECT_THAT(written(), testing::ElementsAre("file"));
 }
 
+TEST_F(CommandLine, ResultsReplaceNoInputsAndNothingThatIsReadOnly) {
+  write("membrane.toml", membrane);
+  fs::create_directory(folder_ / "o");
+  write("o/report.json", "old");
+  fs::permissions(folder_ / "o/report.json", fs::perms::owner_read);
+  Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o/report.json: is read-only"));
+  fs::rename(folder_ / "membrane.toml", folder_ / "o/solution_001.vtu");  // any name does for a scene
+  fs::permissions(folder_ / "o/report.json", fs::perms::owner_write, fs::perm_options::add);
+  ended = signorini({"solve", "o/solution_001.vtu", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o/solution_001.vtu: is read by this run"));
+  EXPECT_EQ(read(folder_ / "o/solution_001.vtu"), membrane);
+  fs::permissions(folder_ / "o", fs::perms::owner_read | fs::perms::owner_exec);
+  ended = signorini({"solve", "o/solution_001.vtu", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o: cannot write results here: Permission denied"));
+  fs::permissions(folder_ / "o", fs::perms::owner_all);
+}
+
 TEST_F(CommandLine, OutputThatCannotBePrintedIsAnError) {
   write("membrane.toml", membrane);
   const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
