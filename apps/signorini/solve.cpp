@@ -25,7 +25,7 @@ class SolveRun {
         progress_(progress),
         files_(files),
         report_(report),
-        vtu_(files, scene.output.vtu, scene.steps.count) {}
+        vtu_(files, scene.output.vtu, scene.steps.count, scene.solver.threads) {}
 
   void run() {
     prepare();
