@@ -19,15 +19,17 @@ namespace {
 constexpr const char* exit_status = R"(Exit status:
   0    solved to the tolerance
   1    wrong usage
-  2    bad input (file, scene, matrix); nothing is written but the message
+  2    bad input (file, scene, matrix), or too little memory; nothing is written but the message
   3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
        held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
-  130  interrupted (Ctrl-C); nothing is written)";
+  130  interrupted (Ctrl-C); nothing is written but, of several steps, those that were finished, marked
+       "interrupted": true)";
 
 constexpr const char* solve_notes =
-    "Progress is shown when standard error is a terminal; the convergence table goes to standard output.\n\n";
+    "Progress is shown, every few seconds at least, when standard error is a terminal; the convergence table goes to "
+    "standard output.\n\n";
 
 constexpr const char* check_exit_status = R"(Exit status:
   0    nothing wrong was found
@@ -46,7 +48,7 @@ output goes to standard output, the summary goes to standard error.
 Exit status:
   0    solved to the tolerance
   1    wrong usage
-  2    bad input (file, matrix); nothing is written but the message
+  2    bad input (file, matrix), or too little memory; nothing is written but the message
   3    the iteration limit was reached; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   130  interrupted (Ctrl-C); nothing is written)";

@@ -111,6 +111,7 @@ class QpRun {
 
   void solve(BlackBox& solver) {
     time_.setup = lap_.lap();
+    progress_.phase("solving");
     stop_if_interrupted();
     const auto monitor = [this](const IterationRecord& record) {
       progress_.cycle(record);

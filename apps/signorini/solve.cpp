@@ -30,10 +30,7 @@ class SolveRun {
   void run() {
     prepare();
     NestedSolver<D, B> solver(hierarchy_, scene_.solver, registry_, progress_, report_.time);
-    for (int step = 1; step <= scene_.steps.count; ++step) {
-      const double t = static_cast<double>(step) / scene_.steps.count;
-      at_step(scene_, t, [&] { solve_step(solver, step, t); });
-    }
+    solve_steps(solver);
     finish();
   }
 
@@ -47,6 +44,21 @@ class SolveRun {
     for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
       report_.warnings.push_back(std::move(warning));
     report_.time.mesh = watch.elapsed();
+  }
+
+  /// Steps that are finished are kept when the user asks to end.
+  void solve_steps(NestedSolver<D, B>& solver) {
+    const int count = scene_.steps.count;
+    try {
+      for (int step = 1; step <= count; ++step) {
+        const double t = static_cast<double>(step) / count;
+        at_step(scene_, t, [&] { solve_step(solver, step, t); });
+      }
+      stop_if_interrupted();
+    } catch (const Error& error) {
+      if (error.status() != Exit::interrupted || count == 1 || report_.steps.empty()) throw;
+      report_.interrupted = true;
+    }
   }
 
   void solve_step(NestedSolver<D, B>& solver, int step, double t) {
@@ -70,7 +82,6 @@ class SolveRun {
   }
 
   void finish() {
-    stop_if_interrupted();
     Stopwatch watch;
     progress_.phase("writing");
     vtu_.finish();
@@ -134,8 +145,11 @@ Exit solve_command(const SolveArguments& arguments) {
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  stop_if_interrupted();
+  if (scene.steps.count == 1) stop_if_interrupted();
   const auto written = files.commit();
+  if (report.interrupted)
+    throw Error(Exit::interrupted, fmt::format("interrupted; {} of {} steps were finished and are written",
+                                               report.steps.size(), scene.steps.count));
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

@@ -226,6 +226,32 @@ TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
   }
 }
 
+TEST_F(CommandLine, StepsThatAreFinishedOutliveAnInterrupt) {
+  write("membrane.toml", membrane + "[steps]\ncount = 100000\n");
+  const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "o"});
+  const auto third_step_is_staged = [&] {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder_ / "o", none))
+      if (fs::exists(entry.path() / "solution_003.vtu")) return true;
+    return false;
+  };
+  for (int k = 0; k < 2000 && !third_step_is_staged(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(child, SIGINT);
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, HasSubstr("of 100000 steps were finished and are written"));
+  const auto r = report("o");
+  EXPECT_EQ(r.at("interrupted"), true);
+  EXPECT_EQ(r.at("converged"), false);
+  const auto steps = r.at("steps");
+  ASSERT_GE(steps.size(), 2u);
+  EXPECT_EQ(steps.back().at("converged"), true);
+  std::size_t solutions = 0;
+  for (const std::string& name : CommandLine::written("o")) solutions += name.starts_with("solution_");
+  EXPECT_EQ(solutions, steps.size());
+  EXPECT_THAT(read(folder_ / "o/solution.pvd"), HasSubstr("solution_002.vtu"));
+}
+
 TEST_F(CommandLine, WhatNohupStartsOutlivesItsTerminal) {
   write("membrane.toml", membrane);
   const auto old = std::signal(SIGHUP, SIG_IGN);
