@@ -1,4 +1,5 @@
 #include <cholmod.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <new>
@@ -14,8 +15,9 @@ constexpr double no_pivot = 1e-11;
 
 class Cholmod final : public LinearSolver {
  public:
-  Cholmod() {
+  explicit Cholmod(int supernodal = CHOLMOD_AUTO) {
     cholmod_l_start(&common_);
+    common_.supernodal = supernodal;
     common_.print = 0;
     common_.final_ll = true;
   }
@@ -86,10 +88,25 @@ class Cholmod final : public LinearSolver {
   cholmod_factor* factor_ = nullptr;
 };
 
+/// OpenBLAS takes its working memory with its first call, and where there is none asks for it for ever. So that call
+/// comes here, once as much is known to be free; later ones have the same memory.
+/// @throws std::bad_alloc
+bool take_working_memory() {
+  constexpr std::size_t bytes = std::size_t{160} << 20;  // OpenBLAS 0.3 maps 128 MB on x86-64, and a little
+  void* const free = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (free == MAP_FAILED) throw std::bad_alloc();
+  munmap(free, bytes);
+  Cholmod blas(CHOLMOD_SUPERNODAL);
+  blas.analyse({0, 2, 3}, {0, 1, 1});
+  blas.factorise({2, -1, 2}, {});
+  return true;
+}
+
 }  // namespace
 
 }  // namespace signorini
 
 extern "C" __attribute__((visibility("default"))) signorini::LinearSolver* signorini_linear_solver() {
+  [[maybe_unused]] static const bool can_work = signorini::take_working_memory();
   return new signorini::Cholmod;
 }

@@ -19,15 +19,17 @@ namespace {
 constexpr const char* exit_status = R"(Exit status:
   0    solved to the tolerance
   1    wrong usage
-  2    bad input (file, scene, matrix); nothing is written but the message
+  2    bad input (file, scene, matrix), or too little memory; nothing is written but the message
   3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
        held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
-  130  interrupted (Ctrl-C); nothing is written)";
+  130  interrupted (Ctrl-C); nothing is written but, of several steps, those that were finished, marked
+       "interrupted": true)";
 
 constexpr const char* solve_notes =
-    "Progress is shown when standard error is a terminal; the convergence table goes to standard output.\n\n";
+    "Progress is shown, every few seconds at least, when standard error is a terminal; the convergence table goes to "
+    "standard output.\n\n";
 
 constexpr const char* check_exit_status = R"(Exit status:
   0    nothing wrong was found
@@ -39,12 +41,14 @@ constexpr const char* check_exit_status = R"(Exit status:
 
 constexpr const char* qp_notes =
     R"(Files are Matrix Market files: coordinate or array, real or integer, general or symmetric, packed by gzip or not. Of a
-vector in coordinates what is left out is zero. inf and -inf in bounds mean none.
+vector in coordinates what is left out is zero. inf and -inf in bounds mean none. Output files are replaced when all are
+complete, links followed; devices and pipes are written through. What is read-only or an input is refused. Where an
+output goes to standard output, the summary goes to standard error.
 
 Exit status:
   0    solved to the tolerance
   1    wrong usage
-  2    bad input (file, matrix); nothing is written but the message
+  2    bad input (file, matrix), or too little memory; nothing is written but the message
   3    the iteration limit was reached; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   130  interrupted (Ctrl-C); nothing is written)";
@@ -115,8 +119,8 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--start", qp.start, "where to start; default: from coarser levels");
   file("--near-null", qp.near_null, "directions of little energy, one per column");
   file("--coordinates", qp.coordinates, "positions of elastic vectors, one row each, in place of --near-null");
-  file("--out", qp.out, "file for the solution; default, or '-': print a summary only");
-  file("--report", qp.report, "JSON file for what the solver did");
+  file("--out", qp.out, "file for the solution, '-' for standard output; default: print a summary only");
+  file("--report", qp.report, "JSON file for what the solver did, '-' for standard output");
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
       ->capture_default_str();

@@ -109,7 +109,7 @@ template <int D>
 void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t) {
   if (!wanted_) return;
   const std::string name = steps_ == 1 ? "solution.vtu" : fmt::format("solution_{:03}.vtu", entries_.size() + 1);
-  write_vtu(files_.stage(name), mesh, fields);
+  write_vtu(files_.stage(name), mesh, fields, {}, threads_);
   entries_.push_back({t, name});
 }
 

@@ -13,7 +13,8 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 /// Writes the meshes with the solution, step by step, and lists the steps for ParaView when there are several.
 class SolutionFiles {
  public:
-  SolutionFiles(AtomicFiles& files, bool wanted, int steps) : files_(files), wanted_(wanted), steps_(steps) {}
+  SolutionFiles(AtomicFiles& files, bool wanted, int steps, int threads)
+      : files_(files), wanted_(wanted), steps_(steps), threads_(threads) {}
 
   template <int D>
   void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t);
@@ -22,7 +23,7 @@ class SolutionFiles {
  private:
   AtomicFiles& files_;
   bool wanted_;
-  int steps_;
+  int steps_, threads_;
   std::vector<PvdEntry> entries_;
 };
 

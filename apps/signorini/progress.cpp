@@ -13,9 +13,22 @@
 
 namespace signorini {
 
-Progress::Progress(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO)) {}
+namespace {
+constexpr double longest_silence = 5;  // seconds
+}  // namespace
 
-Progress::~Progress() { clear(); }
+Progress::Progress(bool quiet) {
+  if (quiet || !isatty(STDERR_FILENO)) return;
+  heartbeat_ = std::make_unique<Heartbeat>(longest_silence, [this](const std::string& line) {
+    clear();
+    fmt::print(stderr, "{}\n", line);
+  });
+}
+
+Progress::~Progress() {
+  heartbeat_.reset();
+  clear();
+}
 
 void Progress::clear() const {
   if (open_) std::fputs("\r\x1b[K", stderr);
@@ -23,16 +36,20 @@ void Progress::clear() const {
 }
 
 void Progress::phase(const std::string& what) const {
-  if (!shown_) return;
-  clear();
-  fmt::print(stderr, "{}\n", what);
+  if (!heartbeat_) return;
+  heartbeat_->begin(what, [&] {
+    clear();
+    fmt::print(stderr, "{}\n", what);
+  });
 }
 
 void Progress::cycle(const IterationRecord& record) const {
-  if (!shown_) return;
-  clear();
-  fmt::print(stderr, "{}", convergence_row(record));
-  open_ = true;
+  if (!heartbeat_) return;
+  heartbeat_->speak([&] {
+    clear();
+    fmt::print(stderr, "{}", convergence_row(record));
+    open_ = true;
+  });
 }
 
 void print_summary(const Summary& summary, bool solved) {

@@ -1,14 +1,17 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/signorini/heartbeat.hpp"
 #include "core/solver/summary.hpp"
 
 namespace signorini {
 
 /// Lines on standard error while long work goes on, if that is a terminal. Those of cycles take each other's place and
-/// go at the end: the table of results has them all.
+/// go at the end: the table of results has them all. Where nothing else is printed for some seconds, a line says what
+/// goes on.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -22,8 +25,8 @@ class Progress {
  private:
   void clear() const;
 
-  bool shown_;
-  mutable bool open_ = false;  // a cycle's line is the last one
+  mutable bool open_ = false;             // a cycle's line is the last one
+  std::unique_ptr<Heartbeat> heartbeat_;  // none where nothing is shown
 };
 
 /// What a solve did: the convergence table, why it stopped, and its size.

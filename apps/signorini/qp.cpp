@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
-#include <map>
 #include <utility>
 
 #include "amg/black_box.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/progress.hpp"
-#include "core/io/atomic_files.hpp"
 #include "core/io/matrix_market.hpp"
+#include "core/io/output_files.hpp"
 #include "core/io/report.hpp"
 #include "core/scene/solver_options.hpp"
 
@@ -42,24 +41,6 @@ NearNullSpace near_null_space(const QpArguments& arguments, Index rows) {
   return block == 2 ? rigid_body_modes<2>(coordinates) : rigid_body_modes<3>(coordinates);
 }
 
-/// The files of a run, in one folder or several.
-class Outputs {
- public:
-  /// Where to write a file so that commit() puts it into its place; creates its folder.
-  fs::path stage(const fs::path& file) {
-    if (fs::is_directory(file)) input_error(file.string(), "is a folder, expected the name of a file");
-    const fs::path folder = fs::weakly_canonical(fs::absolute(file).parent_path());
-    return folders_.try_emplace(folder, folder).first->second.stage(file.filename().string());
-  }
-
-  void commit() {
-    for (auto& [path, files] : folders_) files.commit();
-  }
-
- private:
-  std::map<fs::path, AtomicFiles> folders_;
-};
-
 struct Active {
   Index lower = 0, upper = 0;
 };
@@ -86,14 +67,15 @@ class QpRun {
   explicit QpRun(const QpArguments& arguments)
       : arguments_(arguments),
         options_(options_of(arguments)),
-        wants_solution_(!arguments.out.empty() && arguments.out != "-") {}
+        outputs_({arguments.matrix, arguments.load, arguments.lower, arguments.upper, arguments.start,
+                  arguments.near_null, arguments.coordinates}) {}
 
   Exit run() {
     read();
     BlackBox solver = set_up();
     solve(solver);
     write();
-    if (wants_solution_ || !report_.empty())
+    if (!arguments_.out.empty() || !arguments_.report.empty())
       print_of_written([this] { print(); });
     else
       print();
@@ -110,9 +92,8 @@ class QpRun {
                               matrix_.rows, matrix_.columns));
     vectors_ = read_vectors(arguments_, matrix_.rows);
     near_null_ = near_null_space(arguments_, matrix_.rows);
-    if (wants_solution_) out_ = outputs_.stage(arguments_.out);
-    if (!arguments_.report.empty()) report_ = outputs_.stage(arguments_.report);
-    if (wants_solution_ && out_ == report_)
+    if (!arguments_.out.empty()) outputs_.add(arguments_.out);
+    if (!arguments_.report.empty() && !outputs_.add(arguments_.report))
       throw Error(Exit::usage, fmt::format("{} is both --out and --report", arguments_.out.string()));
     time_.read = lap_.lap();
     stop_if_interrupted();
@@ -130,6 +111,7 @@ class QpRun {
 
   void solve(BlackBox& solver) {
     time_.setup = lap_.lap();
+    progress_.phase("solving");
     stop_if_interrupted();
     const auto monitor = [this](const IterationRecord& record) {
       progress_.cycle(record);
@@ -145,9 +127,9 @@ class QpRun {
 
   void write() {
     progress_.phase("writing");
-    if (wants_solution_) write_text(out_, matrix_market(result_.x));
+    if (!arguments_.out.empty()) outputs_.write(arguments_.out, matrix_market(result_.x));
     time_.total = watch_.elapsed();
-    if (!report_.empty()) write_text(report_, report_text());
+    if (!arguments_.report.empty()) outputs_.write(arguments_.report, report_text());
     stop_if_interrupted();
     outputs_.commit();
   }
@@ -164,13 +146,12 @@ class QpRun {
     fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
     fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,
                time_.solve, time_.total, peak_memory_mb());
-    if (wants_solution_) fmt::print("wrote {}\n", arguments_.out.string());
-    if (!report_.empty()) fmt::print("wrote {}\n", arguments_.report.string());
+    for (const fs::path& file : {arguments_.out, arguments_.report})
+      if (!file.empty() && file != "-") fmt::print("wrote {}\n", file.string());
   }
 
   const QpArguments& arguments_;
   const SolverOptions options_;
-  const bool wants_solution_;
   const Progress progress_{false};
   Stopwatch watch_, lap_;
   struct {
@@ -179,8 +160,7 @@ class QpRun {
   SparseRows matrix_;  // until the set-up
   Vectors vectors_;
   NearNullSpace near_null_;
-  Outputs outputs_;
-  fs::path out_, report_;  // where they are written before they appear; empty: not wanted
+  OutputFiles outputs_;
   BlackBox::Result result_;
   Active active_;
 };

@@ -25,15 +25,12 @@ class SolveRun {
         progress_(progress),
         files_(files),
         report_(report),
-        vtu_(files, scene.output.vtu, scene.steps.count) {}
+        vtu_(files, scene.output.vtu, scene.steps.count, scene.solver.threads) {}
 
   void run() {
     prepare();
     NestedSolver<D, B> solver(hierarchy_, scene_.solver, registry_, progress_, report_.time);
-    for (int step = 1; step <= scene_.steps.count; ++step) {
-      const double t = static_cast<double>(step) / scene_.steps.count;
-      at_step(scene_, t, [&] { solve_step(solver, step, t); });
-    }
+    solve_steps(solver);
     finish();
   }
 
@@ -47,6 +44,21 @@ class SolveRun {
     for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
       report_.warnings.push_back(std::move(warning));
     report_.time.mesh = watch.elapsed();
+  }
+
+  /// Steps that are finished are kept when the user asks to end.
+  void solve_steps(NestedSolver<D, B>& solver) {
+    const int count = scene_.steps.count;
+    try {
+      for (int step = 1; step <= count; ++step) {
+        const double t = static_cast<double>(step) / count;
+        at_step(scene_, t, [&] { solve_step(solver, step, t); });
+      }
+      stop_if_interrupted();
+    } catch (const Error& error) {
+      if (error.status() != Exit::interrupted || count == 1 || report_.steps.empty()) throw;
+      report_.interrupted = true;
+    }
   }
 
   void solve_step(NestedSolver<D, B>& solver, int step, double t) {
@@ -70,7 +82,6 @@ class SolveRun {
   }
 
   void finish() {
-    stop_if_interrupted();
     Stopwatch watch;
     progress_.phase("writing");
     vtu_.finish();
@@ -88,6 +99,19 @@ class SolveRun {
   Probes<D> probes_;
   Results<D, B> results_;
 };
+
+/// The files that a scene reads.
+std::vector<std::filesystem::path> inputs(const Scene& scene) {
+  std::vector<std::filesystem::path> files{scene.file};
+  for (const Scene::Body& body : scene.bodies) {
+    if (const auto* mesh = std::get_if<Scene::MeshFile>(&body.shape)) files.push_back(mesh->file);
+    if (const auto* solid = std::get_if<geometry::Solid>(&body.shape)) files.push_back(solid->file);
+  }
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (obstacle.shape)
+      if (const auto* surface = std::get_if<Scene::SurfaceShape>(&*obstacle.shape)) files.push_back(surface->file);
+  return files;
+}
 
 void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
@@ -115,13 +139,17 @@ Exit solve_command(const SolveArguments& arguments) {
   Registry registry = solver_components();
   check_components(scene, registry);
   report.plugins = load_plugins(scene, registry);
-  AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out);
+  AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
+                    inputs(scene));
   dispatch(scene, [&]<int D, int B>() { SolveRun<D, B>(scene, registry, progress, files, report).run(); });
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  stop_if_interrupted();
-  const auto written = files.commit(is_result_file);
+  if (scene.steps.count == 1) stop_if_interrupted();
+  const auto written = files.commit();
+  if (report.interrupted)
+    throw Error(Exit::interrupted, fmt::format("interrupted; {} of {} steps were finished and are written",
+                                               report.steps.size(), scene.steps.count));
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

@@ -1,48 +1,36 @@
 #include "core/io/atomic_files.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <fstream>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/io/output_place.hpp"
 
 namespace signorini {
 namespace fs = std::filesystem;
 
-namespace {
-
-const std::string staging_prefix = ".signorini-";
-
-/// Whether a folder of this name is left from a process that has ended, or from one that had this one's number.
-bool is_left_over(const std::string& name) {
-  if (!name.starts_with(staging_prefix)) return false;
-  pid_t process = 0;
-  const auto [end, error] = std::from_chars(name.data() + staging_prefix.size(), name.data() + name.size(), process);
-  if (error != std::errc() || end != name.data() + name.size() || process <= 0) return false;
-  return process == getpid() || (kill(process, 0) != 0 && errno == ESRCH);
-}
-
-}  // namespace
-
-AtomicFiles::AtomicFiles(fs::path folder)
-    : folder_(std::move(folder)), staging_(folder_ / fmt::format("{}{}", staging_prefix, getpid())) {
+AtomicFiles::AtomicFiles(fs::path folder, std::function<bool(const std::string&)> ours,
+                         std::span<const fs::path> inputs)
+    : folder_(std::move(folder)), ours_(std::move(ours)) {
   try {
     create_folder();
-    remove_left_overs();
-    fs::create_directory(staging_);
+    StagingFolder::remove_left_overs(folder_);
+    const StagingFolder possible(folder_);  // removed at once: a long run that is killed leaves none
+    refuse_irreplaceable(inputs);
   } catch (const fs::filesystem_error& error) {
     remove_traces();
-    input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
+    fail(error);
   }
 }
 
 AtomicFiles::~AtomicFiles() { remove_traces(); }
+
+void AtomicFiles::fail(const fs::filesystem_error& error) const {
+  input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
+}
 
 void AtomicFiles::create_folder() {
   std::vector<fs::path> missing;
@@ -50,49 +38,64 @@ void AtomicFiles::create_folder() {
   for (auto path = missing.rbegin(); path != missing.rend(); ++path)
     if (fs::create_directory(*path)) created_.push_back(*path);
   if (!fs::is_directory(folder_)) throw fs::filesystem_error("", std::make_error_code(std::errc::not_a_directory));
+  if (is_read_only(folder_)) throw fs::filesystem_error("", std::make_error_code(std::errc::permission_denied));
 }
 
-void AtomicFiles::remove_left_overs() const {
-  std::vector<fs::path> old;
+/// What there is under names of this run's, sorted.
+std::vector<fs::path> AtomicFiles::earlier() const {
+  std::vector<fs::path> found;
+  if (!ours_) return found;
   for (const auto& entry : fs::directory_iterator(folder_))
-    if (entry.is_directory() && !entry.is_symlink() && is_left_over(entry.path().filename().string()))
-      old.push_back(entry.path());
-  std::error_code ignored;  // another user's
-  for (const fs::path& folder : old) fs::remove_all(folder, ignored);
+    if (ours_(entry.path().filename().string())) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void AtomicFiles::refuse_irreplaceable(std::span<const fs::path> inputs) const {
+  for (const fs::path& path : earlier()) {
+    if (!fs::is_regular_file(fs::symlink_status(path)))
+      input_error(path.string(), "is a folder, a link, a pipe or a device, expected a regular file or none");
+    output_place(path, inputs);
+  }
+}
+
+fs::path AtomicFiles::stage(const std::string& name) try {
+  if (!staging_) staging_.emplace(folder_);
+  return staging_->path() / name;
+} catch (const fs::filesystem_error& error) {
+  fail(error);
 }
 
 void AtomicFiles::remove_traces() noexcept {
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
+  staging_.reset();
   if (committed_) return;
+  std::error_code ignored;
   for (auto path = created_.rbegin(); path != created_.rend(); ++path) fs::remove(*path, ignored);  // only if empty
 }
 
-void AtomicFiles::remove_outdated(const std::vector<fs::path>& written,
-                                  const std::function<bool(const std::string&)>& outdated) const {
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(folder_))
-    if (entry.is_regular_file() && outdated(entry.path().filename().string()) &&
-        !std::binary_search(written.begin(), written.end(), entry.path()))
-      old.push_back(entry.path());
-  for (const fs::path& file : old) fs::remove(file);
+/// The new file is as open to others as the one it replaces.
+void AtomicFiles::put_in_place(const fs::path& name) const {
+  const fs::path staged = staging_->path() / name, place = folder_ / name;
+  if (fs::exists(place)) fs::permissions(staged, fs::status(place).permissions());
+  fs::rename(staged, place);
 }
 
-std::vector<fs::path> AtomicFiles::commit(const std::function<bool(const std::string&)>& outdated) {
+std::vector<fs::path> AtomicFiles::commit() try {
   std::vector<fs::path> written;
-  try {
-    for (const auto& entry : fs::directory_iterator(staging_)) written.push_back(entry.path().filename());
-    std::sort(written.begin(), written.end());
-    committed_ = true;
-    for (auto& name : written) {
-      fs::rename(staging_ / name, folder_ / name);
-      name = folder_ / name;
-    }
-    if (outdated) remove_outdated(written, outdated);
-  } catch (const fs::filesystem_error& error) {
-    input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
+  if (staging_)
+    for (const auto& entry : fs::directory_iterator(staging_->path())) written.push_back(entry.path().filename());
+  std::sort(written.begin(), written.end());
+  const std::vector<fs::path> before = earlier();
+  committed_ = true;
+  for (fs::path& name : written) {
+    put_in_place(name);
+    name = folder_ / name;
   }
+  for (const fs::path& path : before)
+    if (!std::binary_search(written.begin(), written.end(), path)) fs::remove(path);
   return written;
+} catch (const fs::filesystem_error& error) {
+  fail(error);
 }
 
 void write_text(const fs::path& file, const std::string& text) {

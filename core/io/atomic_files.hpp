@@ -1,8 +1,12 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "core/io/staging_folder.hpp"
 
 namespace signorini {
 
@@ -11,27 +15,34 @@ namespace signorini {
 /// What a process that was killed left in the folder is removed.
 class AtomicFiles {
  public:
-  /// Creates `folder`; Error(Exit::input) if that is impossible or nothing can be written there.
-  explicit AtomicFiles(std::filesystem::path folder);
+  /// Creates `folder`. Other files there are this run's to replace where `ours` holds for their name: commit() removes
+  /// those that it does not write.
+  /// @param inputs files that the run reads
+  /// @throws Error(Exit::input) where nothing can be written there, or one of `ours` is no file that may be replaced:
+  ///   a folder, a link, a device, read-only, an input
+  explicit AtomicFiles(std::filesystem::path folder, std::function<bool(const std::string&)> ours = {},
+                       std::span<const std::filesystem::path> inputs = {});
   ~AtomicFiles();
   AtomicFiles(const AtomicFiles&) = delete;
   AtomicFiles& operator=(const AtomicFiles&) = delete;
 
   /// Where to write the file that is to be called `name`.
-  std::filesystem::path stage(const std::string& name) const { return staging_ / name; }
+  std::filesystem::path stage(const std::string& name);
 
-  /// Renames all files written so far and returns their final names, sorted. Other files in the folder are removed
-  /// where `outdated` holds for their name: what an earlier run wrote there.
-  std::vector<std::filesystem::path> commit(const std::function<bool(const std::string&)>& outdated = {});
+  /// Renames all files written so far and returns their final names, sorted.
+  std::vector<std::filesystem::path> commit();
 
  private:
   void create_folder();
-  void remove_left_overs() const;
+  std::vector<std::filesystem::path> earlier() const;
+  void refuse_irreplaceable(std::span<const std::filesystem::path> inputs) const;
+  void put_in_place(const std::filesystem::path& name) const;
   void remove_traces() noexcept;
-  void remove_outdated(const std::vector<std::filesystem::path>& written,
-                       const std::function<bool(const std::string&)>& outdated) const;
+  [[noreturn]] void fail(const std::filesystem::filesystem_error& error) const;
 
-  std::filesystem::path folder_, staging_;
+  std::filesystem::path folder_;
+  std::function<bool(const std::string&)> ours_;
+  std::optional<StagingFolder> staging_;        ///< made with the first file
   std::vector<std::filesystem::path> created_;  ///< folders made for this run, outermost first
   bool committed_ = false;
 };

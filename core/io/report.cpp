@@ -112,7 +112,7 @@ void finite_or_null(Json& json) {
 }  // namespace
 
 bool Report::converged() const {
-  return std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
+  return !interrupted && std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
 }
 
 Json to_json(const Summary& summary) {
@@ -128,6 +128,7 @@ Json to_json(const Report& report) {
             {"title", report.title},
             {"dimension", report.dimension},
             {"converged", report.converged()},
+            {"interrupted", report.interrupted},
             {"unknowns", unknowns(report.last().summary)},
             {"levels", levels(report.last().summary)}};
   add_summary(json, report.last().summary);
@@ -135,7 +136,7 @@ Json to_json(const Report& report) {
   json["time"] = time(report.time);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());
-  if (report.steps.size() > 1) json["steps"] = array(report.steps, step);
+  if (report.steps.size() > 1 || report.interrupted) json["steps"] = array(report.steps, step);
   json["estimate"] = nullptr;  // no estimator ran
   json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
     return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};

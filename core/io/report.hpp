@@ -50,6 +50,7 @@ struct Report {
   std::vector<PluginReport> plugins;
   Times time;
   double peak_memory_mb = 0;
+  bool interrupted = false;  ///< before the last step; those that were finished are there
 
   const StepReport& last() const { return steps.back(); }
   bool converged() const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <cerrno>
@@ -9,8 +10,12 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <limits>
+#include <span>
 
+#include "core/base/crew.hpp"
 #include "core/base/error.hpp"
+#include "core/io/vtu_pack.hpp"
 
 namespace signorini {
 namespace {
@@ -55,38 +60,34 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-/// The arrays of a file: their descriptions in XML first, their numbers, with the length in front, at the end.
+/// The arrays of a file: their descriptions in XML first, their numbers, packed, at the end.
 class Arrays {
  public:
+  explicit Arrays(int threads) : crew_(threads) {}
+
   template <class T>
-  std::string add(const char* type, const std::string& name, int components, std::vector<T> values) {
-    const std::uint64_t bytes = values.size() * sizeof(T);
-    std::string xml = fmt::format(
+  std::string add(const char* type, const std::string& name, int components, std::span<const T> values) {
+    const std::string xml = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
         escaped(name), components, offset_);
-    offset_ += sizeof bytes + bytes;
-    writers_.push_back([bytes, data = std::move(values)](std::ostream& out) {
-      out.write(reinterpret_cast<const char*>(&bytes), sizeof bytes);
-      out.write(reinterpret_cast<const char*>(data.data()), static_cast<std::streamsize>(bytes));
-    });
+    const auto bytes = std::as_bytes(values);
+    packed_.push_back(pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, crew_));
+    offset_ += packed_.back().size();
     return xml;
   }
 
-  void write(std::ostream& out) {
-    for (auto& writer : writers_) {
-      writer(out);
-      writer = nullptr;  // frees the numbers
-    }
+  void write(std::ostream& out) const {
+    for (const std::string& array : packed_) out.write(array.data(), static_cast<std::streamsize>(array.size()));
   }
 
  private:
-  std::uint64_t offset_ = 0;
-  std::vector<std::function<void(std::ostream&)>> writers_;
+  Crew crew_;
+  std::size_t offset_ = 0;
+  std::vector<std::string> packed_;
 };
 
 /// Vectors of two components become such of three.
-std::vector<double> padded(const std::vector<double>& values, int components) {
-  if (components != 2) return values;
+std::vector<double> padded(const std::vector<double>& values) {
   std::vector<double> result;
   result.reserve(values.size() / 2 * 3);
   for (std::size_t i = 0; i < values.size(); i += 2) result.insert(result.end(), {values[i], values[i + 1], 0.0});
@@ -97,27 +98,31 @@ std::string describe(Arrays& arrays, const std::vector<VtuField>& fields, [[mayb
   std::string xml;
   for (const VtuField& field : fields) {
     assert(field.values.size() == places * static_cast<std::size_t>(field.components));
-    xml += arrays.add("Float64", field.name, field.components == 2 ? 3 : field.components,
-                      padded(field.values, field.components));
+    xml += field.components == 2 ? arrays.add<double>("Float64", field.name, 3, padded(field.values))
+                                 : arrays.add<double>("Float64", field.name, field.components, field.values);
   }
   return xml;
 }
 
+/// Where each element's vertices end.
+template <class T>
+std::vector<T> offsets(std::size_t elements, T vertices) {
+  std::vector<T> ends(elements);
+  std::generate(ends.begin(), ends.end(), [end = T{0}, vertices]() mutable { return end += vertices; });
+  return ends;
+}
+
 template <int D>
 std::string describe_cells(Arrays& arrays, const Mesh<D>& mesh) {
-  std::vector<Index> connectivity;
-  std::vector<Offset> offsets;
-  connectivity.reserve(mesh.elements.size() * (D + 1));
-  offsets.reserve(mesh.elements.size());
-  for (const auto& element : mesh.elements) {
-    connectivity.insert(connectivity.end(), element.begin(), element.end());
-    offsets.push_back(static_cast<Offset>(connectivity.size()));
-  }
   constexpr std::uint8_t triangle = 5, tetrahedron = 10;
-  return arrays.add("Int32", "connectivity", 1, std::move(connectivity)) +
-         arrays.add("Int64", "offsets", 1, std::move(offsets)) +
-         arrays.add("UInt8", "types", 1,
-                    std::vector<std::uint8_t>(mesh.elements.size(), D == 2 ? triangle : tetrahedron));
+  const std::size_t elements = mesh.elements.size(), vertices = elements * (D + 1);
+  const bool few = vertices <= std::numeric_limits<Index>::max();
+  const std::span connectivity(elements == 0 ? nullptr : mesh.elements.front().data(), vertices);
+  return arrays.add<Index>("Int32", "connectivity", 1, connectivity) +
+         (few ? arrays.add<Index>("Int32", "offsets", 1, offsets<Index>(elements, D + 1))
+              : arrays.add<Offset>("Int64", "offsets", 1, offsets<Offset>(elements, D + 1))) +
+         arrays.add<std::uint8_t>("UInt8", "types", 1,
+                                  std::vector<std::uint8_t>(elements, D == 2 ? triangle : tetrahedron));
 }
 
 template <int D>
@@ -133,16 +138,17 @@ std::vector<double> coordinates(const Mesh<D>& mesh) {
 
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields) {
-  Arrays arrays;
-  const std::string points = arrays.add("Float64", "Points", 3, coordinates(mesh));
+               const std::vector<VtuField>& cell_fields, int threads) {
+  Arrays arrays(threads);
+  const std::string points = arrays.add<double>("Float64", "Points", 3, coordinates(mesh));
   const std::string cells = describe_cells(arrays, mesh);
   const std::string point_data = describe(arrays, point_fields, mesh.points.size());
   const std::string cell_data = describe(arrays, cell_fields, mesh.elements.size());
   write_file(path, [&](std::ostream& out) {
     out << fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-        "header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece "
+        "NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n"
         "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(),
@@ -162,8 +168,8 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
 }
 
 template void write_vtu(const std::filesystem::path&, const Mesh<2>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&);
+                        const std::vector<VtuField>&, int);
 template void write_vtu(const std::filesystem::path&, const Mesh<3>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&);
+                        const std::vector<VtuField>&, int);
 
 }  // namespace signorini

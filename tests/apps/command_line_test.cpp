@@ -157,6 +157,27 @@ TEST_F(CommandLine, UnwritableFolderIsBadInputBeforeAnythingIsSolved) {
   EXPECT_THAT(written(), testing::ElementsAre("file"));
 }
 
+TEST_F(CommandLine, ResultsReplaceNoInputsAndNothingThatIsReadOnly) {
+  write("membrane.toml", membrane);
+  fs::create_directory(folder_ / "o");
+  write("o/report.json", "old");
+  fs::permissions(folder_ / "o/report.json", fs::perms::owner_read);
+  Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o/report.json: is read-only"));
+  fs::rename(folder_ / "membrane.toml", folder_ / "o/solution_001.vtu");  // any name does for a scene
+  fs::permissions(folder_ / "o/report.json", fs::perms::owner_write, fs::perm_options::add);
+  ended = signorini({"solve", "o/solution_001.vtu", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o/solution_001.vtu: is read by this run"));
+  EXPECT_EQ(read(folder_ / "o/solution_001.vtu"), membrane);
+  fs::permissions(folder_ / "o", fs::perms::owner_read | fs::perms::owner_exec);
+  ended = signorini({"solve", "o/solution_001.vtu", "--out", "o"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("o: cannot write results here: Permission denied"));
+  fs::permissions(folder_ / "o", fs::perms::owner_all);
+}
+
 TEST_F(CommandLine, OutputThatCannotBePrintedIsAnError) {
   write("membrane.toml", membrane);
   const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
@@ -203,6 +224,32 @@ TEST_F(CommandLine, InterruptEndsCleanlyAndLeavesNothing) {
     EXPECT_THAT(ended.err, HasSubstr("interrupted"));
     EXPECT_THAT(written(), IsEmpty());
   }
+}
+
+TEST_F(CommandLine, StepsThatAreFinishedOutliveAnInterrupt) {
+  write("membrane.toml", membrane + "[steps]\ncount = 100000\n");
+  const pid_t child = start("signorini", {"solve", "membrane.toml", "--out", "o"});
+  const auto third_step_is_staged = [&] {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder_ / "o", none))
+      if (fs::exists(entry.path() / "solution_003.vtu")) return true;
+    return false;
+  };
+  for (int k = 0; k < 2000 && !third_step_is_staged(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(child, SIGINT);
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, HasSubstr("of 100000 steps were finished and are written"));
+  const auto r = report("o");
+  EXPECT_EQ(r.at("interrupted"), true);
+  EXPECT_EQ(r.at("converged"), false);
+  const auto steps = r.at("steps");
+  ASSERT_GE(steps.size(), 2u);
+  EXPECT_EQ(steps.back().at("converged"), true);
+  std::size_t solutions = 0;
+  for (const std::string& name : CommandLine::written("o")) solutions += name.starts_with("solution_");
+  EXPECT_EQ(solutions, steps.size());
+  EXPECT_THAT(read(folder_ / "o/solution.pvd"), HasSubstr("solution_002.vtu"));
 }
 
 TEST_F(CommandLine, WhatNohupStartsOutlivesItsTerminal) {

@@ -103,13 +103,42 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
 TEST_F(Qp, WithoutOutPrintsASummaryOnly) {
   write_chain(10);
   write_constant("b.mtx", 10, 1);
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"qp", "A.mtx", "b.mtx"}, {"qp", "A.mtx", "b.mtx", "--out", "-"}}) {
-    const Ended ended = signorini(arguments);
-    EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("10 unknowns"));
-    EXPECT_THAT(written(), UnorderedElementsAre("A.mtx", "b.mtx"));
-  }
+  const Ended ended = signorini({"qp", "A.mtx", "b.mtx"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("10 unknowns"));
+  EXPECT_THAT(written(), UnorderedElementsAre("A.mtx", "b.mtx"));
+}
+
+TEST_F(Qp, ADashIsStandardOutputAndTheSummaryMakesRoom) {
+  write_chain(10);
+  write_constant("b.mtx", 10, 1);
+  const Ended reported = signorini({"qp", "A.mtx", "b.mtx", "--report", "-", "--out", "x.mtx"});
+  EXPECT_EQ(reported.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(reported.out).at("unknowns"), 10);
+  EXPECT_THAT(reported.err, AllOf(HasSubstr("10 unknowns"), HasSubstr("wrote x.mtx")));
+  const Ended solved = signorini({"qp", "A.mtx", "b.mtx", "--out", "-"});
+  EXPECT_EQ(solved.out, read(folder_ / "x.mtx"));
+  EXPECT_THAT(solved.err, HasSubstr("10 unknowns"));
+  expect_failure({"qp", "A.mtx", "b.mtx", "--out", "-", "--report", "-"}, 1, "both --out and --report");
+  EXPECT_THAT(written(), UnorderedElementsAre("A.mtx", "b.mtx", "x.mtx"));
+}
+
+TEST_F(Qp, DevicesAreWrittenThroughAndInputsAndReadOnlyFilesRefused) {
+  write_chain(10);
+  write_constant("b.mtx", 10, 1);
+  const std::string load = read(folder_ / "b.mtx");
+  expect_failure({"qp", "A.mtx", "b.mtx", "--out", "/dev/full"}, 2, "/dev/full: cannot be written: No space left");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  EXPECT_EQ(signorini({"qp", "A.mtx", "b.mtx", "--out", "/dev/null", "--report", "/dev/null"}).status, 0);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  fs::create_symlink("b.mtx", folder_ / "link");
+  for (const char* out : {"b.mtx", "link"})
+    expect_failure({"qp", "A.mtx", "b.mtx", "--out", out}, 2, "is read by this run");
+  write("x.mtx", "old");
+  fs::permissions(folder_ / "x.mtx", fs::perms::owner_read);
+  expect_failure({"qp", "A.mtx", "b.mtx", "--report", "x.mtx"}, 2, "x.mtx: is read-only");
+  EXPECT_EQ(read(folder_ / "x.mtx"), "old");
+  EXPECT_EQ(read(folder_ / "b.mtx"), load);
 }
 
 TEST_F(Qp, BlocksAndMethodsHaveTheSameSolution) {
@@ -253,6 +282,29 @@ TEST_F(Qp, OutputThatIsLostIsAnErrorOnlyWhereNothingIsWritten) {
   EXPECT_EQ(WEXITSTATUS(std::system((program + "--out x.mtx > /dev/full 2> .err").c_str())), 0);
   EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: warning: standard output: cannot be written"));
   EXPECT_EQ(solution(10).size(), 10u);
+}
+
+// Of address space. OpenBLAS would ask for its 128 MB for ever.
+TEST_F(Qp, TooLittleMemoryForADirectSolveIsAnErrorAtOnce) {
+  constexpr Index n = 3000;
+  write_chain(n);
+  write_constant("b.mtx", n, -1);
+  write_constant("l.mtx", n, -500);
+  const std::string program = "cd '" + folder_.string() + "' && ulimit -t 20 && ulimit -v LIMIT && " +
+                              SIGNORINI_BINARY_DIR +
+                              "/bin/signorini qp A.mtx b.mtx --lower l.mtx --method pdas --out x.mtx > .out 2> .err";
+  const auto run = [&](const std::string& kilobytes) {
+    std::string command = program;
+    command.replace(command.find("LIMIT"), 5, kilobytes);
+    return WEXITSTATUS(std::system(command.c_str()));
+  };
+  EXPECT_EQ(run("4000000"), 0) << read(folder_ / ".err");
+  ASSERT_TRUE(fs::remove(folder_ / "x.mtx"));
+  for (const char* kilobytes : {"120000", "160000", "200000"}) {
+    EXPECT_THAT(run(kilobytes), testing::AnyOf(2, 5)) << kilobytes;
+    EXPECT_THAT(read(folder_ / ".err"), StartsWith("signorini: error: ")) << kilobytes;
+    EXPECT_FALSE(fs::exists(folder_ / "x.mtx"));
+  }
 }
 
 TEST_F(Qp, InterruptEndsCleanlyAndLeavesNothing) {

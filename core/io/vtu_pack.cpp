@@ -1,0 +1,88 @@
+#include "core/io/vtu_pack.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+namespace signorini {
+namespace {
+
+constexpr std::size_t block_size = std::size_t{1} << 18, sample_size = block_size / 16;
+constexpr double worthwhile = 0.6;  ///< packed size of a sample over its size
+
+/// Packs any number of blocks, one after the other.
+class Deflater {
+ public:
+  explicit Deflater(int level) {
+    if (deflateInit(&stream_, level) != Z_OK) throw std::bad_alloc();
+  }
+  ~Deflater() { deflateEnd(&stream_); }
+  Deflater(const Deflater&) = delete;
+  Deflater& operator=(const Deflater&) = delete;
+
+  void pack(std::span<const char> bytes, std::string& out) {
+    deflateReset(&stream_);
+    out.resize(deflateBound(&stream_, bytes.size()));
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    stream_.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream_.avail_out = static_cast<uInt>(out.size());
+    deflate(&stream_, Z_FINISH);  // there is room for all
+    out.resize(stream_.total_out);
+  }
+
+ private:
+  z_stream stream_{};
+};
+
+/// Blocks are taken as they come by the threads that pack them.
+class Packing {
+ public:
+  explicit Packing(std::span<const char> bytes)
+      : bytes_(bytes), blocks_((bytes.size() + block_size - 1) / block_size) {}
+
+  void work() {
+    Deflater fast(Z_BEST_SPEED), none(Z_NO_COMPRESSION);
+    std::string sample;
+    for (std::size_t k; (k = next_++) < blocks_.size();) {
+      const auto block = bytes_.subspan(k * block_size, std::min(block_size, bytes_.size() - k * block_size));
+      const auto start = block.first(std::min(sample_size, block.size()));
+      fast.pack(start, sample);
+      const bool shrinks = static_cast<double>(sample.size()) < worthwhile * static_cast<double>(start.size());
+      (shrinks ? fast : none).pack(block, blocks_[k]);
+    }
+  }
+
+  std::string packed() const {
+    std::vector<std::uint64_t> header{blocks_.size(), block_size, bytes_.size() % block_size};
+    std::size_t size = (header.size() + blocks_.size()) * sizeof header[0];
+    for (const std::string& block : blocks_) {
+      header.push_back(block.size());
+      size += block.size();
+    }
+    std::string all;
+    all.reserve(size);
+    all.append(reinterpret_cast<const char*>(header.data()), header.size() * sizeof header[0]);
+    for (const std::string& block : blocks_) all += block;
+    return all;
+  }
+
+ private:
+  std::span<const char> bytes_;
+  std::vector<std::string> blocks_;
+  std::atomic<std::size_t> next_{0};
+};
+
+}  // namespace
+
+std::string pack_vtu(std::span<const char> bytes, Crew& crew) {
+  Packing packing(bytes);
+  crew.run([&] { packing.work(); });
+  return packing.packed();
+}
+
+}  // namespace signorini
