@@ -49,19 +49,6 @@ void refuse_if_negative(const BlockMatrix<B>& A, const Vector& d) {
                           found.of_matrix / found.of_diagonal, largest - d.begin() + 1));
 }
 
-template <int B>
-bool diagonal_dominates(const BlockMatrix<B>& A) {
-  for (Index p = 0; p < A.size(); ++p)
-    for (int i = 0; i < B; ++i) {
-      double others = 0;
-      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-        for (int j = 0; j < B; ++j) others += std::abs(A.at(k)[i * B + j]);
-      const double diagonal = A.diagonal(p)[i * B + i];
-      if (!(others - diagonal <= (1 + rounding) * diagonal)) return false;
-    }
-  return true;
-}
-
 /// The levels of a matrix, the finest last.
 template <int B>
 class Search {
@@ -158,6 +145,19 @@ class Search {
 }  // namespace
 
 template <int B>
+bool diagonal_dominates(const BlockMatrix<B>& A) {
+  for (Index p = 0; p < A.size(); ++p)
+    for (int i = 0; i < B; ++i) {
+      double others = 0;
+      for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+        for (int j = 0; j < B; ++j) others += std::abs(A.at(k)[i * B + j]);
+      const double diagonal = A.diagonal(p)[i * B + i];
+      if (!(others - diagonal <= (1 + rounding) * diagonal)) return false;
+    }
+  return true;
+}
+
+template <int B>
 void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
   if (!diagonal_dominates(A)) Search<B>(A, levels).run();
 }
@@ -165,5 +165,8 @@ void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels
 template void refuse_indefinite(const BlockMatrix<1>&, const AlgebraicLevels<1>&);
 template void refuse_indefinite(const BlockMatrix<2>&, const AlgebraicLevels<2>&);
 template void refuse_indefinite(const BlockMatrix<3>&, const AlgebraicLevels<3>&);
+template bool diagonal_dominates(const BlockMatrix<1>&);
+template bool diagonal_dominates(const BlockMatrix<2>&);
+template bool diagonal_dominates(const BlockMatrix<3>&);
 
 }  // namespace signorini

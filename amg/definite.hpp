@@ -10,4 +10,8 @@ namespace signorini {
 template <int B>
 void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels);
 
+/// Whether each diagonal entry is at least the sum of the moduli of the others in its row, but for rounding.
+template <int B>
+bool diagonal_dominates(const BlockMatrix<B>& A);
+
 }  // namespace signorini

@@ -141,7 +141,8 @@ class QpRun {
       throw Error(Exit::no_solution,
                   fmt::format("{}: the energy is unbounded below within the bounds, as far as rounding lets one tell",
                               arguments_.matrix.string()));
-    time_.solve = lap_.lap();
+    time_.setup += result_.summary.setup_seconds;  // levels that waited for the bounds
+    time_.solve = lap_.lap() - result_.summary.setup_seconds;
     active_ = active(result_.x, vectors_);
   }
 
