@@ -10,12 +10,14 @@
 #include "amg/box.hpp"
 #include "amg/definite.hpp"
 #include "amg/given_levels.hpp"
+#include "amg/held_rows.hpp"
 #include "amg/hierarchy.hpp"
 #include "amg/motions.hpp"
 #include "amg/nested_start.hpp"
 #include "amg/recession.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/configuration.hpp"
@@ -72,20 +74,25 @@ class BlackBox::Solver {
 template <int B>
 class BlackBox::BlockSolver final : public Solver {
  public:
-  BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options, const NearNullSpace& near_null)
-      : options_(options), registry_(solver_components()) {
-    problem_.A = block_matrix<B>(A, &problem_.fixed);
-    problem_.b.assign(static_cast<std::size_t>(A.rows), 0);
-    problem_.start.assign(static_cast<std::size_t>(A.rows), 0);
-    motions_.emplace(problem_.A);
+  BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options, NearNullSpace near_null)
+      : options_(options), registry_(solver_components()), near_null_(std::move(near_null)), chosen_(!given) {
+    const auto n = static_cast<std::size_t>(A.rows);
+    problem_.A = block_matrix<B>(A, &zero_rows_);
+    for (std::size_t i = 0; i < n; ++i)  // what such a row is to be put back as
+      if (held(zero_rows_, i)) problem_.A.at(problem_.A.row[i / B])[i % B * (B + 1)] = 0;
+    problem_.b.assign(n, 0);
+    problem_.start.assign(n, 0);
     check_options(options_);
-    check_near_null(near_null, A.rows, coarsening_of(options_));
-    const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
-    levels_ = given ? take(*given)
-                    : algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_),
-                                             near_null, *aggregator);
-    problem_.galerkin = levels_.matrices;
-    if (!motions_->complete()) refuse_indefinite<B>(problem_.A, levels_);
+    check_near_null(near_null_, A.rows, coarsening_of(options_));
+    aggregator_ = registry_.create<Aggregator>("aggregates", options_.aggregates);
+    hold(zero_rows_);
+    held_.prescribe(problem_);
+    motions_.emplace(problem_.A);
+    if (given) levels_ = take(*given);
+    if (motions_->complete()) return;
+    // Levels wait for the bounds, which may hold unknowns, unless the matrix is judged by them.
+    if (!levels_) set_up();
+    refuse_indefinite<B>(problem_.A, *levels_);
   }
 
   void set_tolerance(double tolerance) override {
@@ -101,21 +108,27 @@ class BlackBox::BlockSolver final : public Solver {
     check_size("b", b, n);
     check_finite("b", b);
     problem_.b.assign(b.begin(), b.end());
-    problem_.constraints = box<B>(n, lower, upper);
+    const Box bounds(n, lower, upper);
     check_start(start);
-    problem_.prescribed_work = 0;
+    hold(held_by(bounds));
+    problem_.constraints = constraints<B>(bounds, problem_.fixed);
     for (std::size_t i = 0; i < n; ++i)
-      if (decoupled(i)) prescribe(i, lower.empty() ? -infinity : lower[i], upper.empty() ? infinity : upper[i], start);
+      problem_.start[i] = held(problem_.fixed, i) ? prescribed_value(i, bounds[i], start) : 0;
+    held_.prescribe(problem_);
+    const double begin = seconds();
+    if (!motions_) motions_.emplace(problem_.A);
+    if (!levels_) set_up();
+    const double ready = seconds();
     Result result;
     if (const auto row = motions_->falling(problem_.b, problem_.constraints))
       result = without_solution(*row, start);
     else if (!algebraic_settings(options_).only_twins)
-      result = solve(levels_, start, monitor);
+      result = solve(*levels_, start, monitor);
     else
-      result = solve(galerkin_hierarchy<B>(problem_, levels_.prolongations, transfer(), {.only_twins = true}), start,
+      result = solve(galerkin_hierarchy<B>(problem_, levels_->prolongations, transfer(), {.only_twins = true}), start,
                      monitor);
-    for (std::size_t i = 0; i < n; ++i)
-      if (decoupled(i)) result.multiplier[i] = -b[i];
+    result.summary.setup_seconds += ready - begin;
+    held_.residual(problem_, result.x.data(), b.data(), result.multiplier.data());
     return result;
   }
 
@@ -130,20 +143,46 @@ class BlackBox::BlockSolver final : public Solver {
     check_finite("start", start);
   }
 
-  /// The row of the matrix is zero.
-  bool decoupled(std::size_t i) const { return problem_.fixed[i / B] >> (i % B) & 1u; }
+  static bool held(const std::vector<Flags>& flags, std::size_t i) { return flags[i / B] >> (i % B) & 1u; }
+
+  /// Components whose row of the matrix is zero or whose bounds are equal.
+  std::vector<Flags> held_by(const Box& bounds) const {
+    std::vector<Flags> out = zero_rows_;
+    for (std::size_t i = 0; i < problem_.b.size(); ++i)
+      if (bounds[i].lower == bounds[i].upper) out[i / B] |= static_cast<Flags>(1u << (i % B));
+    return out;
+  }
+
+  /// Levels are for components that are held: where these are others, they have to be made anew.
+  void hold(std::vector<Flags> components) {
+    if (components == problem_.fixed) return;
+    held_.hold(problem_, std::move(components));
+    motions_.reset();
+    if (levels_ && !chosen_) interpolations_ = std::move(levels_->prolongations);
+    levels_.reset();
+  }
+
+  void set_up() {
+    if (chosen_)
+      levels_ = algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_), near_null_,
+                                       *aggregator_);
+    else
+      levels_ = galerkin_hierarchy<B>(problem_, std::move(interpolations_), transfer());
+  }
 
   /// The bound that the load goes to; without load, the admissible value next to the start.
-  void prescribe(std::size_t i, double lower, double upper, std::span<const double> start) {
+  double prescribed_value(std::size_t i, const Interval& bounds, std::span<const double> start) const {
+    if (bounds.lower == bounds.upper) return bounds.lower;
     const double load = problem_.b[i];
-    const double value = load > 0 ? upper : load < 0 ? lower : std::clamp(start.empty() ? 0.0 : start[i], lower, upper);
+    const double value = load > 0   ? bounds.upper
+                         : load < 0 ? bounds.lower
+                                    : std::clamp(start.empty() ? 0.0 : start[i], bounds.lower, bounds.upper);
     if (!std::isfinite(value))
       throw Error(Exit::no_solution,
                   fmt::format("the energy is unbounded below: row {} of the matrix is zero, and no bound holds its "
                               "load {}",
                               i + 1, load));
-    problem_.prescribed_work += load * value;
-    problem_.b[i] = problem_.start[i] = value;
+    return value;
   }
 
   AlgebraicLevels<B> take(const GivenLevels& given) const {
@@ -159,7 +198,8 @@ class BlackBox::BlockSolver final : public Solver {
     if (start.empty())
       result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor);
     else
-      result.x.assign(start.begin(), start.end());
+      result.x = nested_start_from<B>({start.begin(), start.end()}, problem_, levels.prolongations, options_, registry_,
+                                      monitor);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     if (const Outcome o = result.summary.outcome; o != Outcome::interrupted && o != Outcome::unbounded)
       recognise_unbounded(result);
@@ -203,8 +243,14 @@ class BlackBox::BlockSolver final : public Solver {
   SolverOptions options_;
   Registry registry_;
   DiscreteProblem<B> problem_;
-  AlgebraicLevels<B> levels_;
-  std::optional<Motions<B>> motions_;
+  std::vector<Flags> zero_rows_;  // per vector
+  HeldRows<B> held_;
+  std::optional<Motions<B>> motions_;  // with the components that are held; none: to be found
+  NearNullSpace near_null_;
+  std::unique_ptr<Aggregator> aggregator_;
+  bool chosen_;                               // levels by the matrix
+  std::optional<AlgebraicLevels<B>> levels_;  // for the components that are held; none: to be made
+  std::vector<Prolongation> interpolations_;  // given ones, while they have no levels
 };
 
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,

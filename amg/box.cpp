@@ -17,56 +17,42 @@ void check(const char* what, std::span<const double> bounds, std::size_t n) {
       input_error(what, fmt::format("found NaN in row {}, expected a number, inf or -inf", i + 1));
 }
 
-struct Interval {
-  double lower, upper;
-
-  bool empty() const { return lower > upper || lower == infinity || upper == -infinity; }
-  bool all() const { return lower == -infinity && upper == infinity; }
-};
-
-class Box {
- public:
-  Box(std::span<const double> lower, std::span<const double> upper) : lower_(lower), upper_(upper) {}
-
-  Interval operator[](std::size_t i) const {
-    return {lower_.empty() ? -infinity : lower_[i], upper_.empty() ? infinity : upper_[i]};
-  }
-
-  void refuse_empty(std::size_t n) const {
-    constexpr std::size_t most = 5;  // rows in the message
-    std::size_t count = 0;
-    std::string rows;
-    for (std::size_t i = 0; i < n; ++i)
-      if (const Interval bounds = (*this)[i]; bounds.empty() && ++count <= most)
-        rows += fmt::format("{}row {}: {} and {}", count == 1 ? "" : ", ", i + 1, bounds.lower, bounds.upper);
-    if (count > 0)
-      throw Error(Exit::no_solution, fmt::format("infeasible bounds: no number lies between the lower and the upper "
-                                                 "bound in {} {}: {}{}",
-                                                 count, count == 1 ? "row" : "rows", rows, count > most ? "..." : ""));
-  }
-
- private:
-  std::span<const double> lower_, upper_;
-};
+void refuse_empty(const Box& bounds, std::size_t n) {
+  constexpr std::size_t most = 5;  // rows in the message
+  std::size_t count = 0;
+  std::string rows;
+  for (std::size_t i = 0; i < n; ++i)
+    if (const Interval found = bounds[i]; found.empty() && ++count <= most)
+      rows += fmt::format("{}row {}: {} and {}", count == 1 ? "" : ", ", i + 1, found.lower, found.upper);
+  if (count > 0)
+    throw Error(Exit::no_solution, fmt::format("infeasible bounds: no number lies between the lower and the upper "
+                                               "bound in {} {}: {}{}",
+                                               count, count == 1 ? "row" : "rows", rows, count > most ? "..." : ""));
+}
 
 }  // namespace
 
-template <int B>
-Constraints<B> box(std::size_t n, std::span<const double> lower, std::span<const double> upper) {
+Box::Box(std::size_t n, std::span<const double> lower, std::span<const double> upper) : lower_(lower), upper_(upper) {
   check("lower", lower, n);
   check("upper", upper, n);
-  const Box bounds(lower, upper);
-  bounds.refuse_empty(n);
+  refuse_empty(*this, n);
+}
+
+template <int B>
+Constraints<B> constraints(const Box& bounds, const std::vector<Flags>& held) {
   Constraints<B> out;
-  out.slot.assign(n / B, -1);
-  for (Index p = 0; p < static_cast<Index>(n / B); ++p) {
+  out.slot.assign(held.size(), -1);
+  for (Index p = 0; p < static_cast<Index>(held.size()); ++p) {
+    Interval of[B];
     bool any = false;
-    for (int k = 0; k < B; ++k) any = any || !bounds[static_cast<std::size_t>(Offset{p} * B + k)].all();
+    for (int k = 0; k < B; ++k) {
+      of[k] = held[p] >> k & 1u ? Interval{-infinity, infinity} : bounds[static_cast<std::size_t>(Offset{p} * B + k)];
+      any = any || !of[k].all();
+    }
     if (!any) continue;
     out.slot[p] = out.size();
     out.vector.push_back(p);
-    for (int k = 0; k < B; ++k) {
-      const Interval interval = bounds[static_cast<std::size_t>(Offset{p} * B + k)];
+    for (const Interval& interval : of) {
       out.lower.push_back(interval.lower);
       out.upper.push_back(interval.upper);
     }
@@ -74,8 +60,8 @@ Constraints<B> box(std::size_t n, std::span<const double> lower, std::span<const
   return out;
 }
 
-template Constraints<1> box(std::size_t, std::span<const double>, std::span<const double>);
-template Constraints<2> box(std::size_t, std::span<const double>, std::span<const double>);
-template Constraints<3> box(std::size_t, std::span<const double>, std::span<const double>);
+template Constraints<1> constraints(const Box&, const std::vector<Flags>&);
+template Constraints<2> constraints(const Box&, const std::vector<Flags>&);
+template Constraints<3> constraints(const Box&, const std::vector<Flags>&);
 
 }  // namespace signorini

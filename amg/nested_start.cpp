@@ -6,6 +6,7 @@
 #include "core/fem/nested.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
+#include "core/solver/weights.hpp"
 
 namespace signorini {
 
@@ -109,6 +110,15 @@ bool lowers(const DiscreteProblem<B>& problem, const std::vector<double>& a, con
   return gain >= 0;
 }
 
+/// A sweep to either side.
+template <int B>
+void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
+  Level<B> level = finest_level(problem);
+  level.x = x.data();
+  level.sweep(Order::forward);
+  level.sweep(Order::backward);
+}
+
 /// The start that a coarser level gave, where it is better than none: a body that a coarser level hardly holds may have
 /// been carried away there. What is merely rough is smoothed.
 template <int B>
@@ -125,6 +135,63 @@ std::vector<double> better_start(const DiscreteProblem<B>& problem, std::vector<
     if (lowers(problem, admissible, none)) return x;
   }
   return problem.start;
+}
+
+/// Makes a problem that for the difference of its solution to x, and puts it back in the end.
+template <int B>
+class Difference {
+ public:
+  Difference(DiscreteProblem<B>& problem, const std::vector<double>& x)
+      : problem_(problem),
+        b_(problem.b),
+        start_(problem.start),
+        lower_(problem.constraints.lower),
+        upper_(problem.constraints.upper) {
+    residual<B>(problem.A, x.data(), b_.data(), problem.b.data());
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (problem.fixed[k / B] >> (k % B) & 1u) problem.start[k] -= x[k];
+    Constraints<B>& c = problem.constraints;
+    for (std::size_t at = 0; at < c.lower.size(); ++at) {
+      const double from = x[Offset{c.vector[at / B]} * B + at % B];
+      c.lower[at] -= from;
+      c.upper[at] -= from;
+    }
+  }
+  Difference(const Difference&) = delete;
+  Difference& operator=(const Difference&) = delete;
+  ~Difference() {
+    problem_.b.swap(b_);
+    problem_.start.swap(start_);
+    problem_.constraints.lower.swap(lower_);
+    problem_.constraints.upper.swap(upper_);
+  }
+
+ private:
+  DiscreteProblem<B>& problem_;
+  std::vector<double> b_, start_, lower_, upper_;
+};
+
+/// What coarser levels cannot represent of x: d'Ad of the free components d of x less its interpolation from the twins.
+template <int B>
+double rough_energy(const DiscreteProblem<B>& problem, const Prolongation& P, const std::vector<double>& x) {
+  std::vector<double> coarse(Offset{P.coarse} * B, 0.0), d = x;
+  const std::vector<Index> twin = P.twins();
+  for (Index q = 0; q < P.coarse; ++q)
+    if (twin[q] >= 0) std::copy_n(x.begin() + Offset{twin[q]} * B, B, coarse.begin() + Offset{q} * B);
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Index p = 0; p < P.fine(); ++p) {
+      double value[B] = {};
+      weights::interpolate<B>(P, weight, p, coarse.data(), value);
+      for (int k = 0; k < B; ++k) d[Offset{p} * B + k] -= value[k];
+    }
+  });
+  apply_mask<B>(problem.fixed, d);
+  double sum = 0, Ad[B];
+  for (Index p = 0; p < problem.A.size(); ++p) {
+    row_product(problem.A, p, d.data(), Ad);
+    for (int k = 0; k < B; ++k) sum += d[Offset{p} * B + k] * Ad[k];
+  }
+  return sum;
 }
 
 }  // namespace
@@ -157,11 +224,43 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
   }
 }
 
+template <int B>
+std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
+                                      std::span<const Prolongation> prolongations, const SolverOptions& options,
+                                      const Registry& registry, const Monitor& monitor) {
+  constexpr double small = 0.1;  // part of what coarser levels get wrong
+  if (prolongations.empty()) return given;
+  std::vector<double> x;
+  {
+    const Difference<B> difference(problem, given);
+    x = nested_start(problem, prolongations, options, registry, monitor);
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += given[k];
+  make_admissible(problem, x);
+  sweep(problem, x);
+  std::vector<double> correction = x;
+  for (std::size_t k = 0; k < x.size(); ++k) correction[k] -= given[k];
+  const Prolongation& P = prolongations.back();
+  if (rough_energy(problem, P, correction) <= small * small * rough_energy(problem, P, x)) return x;
+  std::vector<double> none = nested_start(problem, prolongations, options, registry, monitor);
+  make_admissible(problem, none);
+  return lowers(problem, x, none) ? x : none;
+}
+
 template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,
                                           const SolverOptions&, const Registry&, const Monitor&);
 template std::vector<double> nested_start(const DiscreteProblem<2>&, std::span<const Prolongation>,
                                           const SolverOptions&, const Registry&, const Monitor&);
 template std::vector<double> nested_start(const DiscreteProblem<3>&, std::span<const Prolongation>,
                                           const SolverOptions&, const Registry&, const Monitor&);
+
+#define SIGNORINI_INSTANTIATE(B)                                                                                       \
+  template std::vector<double> nested_start_from(const std::vector<double>&, DiscreteProblem<B>&,                      \
+                                                 std::span<const Prolongation>, const SolverOptions&, const Registry&, \
+                                                 const Monitor&);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

@@ -121,7 +121,8 @@ class QpRun {
     stop_if_interrupted();
     if (result_.summary.outcome == Outcome::unbounded)
       throw Error(Exit::no_solution, fmt::format("{}: {}", arguments_.matrix.string(), result_.summary.reason));
-    time_.solve = lap_.lap();
+    time_.setup += result_.summary.setup_seconds;  // levels that waited for the bounds
+    time_.solve = lap_.lap() - result_.summary.setup_seconds;
     active_ = active(result_.x, vectors_);
   }
 

@@ -73,6 +73,22 @@ void prescribe(DiscreteProblem<B>& problem, Index p, const double* Av) {
   }
 }
 
+template <int B>
+void eliminate_row(DiscreteProblem<B>& problem, Index p) {
+  BlockMatrix<B>& A = problem.A;
+  const std::vector<Flags>& fixed = problem.fixed;
+  double Av[B] = {};
+  bool coupled = false;
+  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+    const Index q = A.column[k];
+    if (!(fixed[p] | fixed[q])) continue;
+    if (fixed[q]) block::add_product<B>(A.at(k), problem.start.data() + Offset{q} * B, Av);
+    coupled = coupled || fixed[q];
+    erase_fixed<B>(A.at(k), fixed[p], fixed[q]);
+  }
+  if (fixed[p] || coupled) prescribe(problem, p, Av);
+}
+
 }  // namespace
 
 template <int B>
@@ -139,27 +155,20 @@ void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames) 
 
 template <int B>
 void eliminate(DiscreteProblem<B>& problem) {
-  BlockMatrix<B>& A = problem.A;
-  const std::vector<Flags>& fixed = problem.fixed;
-  for (Index p = 0; p < A.size(); ++p) {
-    double Av[B] = {};
-    bool coupled = false;
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
-      const Index q = A.column[k];
-      if (!(fixed[p] | fixed[q])) continue;
-      if (fixed[q]) block::add_product<B>(A.at(k), problem.start.data() + Offset{q} * B, Av);
-      coupled = coupled || fixed[q];
-      erase_fixed<B>(A.at(k), fixed[p], fixed[q]);
-    }
-    if (fixed[p] || coupled) prescribe(problem, p, Av);
-  }
+  for (Index p = 0; p < problem.A.size(); ++p) eliminate_row(problem, p);
+}
+
+template <int B>
+void eliminate(DiscreteProblem<B>& problem, std::span<const Index> vectors) {
+  for (const Index p : vectors) eliminate_row(problem, p);
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                                          \
   template void local_basis<B>(const double*, int, const double*, int, double*, double*); \
   template double separation<B>(const double*, int);                                      \
   template void rotate(BlockMatrix<B>&, std::vector<double>&, const Frames<B>&);          \
-  template void eliminate(DiscreteProblem<B>&);
+  template void eliminate(DiscreteProblem<B>&);                                           \
+  template void eliminate(DiscreteProblem<B>&, std::span<const Index>);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

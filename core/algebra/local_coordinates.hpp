@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -25,5 +27,9 @@ void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames);
 /// prescribed_energy, prescribed_work, coupled and coupling.
 template <int B>
 void eliminate(DiscreteProblem<B>& problem);
+
+/// The same where only these vectors, in ascending order, have fixed components or are coupled to such ones.
+template <int B>
+void eliminate(DiscreteProblem<B>& problem, std::span<const Index> vectors);
 
 }  // namespace signorini

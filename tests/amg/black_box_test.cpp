@@ -236,6 +236,95 @@ TEST(BlackBox, SolvesWithoutBoundsAndWithAllOfThemEqual) {
   EXPECT_EQ(fixed.x, b);
 }
 
+/// What is left of a matrix when the rows and columns of some unknowns are those of the identity, and b accounts for
+/// their values.
+struct Eliminated {
+  Matrix A;
+  std::vector<double> b;
+
+  Eliminated(const Matrix& whole, std::vector<double> load, const std::vector<double>& lower,
+             const std::vector<double>& upper)
+      : A(whole) {
+    const auto held = [&](Eigen::Index i) { return lower[i] == upper[i]; };
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(whole.rows());
+    for (Eigen::Index i = 0; i < whole.rows(); ++i)
+      if (held(i)) values[i] = lower[i];
+    const Eigen::VectorXd rest = vector(load) - whole * values;
+    A.prune([&](Eigen::Index i, Eigen::Index j, double) { return i == j || (!held(i) && !held(j)); });
+    for (Eigen::Index i = 0; i < whole.rows(); ++i) {
+      if (held(i)) A.coeffRef(i, i) = 1;
+      load[i] = held(i) ? values[i] : rest[i];
+    }
+    b = std::move(load);
+  }
+};
+
+void expect_like_eliminated(BlackBox& solver, const Matrix& A, int block, const std::vector<double>& b,
+                            const std::vector<double>& lower, const std::vector<double>& upper) {
+  SolverOptions options;
+  options.tolerance = 1e-12;
+  solver.set_tolerance(options.tolerance);
+  const auto found = solver.solve(b, lower, upper);
+  const Eliminated eliminated(A, b, lower, upper);
+  const auto expected = BlackBox(eliminated.A, block, options).solve(eliminated.b, lower, upper);
+  EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+  EXPECT_NEAR(found.summary.iterations, expected.summary.iterations, 1);
+  EXPECT_LE((vector(found.x) - vector(expected.x)).norm(), 1e-10 * vector(expected.x).norm());
+  const Eigen::VectorXd force = A * vector(found.x) - vector(b);
+  EXPECT_LE((vector(found.multiplier) - force).norm(), 1e-12 * (A * vector(found.x)).norm());
+  EXPECT_NEAR(found.summary.energy, 0.5 * vector(found.x).dot(A * vector(found.x)) - vector(b).dot(vector(found.x)),
+              1e-10 * vector(found.x).dot(A * vector(found.x)));
+}
+
+// How a matrix alone gets prescribed values.
+TEST(BlackBox, EqualBoundsTakeAsManyCyclesAsEliminatedRows) {
+  constexpr int cells = 150, side = cells + 1;
+  const Matrix A = neumann_laplacian(cells);
+  const auto n = static_cast<std::size_t>(A.rows());
+  std::vector<double> b(n, -1.0 / (cells * cells)), lower(n, -0.02), upper(n, infinity);
+  for (int i = 0; i < side; ++i)
+    for (const int at : {i, (side - 1) * side + i, i * side, i * side + side - 1})
+      lower[at] = upper[at] = 0.01 * std::sin(0.1 * at);
+  BlackBox solver(A);
+  expect_like_eliminated(solver, A, 1, b, lower, upper);
+  for (std::size_t i = 0; i < n; ++i)  // other values of the same unknowns, and another load
+    if (lower[i] == upper[i]) lower[i] = upper[i] = 0.005;
+  for (double& force : b) force *= 2;
+  expect_like_eliminated(solver, A, 1, b, lower, upper);
+  for (int i = 0; i < side; ++i) upper[i] = infinity;  // fewer, and others
+  lower[n / 2] = upper[n / 2] = 0.1;
+  expect_like_eliminated(solver, A, 1, b, lower, upper);
+}
+
+TEST(BlackBox, EqualBoundsOfSomeComponentsTakeAsManyCyclesAsEliminatedRows) {
+  constexpr int cells = 60;
+  const Mesh<2> mesh = cube<2>(0, 1, cells);
+  const Matrix A = sparse(stiffness<2, 2>(mesh, Model<2>{}));
+  const auto n = static_cast<std::size_t>(A.rows());
+  std::vector<double> b(n, 0), lower(n, -infinity), upper(n, infinity);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    const auto [x, y] = std::pair(mesh.points[p][0], mesh.points[p][1]);
+    if (y == 1) lower[2 * p + 1] = upper[2 * p + 1] = 0;
+    if (x == 0) lower[2 * p] = upper[2 * p] = 0;
+    if (y == 0) lower[2 * p + 1] = -0.1 * x * x;
+    b[2 * p + 1] = -1 / static_cast<double>(n);
+  }
+  BlackBox solver(A, 2);
+  expect_like_eliminated(solver, A, 2, b, lower, upper);
+}
+
+TEST(BlackBox, FreesUnknownsWhoseBoundsAreNoLongerEqual) {
+  const Matrix A = laplacian(60);
+  const std::vector<double> b(static_cast<std::size_t>(A.rows()), -1e-3);
+  std::vector<double> lower(b.size(), -0.3), upper(b.size(), infinity);
+  for (std::size_t i = 0; i < b.size(); i += 7) upper[i] = lower[i];
+  BlackBox solver(A);
+  const auto fresh = BlackBox(A).solve(b), held = solver.solve(b, lower, upper), free = solver.solve(b);
+  EXPECT_NE(held.x, free.x);
+  EXPECT_EQ(fresh.x, free.x);
+  EXPECT_EQ(fresh.summary.iterations, free.summary.iterations);
+}
+
 // The graph Laplacian has the constants in its kernel.
 TEST(BlackBox, SolvesSemidefiniteProblemsThatTheBoundsMakeSolvable) {
   for (const int cells : {10, 60}) {

@@ -1,0 +1,116 @@
+// A start costs no cycles, whatever it is, and saves them where it is close.
+#include <gtest/gtest.h>
+
+#include "amg/black_box.hpp"
+#include "tests/amg/matrices.hpp"
+#include "tests/support/random_problem.hpp"
+
+namespace signorini::test {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+struct Change {
+  std::vector<double> b, lower;
+};
+
+int cycles(BlackBox& solver, const Change& problem, const std::vector<double>& start = {}) {
+  const auto result = solver.solve(problem.b, problem.lower, {}, start);
+  EXPECT_TRUE(result.summary.converged()) << result.summary.reason;
+  return result.summary.iterations;
+}
+
+void add_to(std::vector<double>& values, double summand) {
+  for (double& v : values) v += summand;
+}
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& v : values) v *= factor;
+}
+
+/// @param size of a bound
+void expect_few_cycles_after_changes(BlackBox& solver, const Change& before, double size) {
+  const std::vector<double> x = solver.solve(before.b, before.lower).x;
+  for (const double change : {1e-8, 1e-6, 1e-4, 1e-2, 1e-1, 1.0, -1e-8, -1e-6, -1e-4, -1e-2, -1e-1, -1.0}) {
+    SCOPED_TRACE(change);
+    Change moved = before, loaded = before;
+    add_to(moved.lower, change * size);
+    scale(loaded.b, 1 + change);
+    for (const Change& after : {moved, loaded}) {
+      const int warm = cycles(solver, after, x), cold = cycles(solver, after);
+      EXPECT_LE(warm, cold + 1);
+      if (std::abs(change) < 1e-5) EXPECT_LE(warm, cold - 2);
+      if (std::abs(change) < 1e-7) EXPECT_LE(warm, cold / 2);
+    }
+  }
+}
+
+TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAMembrane) {
+  const Matrix A = laplacian(100);
+  const std::vector<double> b(static_cast<std::size_t>(A.rows()), -1e-4);
+  std::vector<double> lower(b.size(), -0.04);
+  BlackBox solver(A);
+  expect_few_cycles_after_changes(solver, {b, lower}, 0.04);
+}
+
+TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAnElasticBody) {
+  const Mesh<2> mesh = cube<2>(0, 1, 48);
+  Matrix A = sparse(stiffness<2, 2>(mesh, Model<2>{}));
+  std::vector<double> b(static_cast<std::size_t>(A.rows()), 0), lower(b.size(), -infinity);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    const auto [x, y] = std::pair(mesh.points[p][0], mesh.points[p][1]);
+    b[2 * p + 1] = -1 / static_cast<double>(mesh.points.size());
+    if (y == 0) lower[2 * p + 1] = -0.05 - 0.5 * (x - 0.5) * (x - 0.5);
+    if (y == 1)  // springs
+      for (const std::size_t i : {2 * p, 2 * p + 1})
+        A.coeffRef(static_cast<Index>(i), static_cast<Index>(i)) += 1.0 / 48;
+  }
+  BlackBox solver(A, 2);
+  expect_few_cycles_after_changes(solver, {b, lower}, 0.05);
+}
+
+// The bounds leave the solution by and by, as in docs/black_box.md.
+TEST(WarmStart, FollowsASinkingFloorOnGivenLevels) {
+  const auto interpolation = [](int n) {
+    Matrix P(n, n / 2);
+    for (int i = 0; i < n / 2; ++i) {
+      P.insert(2 * i, i) = P.insert(2 * i + 2, i) = 0.5;
+      P.insert(2 * i + 1, i) = 1;
+    }
+    return P;
+  };
+  constexpr int n = (1 << 12) - 1;
+  Matrix A(n, n);
+  for (int i = 0; i < n; ++i) {
+    A.insert(i, i) = 2.0 * (n + 1);
+    if (i > 0) A.insert(i, i - 1) = A.insert(i - 1, i) = -1.0 * (n + 1);
+  }
+  std::vector<SparseRows> interpolations;
+  for (int fine = 15; fine <= n; fine = 2 * fine + 1) interpolations.emplace_back(interpolation(fine));
+  BlackBox solver(A, interpolations);
+  const std::vector<double> load(n, -1.0 / (n + 1));
+  std::vector<double> x;
+  for (const double floor : {-0.03, -0.06, -0.12}) {
+    const std::vector<double> lower(n, floor);
+    EXPECT_LE(cycles(solver, {load, lower}, x), cycles(solver, {load, lower}) + 1) << floor;
+    x = solver.solve(load, lower).x;
+  }
+}
+
+TEST(WarmStart, TakesFewCyclesFromAnyVector) {
+  const Matrix A = laplacian(100);
+  const auto n = static_cast<std::size_t>(A.rows());
+  const std::vector<double> b(n, -1e-4), lower(n, -0.04);
+  BlackBox solver(A);
+  const int cold = cycles(solver, {b, lower});
+  Random random(91);
+  for (const double size : {1e-4, 1e-2, 1.0, 1e4}) {
+    std::vector<double> start(n);
+    for (double& v : start) v = random.between(-size, size);
+    EXPECT_LE(cycles(solver, {b, lower}, start), cold + 1) << size;
+  }
+  EXPECT_LE(cycles(solver, {b, lower}, std::vector<double>(n, 0)), cold + 1);
+}
+
+}  // namespace
+}  // namespace signorini::test
