@@ -7,6 +7,7 @@
 
 #include "amg/cone.hpp"
 #include "amg/masked_cg.hpp"
+#include "amg/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
 #include "core/solver/rounding.hpp"
 
@@ -276,28 +277,10 @@ bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
 // Where motions without energy are many, a shift keeps steps out of them: the bounds cut off least of the shortest one.
 template <int B>
 void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>& mask) {
-  const BlockMatrix<B>& A = *level.A;
-  const Index n = A.size() * B;
-  scale_.assign(static_cast<std::size_t>(n), 0.0);
-  for (Index p = 0; p < A.size(); ++p)
-    for (int k = 0; k < B; ++k)
-      if (!(mask[p] >> k & 1u)) scale_[p * B + k] = 1 / std::sqrt(A.diagonal(p)[k * B + k]);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(A.value.size() / 2 + static_cast<std::size_t>(n));
-  for (Index p = 0; p < A.size(); ++p)
-    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-      for (int i = 0; i < B; ++i)
-        for (int j = 0; j < B; ++j) {
-          const Index row = p * B + i, column = A.column[k] * B + j;
-          if (row < column) continue;
-          const double value = A.at(k)[i * B + j] * scale_[row] * scale_[column];
-          entries.emplace_back(row, column, row == column ? 1 : value);
-        }
-  Eigen::SparseMatrix<double> S(n, n);
-  S.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseMatrix<double> S = with_unit_diagonal(*level.A, mask, scale_);
   factor_.factorise(S);
   if (factor_.held().size() <= max_motions) return;
-  for (Eigen::Index i = 0; i < n; ++i) S.coeffRef(i, i) += shift;
+  for (Eigen::Index i = 0; i < S.rows(); ++i) S.coeffRef(i, i) += shift;
   factor_.factorise(S);
 }
 

@@ -8,6 +8,7 @@
 #include "amg/cone.hpp"
 #include "amg/definite.hpp"
 #include "amg/held_cholesky.hpp"
+#include "amg/unit_diagonal.hpp"
 
 namespace signorini {
 namespace {
@@ -19,10 +20,9 @@ constexpr double rounding_of_loads = 256 * epsilon;   // of the work, relative t
 constexpr double negligible = 1e-9;                   // components of a motion, relative to the largest
 constexpr double part_of_load = 1e-6;                 // that has to be left of the forces where bounds end motions
 
-// What may be factorised: few vectors or nearly a tree, and so many operations per entry at most.
+// What may be factorised: few vectors, or nearly a tree.
 constexpr std::size_t few_vectors = 4000;
-constexpr Offset blocks_of_a_tree = 4;  // per vector
-constexpr double operations_per_entry = 300, few_operations = 1e7;
+constexpr Offset blocks_of_a_tree = 4;     // per vector
 constexpr std::size_t most_motions = 100;  // of one component
 
 enum class Dominance { none, weak, strict };
@@ -135,42 +135,41 @@ class Motions<B>::Finder {
 
   // Returns whether everything is known of the component then.
   bool factorise() {
-    Eigen::VectorXd scale;
-    const Eigen::SparseMatrix<double> S = with_unit_diagonal(scale);
+    std::vector<double> scales;
+    const std::vector<Flags> nothing_masked(vectors_.size(), 0);
+    const Eigen::SparseMatrix<double> S = with_unit_diagonal(component(), nothing_masked, scales);
+    const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(scales.data(), S.rows());
     HeldCholesky factor;
-    const double entries = 2 * static_cast<double>(S.nonZeros());
-    if (!factor.factorise(S, std::max(few_operations, operations_per_entry * entries))) return false;
-    if (const Eigen::VectorXd d = factor.falling_direction(); d.size() > 0) {
-      const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
-      Eigen::Index largest = 0;
-      scale.cwiseProduct(d).cwiseAbs().maxCoeff(&largest);
-      refuse_if_negative({d.dot(Sd), d.squaredNorm()}, row(largest));
-    }
+    if (!factor.factorise(S, affordable_operations(S.nonZeros()))) return false;
+    if (factor.falling_direction().size() > 0) refuse_if_indefinite(S, scale);
     if (factor.held().empty()) return true;
     return factor.held().size() <= most_motions && keep_motions(S, factor, scale);
   }
 
+  // A pivot may be negative by rounding, but not after what rounding may do was added to the diagonal.
+  void refuse_if_indefinite(Eigen::SparseMatrix<double> S, const Eigen::VectorXd& scale) const {
+    for (Eigen::Index k = 0; k < S.rows(); ++k) S.coeffRef(k, k) += rounding_of_energy;
+    HeldCholesky factor;
+    factor.factorise(S);
+    const Eigen::VectorXd d = factor.falling_direction();
+    if (d.size() == 0) return;
+    const double energy = d.dot(S.selfadjointView<Eigen::Lower>() * d), of_diagonal = d.squaredNorm();
+    Eigen::Index largest = 0;
+    scale.cwiseProduct(d).cwiseAbs().maxCoeff(&largest);
+    refuse_if_negative({energy - rounding_of_energy * of_diagonal, of_diagonal}, row(largest));
+  }
+
   Offset row(Eigen::Index k) const { return Offset{vectors_[static_cast<std::size_t>(k / B)]} * B + k % B; }
 
-  // The component's matrix in units in which its diagonal is one; the lower triangle.
-  Eigen::SparseMatrix<double> with_unit_diagonal(Eigen::VectorXd& scale) const {
-    const auto n = static_cast<Eigen::Index>(vectors_.size()) * B;
-    scale.resize(n);
-    for (Eigen::Index k = 0; k < n; ++k)
-      scale[k] = 1 / std::sqrt(A_.diagonal(vectors_[static_cast<std::size_t>(k / B)])[k % B * (B + 1)]);
-    std::vector<Eigen::Triplet<double>> entries;
-    for (Eigen::Index a = 0; a < n / B; ++a) {
-      const Index p = vectors_[static_cast<std::size_t>(a)];
-      for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k)
-        for (int i = 0; i < B; ++i)
-          for (int j = 0; j < B; ++j) {
-            const Eigen::Index r = a * B + i, c = Eigen::Index{place_[A_.column[k]]} * B + j;
-            if (r >= c) entries.emplace_back(r, c, r == c ? 1 : A_.at(k)[i * B + j] * scale[r] * scale[c]);
-          }
+  // The matrix of the component alone, its vectors numbered by their place in it.
+  BlockMatrix<B> component() const {
+    BlockMatrix<B> out;
+    for (const Index p : vectors_) {
+      for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k) out.column.push_back(place_[A_.column[k]]);
+      out.value.insert(out.value.end(), A_.at(A_.row[p]), A_.at(A_.row[p + 1]));
+      out.row.push_back(static_cast<Offset>(out.column.size()));
     }
-    Eigen::SparseMatrix<double> S(n, n);
-    S.setFromTriplets(entries.begin(), entries.end());
-    return S;
+    return out;
   }
 
   // Pivots may be small without vanishing: only what the matrix itself does not resist is a motion.

@@ -1,0 +1,17 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "core/algebra/block_matrix.hpp"
+
+namespace signorini {
+
+/// The lower triangle of a matrix in units in which its diagonal is one: s_i a_ij s_j with s_i = 1 / sqrt(a_ii), B rows
+/// per vector. Masked components keep their diagonal entry alone.
+/// @param mask per vector
+/// @param scale s, zero on masked components
+template <int B>
+Eigen::SparseMatrix<double> with_unit_diagonal(const BlockMatrix<B>& A, const std::vector<Flags>& mask,
+                                               std::vector<double>& scale);
+
+}  // namespace signorini
