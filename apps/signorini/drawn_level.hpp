@@ -11,7 +11,9 @@
 
 namespace signorini {
 
-inline constexpr std::size_t most_patches = 60000;  ///< what gnuplot draws in a second or two
+inline constexpr std::size_t most_patches = 200000;  ///< about as many as a panel has pixels
+
+inline bool is_too_many(const std::vector<Patch>& patches) { return patches.size() > most_patches; }
 
 /// A level of the hierarchy, and for each of its vertices that on the finest level.
 template <int D>
@@ -41,14 +43,14 @@ bool coarsen(const MeshHierarchy<D>& hierarchy, Drawn<D>& drawn) {
   return true;
 }
 
-/// The finest level on which `patches` are few enough to be drawn in a moment.
+/// The finest level on which `patches`, which stops once is_too_many() of them, are few enough to be drawn in a moment.
 template <int D, class Patches>
 std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, Patches patches) {
   Drawn<D> drawn = finest(shown.hierarchy);
   std::vector<Patch> result = patches(drawn);
-  while (result.size() > most_patches && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
-  if (result.size() <= most_patches) return result;
-  notes.push_back(fmt::format("result.png was left out: {} triangles are too many to draw", result.size()));
+  while (is_too_many(result) && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
+  if (!is_too_many(result)) return result;
+  notes.push_back(fmt::format("result.png was left out: more than {} triangles are too many to draw", most_patches));
   return {};
 }
 

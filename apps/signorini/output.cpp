@@ -7,11 +7,9 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "apps/signorini/show.hpp"
 #include "core/io/convergence.hpp"
-#include "core/io/picture.hpp"
 
 namespace signorini {
 namespace {
@@ -80,12 +78,6 @@ void finish(Gnuplot& gnuplot, const char* picture, std::vector<std::string>& war
   if (!problem.empty()) warnings.push_back(fmt::format("{} was not drawn: {}", picture, problem));
 }
 
-void write_tables(AtomicFiles& files, const Report& report) {
-  std::vector<const Summary*> summaries;
-  for (const StepReport& step : report.steps) summaries.push_back(&step.summary);
-  write_text(files.stage("convergence.csv"), convergence_csv(summaries));
-  write_text(files.stage("phases.csv"), phases_csv(summaries));
-}
 }  // namespace
 
 template <int D, int B>
@@ -107,14 +99,13 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 
 template <int D>
 void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t) {
-  if (!wanted_) return;
   const std::string name = steps_ == 1 ? "solution.vtu" : fmt::format("solution_{:03}.vtu", entries_.size() + 1);
   write_vtu(files_.stage(name), mesh, fields, {}, threads_);
   entries_.push_back({t, name});
 }
 
 void SolutionFiles::finish() const {
-  if (wanted_ && steps_ > 1) write_pvd(files_.stage("solution.pvd"), entries_);
+  if (!entries_.empty() && steps_ > 1) write_pvd(files_.stage("solution.pvd"), entries_);
 }
 
 bool is_result_file(const std::string& name) {
@@ -128,24 +119,26 @@ bool is_result_file(const std::string& name) {
 }
 
 template <int D, int B>
-void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
-                  const Results<D, B>& results, Report& report) {
-  if (wanted.convergence) write_tables(files, report);
-  if (!wanted.pictures) return;
-  Gnuplot convergence, result;  // both at once
-  draw_convergence(convergence, files.stage("convergence.png"), report.last().summary.history);
+void Pictures::start(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report) {
+  draw_convergence(convergence_.emplace(), files_.stage("convergence.png"), report.last().summary.history);
   const auto panels = result_panels<D, B>(shown(hierarchy, results), report.warnings);
-  if (!panels.empty()) {
-    draw_panels(result, files.stage("result.png"), panels);
-    finish(result, "result.png", report.warnings);
-  }
-  finish(convergence, "convergence.png", report.warnings);
+  if (!panels.empty()) draw_panels(result_.emplace(), files_.stage("result.png"), panels);
 }
 
-#define SIGNORINI_OUTPUT(D, B)                                                                                  \
-  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&);                            \
-  template void write_charts(AtomicFiles&, const Scene::Output&, const MeshHierarchy<D>&, const Results<D, B>&, \
-                             Report&);
+void Pictures::finish(Report& report) {
+  if (result_) signorini::finish(*result_, "result.png", report.warnings);
+  if (convergence_) signorini::finish(*convergence_, "convergence.png", report.warnings);
+}
+
+void write_tables(AtomicFiles& files, const Report& report) {
+  std::vector<const Summary*> summaries;
+  for (const StepReport& step : report.steps) summaries.push_back(&step.summary);
+  write_text(files.stage("convergence.csv"), convergence_csv(summaries));
+  write_text(files.stage("phases.csv"), phases_csv(summaries));
+}
+#define SIGNORINI_OUTPUT(D, B)                                                       \
+  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&); \
+  template void Pictures::start(const MeshHierarchy<D>&, const Results<D, B>&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)

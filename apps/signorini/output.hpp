@@ -1,6 +1,11 @@
 #pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "apps/signorini/results.hpp"
 #include "core/io/atomic_files.hpp"
+#include "core/io/picture.hpp"
 #include "core/io/vtu_writer.hpp"
 
 namespace signorini {
@@ -13,8 +18,7 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 /// Writes the meshes with the solution, step by step, and lists the steps for ParaView when there are several.
 class SolutionFiles {
  public:
-  SolutionFiles(AtomicFiles& files, bool wanted, int steps, int threads)
-      : files_(files), wanted_(wanted), steps_(steps), threads_(threads) {}
+  SolutionFiles(AtomicFiles& files, int steps, int threads) : files_(files), steps_(steps), threads_(threads) {}
 
   template <int D>
   void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t);
@@ -22,7 +26,6 @@ class SolutionFiles {
 
  private:
   AtomicFiles& files_;
-  bool wanted_;
   int steps_, threads_;
   std::vector<PvdEntry> entries_;
 };
@@ -30,10 +33,22 @@ class SolutionFiles {
 /// Whether a run may write a file of this name; one that another run left is out of date.
 bool is_result_file(const std::string& name);
 
-/// The tables (convergence.csv, phases.csv) and the pictures, as far as they are wanted; what could not be drawn goes
-/// to `warnings`.
-template <int D, int B>
-void write_charts(AtomicFiles& files, const Scene::Output& wanted, const MeshHierarchy<D>& hierarchy,
-                  const Results<D, B>& results, Report& report);
+/// The pictures, as far as they are wanted, drawn by other programs while this one goes on.
+class Pictures {
+ public:
+  explicit Pictures(AtomicFiles& files) : files_(files) {}
+
+  /// What could not be drawn goes to `report.warnings`, here and in finish().
+  template <int D, int B>
+  void start(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report);
+  void finish(Report& report);
+
+ private:
+  AtomicFiles& files_;
+  std::optional<Gnuplot> convergence_, result_;  // those that were started
+};
+
+/// convergence.csv and phases.csv.
+void write_tables(AtomicFiles& files, const Report& report);
 
 }  // namespace signorini

@@ -89,6 +89,7 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
   panel.patches = few_patches(shown, notes, [&](const Drawn<D>& drawn) {
     std::vector<Patch> patches;
     for (const auto& triangle : triangles(*drawn.mesh)) {
+      if (is_too_many(patches)) break;
       Patch& patch = patches.emplace_back();
       for (int c = 0; c < 3; ++c)
         set_corner(patch, c, deformed(shown, drawn, triangle[c], factor), shown.value[drawn.fine[triangle[c]]]);
@@ -113,6 +114,7 @@ Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vec
   panel.patches = few_patches(shown, notes, [&](const Drawn<3>& drawn) {
     std::vector<Patch> patches;
     for (const auto& face : drawn.mesh->boundary) {
+      if (is_too_many(patches)) break;
       Patch patch;
       bool inside = dot(area_normal(*drawn.mesh, face), zone.normal) > 0;
       for (int c = 0; c < 3 && inside; ++c) {

@@ -19,6 +19,7 @@ Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View
   panel.patches = few_patches(shown, notes, [&](const Drawn<2>& drawn) {
     std::vector<Patch> patches;
     for (const auto& element : drawn.mesh->elements) {
+      if (is_too_many(patches)) break;
       Patch& patch = patches.emplace_back();
       for (int c = 0; c < 3; ++c) {
         set_corner(patch, c, drawn.mesh->points[element[c]], value[drawn.fine[element[c]]]);

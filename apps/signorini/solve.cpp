@@ -25,7 +25,7 @@ class SolveRun {
         progress_(progress),
         files_(files),
         report_(report),
-        vtu_(files, scene.output.vtu, scene.steps.count, scene.solver.threads) {}
+        vtu_(files, scene.steps.count, scene.solver.threads) {}
 
   void run() {
     prepare();
@@ -77,15 +77,26 @@ class SolveRun {
     results_ = results<D, B>(mesh, model, solution);
     report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
                                               judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
-    vtu_.add(mesh, scene_.output.vtu ? point_fields(mesh, results_) : std::vector<VtuField>(), model.t);
+    if (!is_last_step()) write_solution();
     report_.time.output += watch.elapsed();
   }
 
+  bool is_last_step() const { return static_cast<int>(report_.steps.size()) == scene_.steps.count; }
+
+  void write_solution() {
+    if (scene_.output.vtu) vtu_.add(hierarchy_.finest(), point_fields(hierarchy_.finest(), results_), report_.last().t);
+  }
+
+  /// The solution of the last step is written while the pictures are drawn.
   void finish() {
     Stopwatch watch;
     progress_.phase("writing");
+    if (scene_.output.convergence) write_tables(files_, report_);
+    Pictures pictures(files_);
+    if (scene_.output.pictures) pictures.start(hierarchy_, results_, report_);
+    if (is_last_step()) write_solution();
     vtu_.finish();
-    write_charts(files_, scene_.output, hierarchy_, results_, report_);
+    pictures.finish(report_);
     report_.time.output += watch.elapsed();
   }
 

@@ -112,7 +112,8 @@ void finite_or_null(Json& json) {
 }  // namespace
 
 bool Report::converged() const {
-  return !interrupted && std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
+  return !interrupted &&
+         std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
 }
 
 Json to_json(const Summary& summary) {
