@@ -10,16 +10,8 @@ namespace {
 
 template <int D>
 void orient(RawMesh<D>& raw) {
-  const auto entity = [&](std::size_t e) { return raw.entity.empty() ? 0 : raw.entity[e]; };
-  Index entities = 1;
-  for (const Index e : raw.entity) entities = std::max(entities, e + 1);
-  std::vector<Offset> balance(entities, 0);
-  for (std::size_t e = 0; e < raw.elements.size(); ++e) {
-    const double volume = relative_volume<D>(corners<D>(raw.points, raw.elements[e]));
-    balance[entity(e)] += (volume > 0) - (volume < 0);
-  }
-  for (std::size_t e = 0; e < raw.elements.size(); ++e)
-    if (balance[entity(e)] < 0) flip<D>(raw.elements[e]);
+  for (auto& element : raw.elements)
+    if (relative_volume<D>(corners<D>(raw.points, element)) < 0) flip<D>(element);
 }
 
 template <int D>

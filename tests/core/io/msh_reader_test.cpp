@@ -250,8 +250,13 @@ TEST(MshErrors, WrongMarkerOfTheByteOrder) {
   EXPECT_THAT(complaint(file), HasSubstr("byte order"));
 }
 
-TEST(MshErrors, OneInvertedElementAmongOthers) {
-  EXPECT_THAT(complaint(with(gmsh_41, "5 3 5 2", "5 3 2 5")), HasSubstr("element 5 is inverted"));
+TEST(Msh, ElementsNumberedTheOtherWayRoundAreTurned) {
+  const auto turned = std::get<Mesh<2>>(read_msh(with(gmsh_41, "5 3 5 2", "5 3 2 5"), "file.msh"));
+  const auto given = std::get<Mesh<2>>(read_msh(gmsh_41, "file.msh"));
+  EXPECT_EQ(turned.points, given.points);
+  ASSERT_EQ(turned.elements.size(), given.elements.size());
+  for (std::size_t e = 0; e < given.elements.size(); ++e)
+    EXPECT_EQ(sorted(turned.elements[e]), sorted(given.elements[e]));
 }
 
 TEST(MshErrors, DisconnectedMesh) {
