@@ -56,6 +56,7 @@ class Motions<B>::Finder {
   Finder(const BlockMatrix<B>& A, Motions& out) : A_(A), out_(out), place_(static_cast<std::size_t>(A.size()), -1) {}
 
   void run() {
+    if (is_held()) return;
     for (Index p = 0; p < A_.size(); ++p)
       if (place_[p] < 0) settle(collect(p));
   }
@@ -65,6 +66,23 @@ class Motions<B>::Finder {
     Offset blocks = 0;
     Dominance least = Dominance::strict, most = Dominance::none;  // of its rows
   };
+
+  // The usual case, in little time: the diagonal dominates, and two passes come from strict rows to all others.
+  bool is_held() const {
+    if constexpr (B > 1) return false;
+    std::vector<char> held(place_.size(), 0);
+    const auto is_tied = [&](Index p) {
+      const auto first = A_.column.begin();
+      return std::any_of(first + A_.row[p], first + A_.row[p + 1], [&](Index q) { return held[q] != 0; });
+    };
+    for (Index p = 0; p < A_.size(); ++p) {
+      const Dominance row = dominance(A_, p, 0);
+      if (row == Dominance::none) return false;
+      held[p] = row == Dominance::strict || is_tied(p);
+    }
+    for (Index p = A_.size() - 1; p >= 0; --p) held[p] = held[p] || is_tied(p);
+    return std::ranges::all_of(held, [](char yes) { return yes != 0; });
+  }
 
   // The component of p, into vectors_.
   Seen collect(Index p) {
