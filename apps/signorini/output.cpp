@@ -100,7 +100,7 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 template <int D>
 void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t) {
   const std::string name = steps_ == 1 ? "solution.vtu" : fmt::format("solution_{:03}.vtu", entries_.size() + 1);
-  write_vtu(files_.stage(name), mesh, fields, {}, threads_);
+  write_vtu(files_.stage(name), mesh, fields, {}, packing_);
   entries_.push_back({t, name});
 }
 

@@ -18,7 +18,8 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 /// Writes the meshes with the solution, step by step, and lists the steps for ParaView when there are several.
 class SolutionFiles {
  public:
-  SolutionFiles(AtomicFiles& files, int steps, int threads) : files_(files), steps_(steps), threads_(threads) {}
+  SolutionFiles(AtomicFiles& files, int steps, const VtuPacking& packing)
+      : files_(files), steps_(steps), packing_(packing) {}
 
   template <int D>
   void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t);
@@ -26,7 +27,8 @@ class SolutionFiles {
 
  private:
   AtomicFiles& files_;
-  int steps_, threads_;
+  int steps_;
+  VtuPacking packing_;
   std::vector<PvdEntry> entries_;
 };
 

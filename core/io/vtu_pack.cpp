@@ -12,7 +12,6 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t block_size = std::size_t{1} << 18, sample_size = block_size / 16;
-constexpr double worthwhile = 0.6;  ///< packed size of a sample over its size
 
 /// Packs any number of blocks, one after the other.
 class Deflater {
@@ -42,8 +41,8 @@ class Deflater {
 /// Blocks are taken as they come by the threads that pack them.
 class Packing {
  public:
-  explicit Packing(std::span<const char> bytes)
-      : bytes_(bytes), blocks_((bytes.size() + block_size - 1) / block_size) {}
+  Packing(std::span<const char> bytes, double worthwhile)
+      : bytes_(bytes), worthwhile_(worthwhile), blocks_((bytes.size() + block_size - 1) / block_size) {}
 
   void work() {
     Deflater fast(Z_BEST_SPEED), none(Z_NO_COMPRESSION);
@@ -52,7 +51,7 @@ class Packing {
       const auto block = bytes_.subspan(k * block_size, std::min(block_size, bytes_.size() - k * block_size));
       const auto start = block.first(std::min(sample_size, block.size()));
       fast.pack(start, sample);
-      const bool shrinks = static_cast<double>(sample.size()) < worthwhile * static_cast<double>(start.size());
+      const bool shrinks = static_cast<double>(sample.size()) < worthwhile_ * static_cast<double>(start.size());
       (shrinks ? fast : none).pack(block, blocks_[k]);
     }
   }
@@ -73,14 +72,15 @@ class Packing {
 
  private:
   std::span<const char> bytes_;
+  double worthwhile_;
   std::vector<std::string> blocks_;
   std::atomic<std::size_t> next_{0};
 };
 
 }  // namespace
 
-std::string pack_vtu(std::span<const char> bytes, Crew& crew) {
-  Packing packing(bytes);
+std::string pack_vtu(std::span<const char> bytes, double worthwhile, Crew& crew) {
+  Packing packing(bytes, worthwhile);
   crew.run([&] { packing.work(); });
   return packing.packed();
 }

@@ -63,7 +63,7 @@ std::string escaped(const std::string& text) {
 /// The arrays of a file: their descriptions in XML first, their numbers, packed, at the end.
 class Arrays {
  public:
-  explicit Arrays(int threads) : crew_(threads) {}
+  explicit Arrays(const VtuPacking& packing) : worthwhile_(packing.worthwhile), crew_(packing.threads) {}
 
   template <class T>
   std::string add(const char* type, const std::string& name, int components, std::span<const T> values) {
@@ -71,7 +71,7 @@ class Arrays {
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
         escaped(name), components, offset_);
     const auto bytes = std::as_bytes(values);
-    packed_.push_back(pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, crew_));
+    packed_.push_back(pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, worthwhile_, crew_));
     offset_ += packed_.back().size();
     return xml;
   }
@@ -81,6 +81,7 @@ class Arrays {
   }
 
  private:
+  double worthwhile_;
   Crew crew_;
   std::size_t offset_ = 0;
   std::vector<std::string> packed_;
@@ -138,8 +139,8 @@ std::vector<double> coordinates(const Mesh<D>& mesh) {
 
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields, int threads) {
-  Arrays arrays(threads);
+               const std::vector<VtuField>& cell_fields, const VtuPacking& packing) {
+  Arrays arrays(packing);
   const std::string points = arrays.add<double>("Float64", "Points", 3, coordinates(mesh));
   const std::string cells = describe_cells(arrays, mesh);
   const std::string point_data = describe(arrays, point_fields, mesh.points.size());
@@ -168,8 +169,8 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
 }
 
 template void write_vtu(const std::filesystem::path&, const Mesh<2>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, int);
+                        const std::vector<VtuField>&, const VtuPacking&);
 template void write_vtu(const std::filesystem::path&, const Mesh<3>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, int);
+                        const std::vector<VtuField>&, const VtuPacking&);
 
 }  // namespace signorini

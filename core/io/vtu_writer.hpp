@@ -15,11 +15,17 @@ struct VtuField {
   std::vector<double> values;
 };
 
+/// How a file is packed.
+struct VtuPacking {
+  double worthwhile = 0.6;  ///< see pack_vtu()
+  int threads = 1;
+};
+
 /// Writes a VTK unstructured grid with binary data (appended raw, packed by zlib). The file appears under its name when
 /// it is complete, and does not depend on the number of threads. Error(Exit::input) if it cannot be written.
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields = {}, int threads = 1);
+               const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {});
 
 /// One entry of a collection: a file, relative to the folder of the collection, and the time it belongs to.
 struct PvdEntry {

@@ -182,7 +182,8 @@ constexpr KeySpec plugins[] = {
      "folders searched first; then those of `SIGNORINI_PLUGIN_PATH`, then the installed folder"}};
 
 constexpr KeySpec output[] = {
-    {"vtu", boolean, "true", "", "", "write the solution for ParaView; `gap` is NaN where no obstacle can be reached"},
+    {"vtu", boolean, "true", "", "",
+     "write the solution for ParaView, packed by zlib where it pays; `gap` is NaN where no obstacle can be reached"},
     {"pictures", boolean, "true", "", "", "draw the convergence history and the result"},
     {"convergence", boolean, "true", "", "", "write the convergence table"},
 };

@@ -15,7 +15,7 @@ namespace {
 
 std::string pack(const std::string& bytes, int threads) {
   Crew crew(threads);
-  return pack_vtu(bytes, crew);
+  return pack_vtu(bytes, 0.6, crew);
 }
 
 /// As the format prescribes.
@@ -62,6 +62,12 @@ TEST(VtuPack, ShrinksWhatItCanAndLeavesNoiseAsItIs) {
   EXPECT_LT(pack(std::string(1 << 20, 'x'), 1).size(), 10000u);
   const std::string digits = noise(1 << 20);
   EXPECT_LT(pack(digits, 1).size(), digits.size() + digits.size() / 1000);
+  std::string half = digits;
+  for (std::size_t k = 0; k < half.size(); ++k)
+    if (k / 64 % 2) half[k] = 0;
+  Crew crew(1);
+  EXPECT_LT(pack_vtu(half, 0.6, crew).size(), half.size() * 6 / 10);
+  EXPECT_GT(pack_vtu(half, 0.4, crew).size(), half.size());
 }
 
 }  // namespace
