@@ -110,6 +110,7 @@ class BlackBox::BlockSolver final : public Solver {
                      monitor);
     for (std::size_t i = 0; i < n; ++i)
       if (decoupled(i)) result.multiplier[i] = -b[i];
+    find_active(result, lower, upper);
     return result;
   }
 
@@ -150,17 +151,32 @@ class BlackBox::BlockSolver final : public Solver {
   Result solve(const AlgebraicLevels<B>& levels, std::span<const double> start, const Monitor& monitor) {
     problem_.galerkin = levels.matrices;
     Result result;
+    std::vector<Stage> dropped;
     if (start.empty())
-      result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor);
+      result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped);
     else
       result.x.assign(start.begin(), start.end());
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
-    if (const Outcome o = result.summary.outcome; o == Outcome::iteration_limit || o == Outcome::rounding)
+    result.summary.put_in_front(std::move(dropped));
+    if (const Outcome o = result.summary.outcome;
+        o == Outcome::iteration_limit || o == Outcome::rounding || o == Outcome::inaccurate)
       recognise_unbounded(result);
     result.multiplier.resize(problem_.b.size());
     residual<B>(problem_.A, result.x.data(), problem_.b.data(), result.multiplier.data());
     for (double& force : result.multiplier) force = -force;
     return result;
+  }
+
+  /// Rounding leaves forces between the bounds, and of either sign where a bound is touched without any.
+  static void find_active(Result& result, std::span<const double> lower, std::span<const double> upper) {
+    result.active.assign(result.x.size(), 0);
+    for (std::size_t i = 0; i < result.x.size(); ++i) {
+      double& force = result.multiplier[i];
+      const bool at_lower = !lower.empty() && result.x[i] <= lower[i],
+                 at_upper = !upper.empty() && result.x[i] >= upper[i];
+      if (at_lower || at_upper) result.active[i] = at_lower && !(at_upper && force < 0) ? -1 : 1;
+      if (!(at_lower && force > 0) && !(at_upper && force < 0)) force = 0;
+    }
   }
 
   void recognise_unbounded(Result& result) const {

@@ -17,11 +17,11 @@ namespace signorini {
 namespace {
 
 constexpr const char* exit_status = R"(Exit status:
-  0    solved to the tolerance
+  0    solved to the tolerance, or as far as rounding allows, which the results then say
   1    wrong usage
   2    bad input (file, scene, matrix); nothing is written but the message
-  3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
-       held; results are written, marked "converged": false
+  3    the iteration limit was reached, rounding leaves an error above 1e-2, or obstacles that meet at a vertex in
+       dependent directions could not all be held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C); nothing is written)";
@@ -42,10 +42,11 @@ constexpr const char* qp_notes =
 vector in coordinates what is left out is zero. inf and -inf in bounds mean none.
 
 Exit status:
-  0    solved to the tolerance
+  0    solved to the tolerance, or as far as rounding allows, which the summary then says
   1    wrong usage
   2    bad input (file, matrix); nothing is written but the message
-  3    the iteration limit was reached; results are written, marked "converged": false
+  3    the iteration limit was reached, or rounding leaves an error above 1e-2; results are written, marked
+       "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   130  interrupted (Ctrl-C); nothing is written)";
 
