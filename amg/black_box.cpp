@@ -129,6 +129,7 @@ class BlackBox::BlockSolver final : public Solver {
                      monitor);
     result.summary.setup_seconds += ready - begin;
     held_.residual(problem_, result.x.data(), b.data(), result.multiplier.data());
+    find_active(result, lower, upper);
     return result;
   }
 
@@ -195,12 +196,14 @@ class BlackBox::BlockSolver final : public Solver {
   Result solve(const AlgebraicLevels<B>& levels, std::span<const double> start, const Monitor& monitor) {
     problem_.galerkin = levels.matrices;
     Result result;
+    std::vector<Stage> dropped;
     if (start.empty())
-      result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor);
+      result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped);
     else
       result.x = nested_start_from<B>({start.begin(), start.end()}, problem_, levels.prolongations, options_, registry_,
                                       monitor);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
+    result.summary.put_in_front(std::move(dropped));
     if (const Outcome o = result.summary.outcome; o != Outcome::interrupted && o != Outcome::unbounded)
       recognise_unbounded(result);
     add_multiplier(result);
@@ -224,6 +227,18 @@ class BlackBox::BlockSolver final : public Solver {
     result.summary.options = options_;
     result.summary.energy = energy(problem_, result.x);
     return result;
+  }
+
+  /// Rounding leaves forces between the bounds, and of either sign where a bound is touched without any.
+  static void find_active(Result& result, std::span<const double> lower, std::span<const double> upper) {
+    result.active.assign(result.x.size(), 0);
+    for (std::size_t i = 0; i < result.x.size(); ++i) {
+      double& force = result.multiplier[i];
+      const bool at_lower = !lower.empty() && result.x[i] <= lower[i],
+                 at_upper = !upper.empty() && result.x[i] >= upper[i];
+      if (at_lower || at_upper) result.active[i] = at_lower && !(at_upper && force < 0) ? -1 : 1;
+      if (!(at_lower && force > 0) && !(at_upper && force < 0)) force = 0;
+    }
   }
 
   void recognise_unbounded(Result& result) const {

@@ -21,7 +21,12 @@ class BlackBox {
  public:
   struct Result {
     std::vector<double> x;
-    std::vector<double> multiplier;  ///< A x - b: at a solution >= 0 at lower bounds, <= 0 at upper ones, 0 elsewhere
+    /// A x - b where a bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere, and
+    /// where it has the other sign.
+    std::vector<double> multiplier;
+    /// -1 at the lower bound, 1 at the upper one, 0 between them; equal bounds: by the sign of the multiplier, -1 where
+    /// it is 0.
+    std::vector<signed char> active;
     Summary summary;
   };
 

@@ -1,7 +1,10 @@
 #include "amg/nested_start.hpp"
 
+#include <optional>
+
 #include "amg/masked_cg.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/admissible.hpp"
@@ -120,9 +123,9 @@ void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
 }
 
 /// The start that a coarser level gave, where it is better than none: a body that a coarser level hardly holds may have
-/// been carried away there. What is merely rough is smoothed.
+/// been carried away there. What is merely rough is smoothed. Nothing where it is worse.
 template <int B>
-std::vector<double> better_start(const DiscreteProblem<B>& problem, std::vector<double> x) {
+std::optional<std::vector<double>> better_start(const DiscreteProblem<B>& problem, std::vector<double> x) {
   std::vector<double> none = problem.start, admissible = x;
   make_admissible(problem, none);
   make_admissible(problem, admissible);
@@ -134,7 +137,7 @@ std::vector<double> better_start(const DiscreteProblem<B>& problem, std::vector<
     level.sweep(Order::backward);
     if (lowers(problem, admissible, none)) return x;
   }
-  return problem.start;
+  return {};
 }
 
 /// Makes a problem that for the difference of its solution to x, and puts it back in the end.
@@ -196,10 +199,25 @@ double rough_energy(const DiscreteProblem<B>& problem, const Prolongation& P, co
 
 }  // namespace
 
+Stage dropped_start(double seconds, const std::string& reason) {
+  Stage stage;
+  stage.method = "nested start";
+  stage.seconds = seconds;
+  stage.reason = reason;
+  stage.kept = false;
+  return stage;
+}
+
 template <int B>
 std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
-                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor,
+                                 std::vector<Stage>* dropped) {
   if (prolongations.empty()) return problem.start;
+  const double begin = seconds();
+  const auto none = [&](const std::string& reason) {
+    if (dropped) dropped->push_back(dropped_start(seconds() - begin, reason));
+    return problem.start;
+  };
   const std::size_t below = prolongations.size() - 1;
   const Prolongation& P = prolongations[below];
   try {
@@ -209,18 +227,19 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
     std::vector<double> base(forces.size(), 0.0);
     relax_between_twins(problem, twin, forces, base);
     const DiscreteProblem<B> coarse = coarse_problem(problem, P, twin, *transfer, forces, base);
-    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor);
+    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor, dropped);
     const Summary summary =
         solve(coarse, prolongations.first(below), x, for_a_start<B>(options, below > 0), registry, monitor);
-    if (summary.outcome == Outcome::unbounded) return problem.start;
+    if (summary.outcome == Outcome::unbounded) return none(summary.reason);
     x = interpolate(coarse, x, P, problem);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += base[k];
     relax_between_twins(problem, twin, forces, x);
-    return better_start(problem, std::move(x));
+    auto better = better_start(problem, std::move(x));
+    return better ? std::move(*better) : none("its energy is above that of no start");
   } catch (const Error& error) {
     // What fails on a coarse level may well hold on the finest one, which alone decides.
     if (error.status() == Exit::interrupted) throw;
-    return problem.start;
+    return none(error.what());
   }
 }
 
@@ -248,11 +267,11 @@ std::vector<double> nested_start_from(const std::vector<double>& given, Discrete
 }
 
 template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,
-                                          const SolverOptions&, const Registry&, const Monitor&);
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
 template std::vector<double> nested_start(const DiscreteProblem<2>&, std::span<const Prolongation>,
-                                          const SolverOptions&, const Registry&, const Monitor&);
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
 template std::vector<double> nested_start(const DiscreteProblem<3>&, std::span<const Prolongation>,
-                                          const SolverOptions&, const Registry&, const Monitor&);
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
 
 #define SIGNORINI_INSTANTIATE(B)                                                                                       \
   template std::vector<double> nested_start_from(const std::vector<double>&, DiscreteProblem<B>&,                      \

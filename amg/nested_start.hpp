@@ -14,11 +14,16 @@ namespace signorini {
 /// @param problem its `galerkin`, where it is not empty, saves the products of matrices
 /// @param prolongations coarsest first; the last one leads to the level of `problem`
 /// @param options of the solve that is to come; the levels are solved less accurately
+/// @param dropped gets a stage for each level that gave no start, with the reason
 /// @return B per vector, not yet admissible between the twins; prescribed values are in place
 /// @throws Error(Exit::interrupted) only, where the monitor does
 template <int B>
 std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
-                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor = {});
+                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor = {},
+                                 std::vector<Stage>* dropped = nullptr);
+
+/// The stage of a level that gave no start.
+Stage dropped_start(double seconds, const std::string& reason);
 
 /// The same from a start that is given: nested iteration for the correction to it, so that what coarser levels get
 /// wrong is that of the correction only. Where they represent the correction hardly better than the solution, nested

@@ -13,6 +13,7 @@
 struct signorini_solver {
   signorini::BlackBox solver;
   std::size_t unknowns;
+  std::vector<signed char> active;  // of the last solve that wrote results; empty: none did
 };
 
 namespace {
@@ -124,7 +125,7 @@ int create(const Matrix& matrix, int block, const signorini_setup& setup, signor
     require(solver, "solver");
     const SparseRows A = matrix();
     BlackBox box = box_of(A, block, setup);
-    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows)};
+    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), {}};
     return report(SIGNORINI_SOLVED, "set up");
   });
 }
@@ -137,9 +138,11 @@ int status_of(Outcome outcome) {
     case Outcome::unbounded:
       return SIGNORINI_NO_SOLUTION;
     case Outcome::iteration_limit:
+    case Outcome::inaccurate:
       return SIGNORINI_ITERATION_LIMIT;
     case Outcome::interrupted:
     case Outcome::stuck:
+    case Outcome::failed:
     case Outcome::violated:
       break;  // neither a monitor nor an obstacle
   }
@@ -147,7 +150,10 @@ int status_of(Outcome outcome) {
 }
 
 signorini_summary summary_of(const signorini::Summary& s) {
-  return {s.iterations, static_cast<int>(s.level_unknowns.size()), s.residual, s.algebraic_error, s.energy, s.rate};
+  return {s.iterations,     static_cast<int>(s.level_unknowns.size()),
+          s.residual,       s.algebraic_error,
+          s.energy,         s.rate,
+          s.rounding_error, s.outcome == Outcome::rounding || s.outcome == Outcome::inaccurate};
 }
 
 }  // namespace
@@ -179,14 +185,25 @@ int signorini_solve(signorini_solver* solver, const double* b, const double* low
     require(x, "x");
     const auto values = [&](const double* array) { return std::span(array, array ? solver->unknowns : 0); };
     solver->solver.set_tolerance(tolerance);
-    const BlackBox::Result result = solver->solver.solve(values(b), values(lower), values(upper), values(start));
+    BlackBox::Result result = solver->solver.solve(values(b), values(lower), values(upper), values(start));
     const int status = status_of(result.summary.outcome);
     if (status == SIGNORINI_SOLVED || status == SIGNORINI_ITERATION_LIMIT) {
       std::ranges::copy(result.x, x);
       if (multiplier) std::ranges::copy(result.multiplier, multiplier);
       if (summary) *summary = summary_of(result.summary);
+      solver->active = std::move(result.active);
     }
     return report(status, result.summary.reason.c_str());
+  });
+}
+
+int signorini_active(const signorini_solver* solver, signed char* active) {
+  return guarded([&] {
+    require(solver, "solver");
+    require(active, "active");
+    if (solver->active.size() != solver->unknowns) signorini::input_error("solver", "has no results yet");
+    std::ranges::copy(solver->active, active);
+    return report(SIGNORINI_SOLVED, "the active set of the last solve");
   });
 }
 

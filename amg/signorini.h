@@ -19,7 +19,7 @@ extern "C" {
 enum {
   SIGNORINI_SOLVED = 0,
   SIGNORINI_BAD_INPUT = 2,       /* the matrix, a vector or an argument */
-  SIGNORINI_ITERATION_LIMIT = 3, /* results are written */
+  SIGNORINI_ITERATION_LIMIT = 3, /* or rounding leaves too large an error to claim anything; results are written */
   SIGNORINI_NO_SOLUTION = 4,     /* bounds with nothing between them, energy unbounded below */
   SIGNORINI_FAILURE = 6          /* memory, or a mistake of this library */
 };
@@ -32,7 +32,9 @@ typedef struct {
   double residual;        /* natural residual over its value at the projected zero */
   double algebraic_error; /* estimate of |x - x*| / |x*| in the norm of A */
   double energy;          /* 1/2 x'Ax - b'x */
-  double rate;            /* mean reduction of the error per iteration at the end */
+  double rate;            /* mean reduction of the error per iteration at the end; NaN where it is not known */
+  double rounding_error;  /* part of algebraic_error that rounding leaves however long one iterates */
+  int32_t limited_by_rounding; /* 1: solved as far as rounding allows, which is not to the tolerance */
 } signorini_summary;
 
 /*
@@ -75,12 +77,18 @@ int signorini_create_with(const signorini_rows* matrix, int block, const signori
 
 /*
  * Solves to a relative error of `tolerance`, in (0, 1). `b` has one value per row, as have the others. Null is allowed
- * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b: at a
- * solution >= 0 at lower bounds, <= 0 at upper ones, 0 elsewhere) and `summary`. What is written is the solution where
+ * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b
+ * where a bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere) and `summary`. What is written is the solution where
  * SIGNORINI_SOLVED is returned, the last iterate with SIGNORINI_ITERATION_LIMIT, and nothing with the others.
  */
 int signorini_solve(signorini_solver* solver, const double* b, const double* lower, const double* upper,
                     const double* start, double tolerance, double* x, double* multiplier, signorini_summary* summary);
+
+/*
+ * The active set of the last solve that wrote results: for each row -1 where x is at its lower bound, 1 at its upper
+ * one, 0 between them; equal bounds count by the sign of the multiplier, as lower ones where it is 0.
+ */
+int signorini_active(const signorini_solver* solver, signed char* active);
 
 /* Why the last call in this thread returned what it did; never null. Rows and columns are counted from 1. */
 const char* signorini_message(void);

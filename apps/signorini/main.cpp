@@ -17,11 +17,11 @@ namespace signorini {
 namespace {
 
 constexpr const char* exit_status = R"(Exit status:
-  0    solved to the tolerance
+  0    solved to the tolerance, or as far as rounding allows, which the results then say
   1    wrong usage
   2    bad input (file, scene, matrix), or too little memory; nothing is written but the message
-  3    the iteration limit was reached, or obstacles that meet at a vertex in dependent directions could not all be
-       held; results are written, marked "converged": false
+  3    the iteration limit was reached, rounding leaves an error above 1e-2, or obstacles that meet at a vertex in
+       dependent directions could not all be held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded
   130  interrupted (Ctrl-C); nothing is written but, of several steps, those that were finished, marked
@@ -46,10 +46,11 @@ complete, links followed; devices and pipes are written through. What is read-on
 output goes to standard output, the summary goes to standard error.
 
 Exit status:
-  0    solved to the tolerance
+  0    solved to the tolerance, or as far as rounding allows, which the summary then says
   1    wrong usage
   2    bad input (file, matrix), or too little memory; nothing is written but the message
-  3    the iteration limit was reached; results are written, marked "converged": false
+  3    the iteration limit was reached, or rounding leaves an error above 1e-2; results are written, marked
+       "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   130  interrupted (Ctrl-C); nothing is written)";
 

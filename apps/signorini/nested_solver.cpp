@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
@@ -121,7 +122,8 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   } else if (level == 0 && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
-    solution.x = nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_);
+    solution.x =
+        nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
     times_.solve += watch.elapsed();
   }
   return solution;
@@ -153,6 +155,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 /// finest one, which alone decides: such a level gives no start.
 template <int D, int B>
 bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+  const Stopwatch watch;
   try {
     const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
@@ -161,7 +164,9 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
     return true;
   } catch (const Error& error) {
     if (error.status() == Exit::interrupted) throw;
-    progress_.phase(fmt::format("level {} gives no start: {}", level, error.what()));
+    const std::string reason = fmt::format("level {} gives no start: {}", level, error.what());
+    progress_.phase(reason);
+    dropped_.push_back(dropped_start(watch.elapsed(), reason));
     return false;
   }
 }
@@ -176,6 +181,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
   solve_level(model, finest, options_, solution);
+  solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
 

@@ -59,6 +59,7 @@ class NestedSolver {
   std::size_t algebraic_ = 0;                // number of the latter
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below that at work, as far as they are known
   bool continued_ = false;
+  std::vector<Stage> dropped_;  // starts that coarser levels did not give
 };
 
 }  // namespace signorini

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <system_error>
 
@@ -52,13 +53,31 @@ void Progress::cycle(const IterationRecord& record) const {
   });
 }
 
+namespace {
+
+/// One line.
+std::string described(const Stage& stage) {
+  std::string text = stage.method;
+  if (!stage.linear.empty()) text += " with " + stage.linear;
+  text += fmt::format(": {:.2f} s", stage.seconds);
+  if (stage.iterations > 0) text += fmt::format(", {} iterations", stage.iterations);
+  if (stage.linear_solves > 0)
+    text += fmt::format(", {} linear solves, {} factorisations", stage.linear_solves, stage.factorisations);
+  return text + fmt::format("; {}{}: {}\n", stage.kept ? "" : "dropped, ", outcome_name(stage.outcome), stage.reason);
+}
+
+}  // namespace
+
 void print_summary(const Summary& summary, bool solved) {
   const std::vector<Index>& unknowns = summary.level_unknowns;
   fmt::print("{}", convergence_table(summary.history));
   fmt::print("{}: {}\n", solved ? "solved" : "not solved", summary.reason);
-  fmt::print("{} unknowns on {} levels ({} to {}), {} iterations, rate {:.3f}, energy {:.10g}\n",
+  if (summary.stages.size() > 1)
+    for (const Stage& stage : summary.stages) fmt::print("{}", described(stage));
+  fmt::print("{} unknowns on {} levels ({} to {}), {} iterations, rate {}, energy {:.10g}\n",
              unknowns.empty() ? 0 : unknowns.back(), unknowns.size(), summary.level_number(0), summary.finest_level,
-             summary.iterations, summary.rate, summary.energy);
+             summary.iterations, std::isnan(summary.rate) ? "unknown" : fmt::format("{:.3f}", summary.rate),
+             summary.energy);
 }
 
 void print_of_written(const std::function<void()>& print) {

@@ -74,10 +74,10 @@ class NodeReader {
     const bool below = discretization_.upper_obstacle[at] < 0 || nearer_to_lower(at, x, r, at_lower, at_upper);
     const bool contact = at_lower || at_upper;
     const Index obstacle = (below ? discretization_.lower_obstacle : discretization_.upper_obstacle)[at];
-    ContactNode<B> node{p, obstacle, contact, below ? x - lower : upper - x, 0, below ? r : -r, {}, {}};
+    const double push = contact ? std::max(below ? r : -r, 0.0) : 0;  // what is left off contact is rounding
+    ContactNode<B> node{p, obstacle, contact, below ? x - lower : upper - x, 0, push, {}, {}};
     add_along(p, k, below ? 1 : -1, node.direction);
-    if (!contact) node.pressure = 0;
-    if (contact) add_along(p, k, r, node.force);
+    add_along(p, k, below ? push : -push, node.force);
     return node;
   }
 

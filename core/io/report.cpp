@@ -24,13 +24,10 @@ Json record(const Summary& summary, const IterationRecord& record) {
   Json levels = Json::array();
   for (std::size_t k = 0; k < record.levels.size(); ++k)
     levels.push_back(level(record.levels[k], summary.level_number(k)));
-  return {{"iteration", record.iteration},
-          {"residual", record.residual},
-          {"algebraic_error", record.algebraic_error},
-          {"energy", record.energy},
-          {"contact_nodes", record.contact_nodes},
-          {"changed", record.changed},
-          {"levels", std::move(levels)}};
+  return {{"iteration", record.iteration}, {"stage", record.stage},
+          {"residual", record.residual},   {"algebraic_error", record.algebraic_error},
+          {"energy", record.energy},       {"contact_nodes", record.contact_nodes},
+          {"changed", record.changed},     {"levels", std::move(levels)}};
 }
 
 Json contact(const ContactReport& contact) {
@@ -53,10 +50,20 @@ Json probe(const ProbeReport& probe) {
 }
 
 Json solver(const SolverOptions& options) {
-  return {{"method", options.method},     {"cycle", options.cycle},       {"pre", options.pre},
-          {"post", options.post},         {"smoother", options.smoother}, {"relaxation", options.relaxation},
-          {"transfer", options.transfer}, {"coarse", options.coarse},     {"truncate", options.truncate},
-          {"cut", options.cut},           {"rotate", options.rotate},     {"krylov", options.krylov},
+  return {{"method", options.method},
+          {"tolerance", options.tolerance},
+          {"max_iterations", options.max_iterations},
+          {"cycle", options.cycle},
+          {"pre", options.pre},
+          {"post", options.post},
+          {"smoother", options.smoother},
+          {"relaxation", options.relaxation},
+          {"transfer", options.transfer},
+          {"coarse", options.coarse},
+          {"truncate", options.truncate},
+          {"cut", options.cut},
+          {"rotate", options.rotate},
+          {"krylov", options.krylov},
           {"threads", options.threads}};
 }
 
@@ -69,6 +76,18 @@ Json levels(const Summary& summary) {
 
 Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
 
+Json stage(const Stage& stage) {
+  return {{"method", stage.method},
+          {"linear", stage.linear.empty() ? Json(nullptr) : Json(stage.linear)},
+          {"iterations", stage.iterations},
+          {"linear_solves", stage.linear_solves},
+          {"factorisations", stage.factorisations},
+          {"seconds", stage.seconds},
+          {"outcome", outcome_name(stage.outcome)},
+          {"reason", stage.reason},
+          {"kept", stage.kept}};
+}
+
 void add_summary(Json& json, const Summary& summary) {
   json["iterations"] = summary.iterations;
   json["residual"] = summary.residual;
@@ -76,8 +95,10 @@ void add_summary(Json& json, const Summary& summary) {
   json["rate"] = summary.rate;
   json["energy"] = summary.energy;
   json["linear_phase_from"] = summary.linear_phase_from;
-  json["limited_by_rounding"] = summary.outcome == Outcome::rounding;
+  json["limited_by_rounding"] = summary.outcome == Outcome::rounding || summary.outcome == Outcome::inaccurate;
+  json["rounding_error"] = summary.rounding_error;
   json["reason"] = summary.reason;
+  json["stages"] = array(summary.stages, stage);
   json["solver"] = solver(summary.options);
 }
 

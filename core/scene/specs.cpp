@@ -118,7 +118,8 @@ constexpr ShapeSpec rigid_shapes[] = {
 
 constexpr KeySpec solver[] = {
     {"tolerance", number, "1e-8", "(0, 1)", "", "for the relative algebraic error and for the natural residual"},
-    {"max_iterations", integer, "200", "[1, 1000000]", "", "limit on the number of cycles"},
+    {"max_iterations", integer, "200", "[1, 1000000]", "",
+     "limit on the number of steps of all methods together: cycles, and the linear solves of others"},
     {"method", text, "auto", "auto | monotone | tnnmg | pgs | pdas", "",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
      "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while phases rest, pdas where cycles "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 #include "core/algebra/products.hpp"
@@ -27,6 +28,7 @@ ActiveSetIteration<B>::ActiveSetIteration(const DiscreteProblem<B>& problem, std
                                           const SolverOptions& options, const Registry& registry,
                                           const std::string& linear, double shift_if_singular)
     : Iteration<B>(problem, x, options),
+      linear_(linear),
       level_(finest_level(problem)),
       system_(problem.A, registry.create<LinearSolver>("linear", linear)),
       shift_if_singular_(shift_if_singular) {}
@@ -180,6 +182,24 @@ LevelReport ActiveSetIteration<B>::report(const std::vector<signed char>& last) 
     out.changed += changed;
   }
   return out;
+}
+
+template <int B>
+void ActiveSetIteration<B>::add_work(Stage& stage) const {
+  stage.linear = linear_;
+  stage.linear_solves = system_.solves();
+  stage.factorisations = system_.factorisations();
+}
+
+// By the factorisation of the last step.
+template <int B>
+std::optional<double> ActiveSetIteration<B>::response(const std::vector<double>& forces, double) {
+  std::vector<double> d = forces;
+  visit_bounds([&](std::size_t at, Offset i, double, double) {
+    if (active_[at] != 0) d[i] = 0;
+  });
+  if (!system_.solve(d)) return {};
+  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
 }
 
 template class ActiveSetIteration<1>;

@@ -30,6 +30,8 @@ class ActiveSetIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override { return {this->free_unknowns(level_)}; }
   std::string method() const override { return "pdas"; }
   Step advance() override;
+  void add_work(Stage& stage) const override;
+  std::optional<double> response(const std::vector<double>& forces, double enough) override;
 
   double remaining_error(bool changed);
   std::string why_stuck(bool changed);
@@ -43,6 +45,7 @@ class ActiveSetIteration final : public Iteration<B> {
   void visit_bounds(const Visit& visit) const;
   LevelReport report(const std::vector<signed char>& last) const;
 
+  std::string linear_;
   Level<B> level_;
   SparseSystem<B> system_;
   std::vector<double> y_, r_y_;      // the iterate, which may leave the bounds, and its residual

@@ -24,8 +24,10 @@ void ErrorEstimate::add(double gain, double correction) {
 }
 
 double ErrorEstimate::rate() const {
-  const std::size_t n = corrections_.size(), window = std::min<std::size_t>(4, n ? n - 1 : 0);
-  if (window == 0 || !(corrections_[n - 1 - window] > 0)) return 0;
+  std::size_t n = corrections_.size();
+  while (n > 0 && !(corrections_[n - 1] > 0)) --n;  // what is lost in rounding has no rate
+  const std::size_t window = std::min<std::size_t>(4, n ? n - 1 : 0);
+  if (window == 0 || !(corrections_[n - 1 - window] > 0)) return unknown_rate;
   return std::pow(corrections_[n - 1] / corrections_[n - 1 - window], 1.0 / static_cast<double>(window));
 }
 

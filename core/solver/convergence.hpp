@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/solver/discrete_problem.hpp"
+#include "core/solver/summary.hpp"
 
 namespace signorini {
 
@@ -14,7 +15,8 @@ class ErrorEstimate {
   void add(double gain, double correction);
   /// Estimate of ||x - x*||_A after the last cycle.
   double error() const { return error_; }
-  /// Mean reduction of the correction's energy norm over the last (at most four) cycles; 0 before the second.
+  /// Mean reduction of the correction's energy norm over the last (at most four) cycles with one above rounding;
+  /// `unknown_rate` before the second of them.
   double rate() const;
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/algebra/products.hpp"
 #include "core/solver/multigrid.hpp"
@@ -23,6 +24,7 @@ InteriorPointIteration<B>::InteriorPointIteration(const DiscreteProblem<B>& prob
                                                   const SolverOptions& options, const Registry& registry,
                                                   const std::string& linear)
     : Iteration<B>(problem, x, options),
+      linear_(linear),
       level_(finest_level(problem)),
       system_(problem.A, registry.create<LinearSolver>("linear", linear)),
       held_(x.size(), 0),
@@ -188,6 +190,23 @@ double InteriorPointIteration<B>::error_bound() const {
   for (std::size_t i = 0; i < y_.size(); ++i) squared += moved[i] * A_moved[i];
   const double gap = complementarity(0) * static_cast<double>(sides_.size());
   return std::sqrt(2 * gap) + std::sqrt(std::max(squared, 0.0));
+}
+
+template <int B>
+void InteriorPointIteration<B>::add_work(Stage& stage) const {
+  stage.linear = linear_;
+  stage.linear_solves = system_.solves();
+  stage.factorisations = system_.factorisations();
+}
+
+// By the factorisation of the last step, where the multipliers are springs that hold what is at a bound.
+template <int B>
+std::optional<double> InteriorPointIteration<B>::response(const std::vector<double>& forces, double) {
+  std::vector<double> d = forces;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    if (held_[i]) d[i] = 0;
+  if (!system_.solve(d)) return {};
+  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
 }
 
 template class InteriorPointIteration<1>;

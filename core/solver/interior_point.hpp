@@ -31,6 +31,8 @@ class InteriorPointIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override { return {this->free_unknowns(level_)}; }
   std::string method() const override { return "interior_point"; }
   Step advance() override;
+  void add_work(Stage& stage) const override;
+  std::optional<double> response(const std::vector<double>& forces, double enough) override;
 
   void collect_sides();
   void start();
@@ -45,6 +47,7 @@ class InteriorPointIteration final : public Iteration<B> {
   bool progresses(double error);
   LevelReport report() const;
 
+  std::string linear_;
   Level<B> level_;
   SparseSystem<B> system_;
   std::vector<Side> sides_;

@@ -7,19 +7,25 @@
 #include <numeric>
 
 #include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
+#include "core/solver/attainable.hpp"
 
 namespace signorini {
 
 namespace {
 
-constexpr double coarse_error = 1e-4;  // algebraic error up to which what rests at rounding is a solution
+constexpr double risen = 1e-4;       // error of the size that rounding may have without it having carried x away
+constexpr double negligible = 0.3;   // of the tolerance: bounds of rounding that need no closer look
+constexpr double attained = 10;      // errors up to so many times what rounding does are as small as it lets them be
+constexpr double inaccurate = 1e-2;  // errors by rounding from which on nothing is claimed
 
 }  // namespace
 
 template <int B>
 Summary Iteration<B>::run(const Monitor& monitor, int before) {
+  const double begin = seconds();
   before_ = before;
   summary_.level_unknowns = unknowns();
   for (Index p = 0; p < problem_.A.size(); ++p)
@@ -30,10 +36,11 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   refuse_nan(evaluate(x_, r_).natural_residual);
   while (!step(monitor)) {
   }
-  finish_phases();
+  summary_.find_linear_phase();
   finish_energies();
   summary_.options = options_;
   summary_.options.method = method();
+  finish_stage(begin);
   return std::move(summary_);
 }
 
@@ -118,8 +125,8 @@ void Iteration<B>::measure(double error) {
   s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : sums_.natural_residual;
   double squared = energy_norm_squared(problem_, x_, sums_.products);
   if (squared <= trace_ * sums_.largest * sums_.largest * 1e-14) squared = std::max(squared, rounding_energy());
-  const double size = std::sqrt(squared);
-  s.algebraic_error = error == 0 ? 0 : size > 0 ? error / size : 1;
+  size_ = std::sqrt(squared);
+  s.algebraic_error = error == 0 ? 0 : size_ > 0 ? error / size_ : 1;
   s.energy = energy(problem_, sums_.products);
 }
 
@@ -150,18 +157,45 @@ bool Iteration<B>::within_tolerance() const {
   return summary_.residual <= options_.tolerance && summary_.algebraic_error <= options_.tolerance;
 }
 
+// Solved: to the tolerance, with what rounding does counted in, or as far as that allows.
 template <int B>
 bool Iteration<B>::finished(bool gaining) {
   Summary& s = summary_;
-  const double absolute = sums_.natural_residual;
+  stalled_ = sums_.natural_residual > 0.5 * least_ ? stalled_ + 1 : 0;
+  least_ = std::min(least_, sums_.natural_residual);
+  const bool at_rest = stalled_ >= 3 && !gaining && rests_at_rounding() && !has_risen();
+  if (!within_tolerance() && !at_rest) return false;
+  const double of_rounding = size_ > 0 ? rounding_error() / size_ : 0,
+               error = std::hypot(s.algebraic_error, of_rounding);
+  if (error > std::max(options_.tolerance, attained * of_rounding)) return false;
+  s.rounding_error = of_rounding;
+  s.algebraic_error = s.history.back().algebraic_error = error;
   if (within_tolerance())
     return end(Outcome::converged, fmt::format("residual {:.3e} and algebraic error {:.3e} are at most {:.3e}",
                                                s.residual, s.algebraic_error, options_.tolerance));
-  stalled_ = absolute > 0.5 * least_ ? stalled_ + 1 : 0;
-  least_ = std::min(least_, absolute);
-  if (stalled_ >= 3 && !gaining && rests_at_rounding() && s.algebraic_error <= coarse_error && !has_risen())
-    return end(Outcome::rounding, fmt::format("the residual rests at {:.3e}, which is rounding", s.residual));
-  return false;
+  if (of_rounding > inaccurate)
+    return end(Outcome::inaccurate,
+               fmt::format("rounding leaves an algebraic error of about {:.1e}, tolerance {:.3e}: the matrix is too "
+                           "badly conditioned for the machine's precision",
+                           of_rounding, options_.tolerance));
+  return end(Outcome::rounding, fmt::format("limited by rounding: residual {:.3e} and algebraic error {:.3e} reached, "
+                                            "tolerance {:.3e}",
+                                            s.residual, s.algebraic_error, options_.tolerance));
+}
+
+// Found once: near the solution it changes no more.
+template <int B>
+double Iteration<B>::rounding_error() {
+  if (rounding_error_) return *rounding_error_;
+  const double enough = negligible * options_.tolerance * size_;
+  const double rough = rough_rounding_error(problem_, x_, x_before_, sums_.products.xAx, sums_.correction);
+  rounding_error_ = rough <= enough
+                        ? 0
+                        : signorini::rounding_error<B>(problem_, x_, enough,
+                                                       [this](const std::vector<double>& forces, double enough_) {
+                                                         return response(forces, enough_);
+                                                       });
+  return *rounding_error_;
 }
 
 // Natural residuals below a small multiple of machine precision times the largest unknown say nothing, unless it is
@@ -177,7 +211,7 @@ bool Iteration<B>::rests_at_rounding() const {
 template <int B>
 bool Iteration<B>::has_risen() const {
   const double gain = std::accumulate(gains_.begin(), gains_.end(), 0.0);
-  return !(gain >= -0.5 * coarse_error * coarse_error * energy_norm_squared(problem_, x_, sums_.products));
+  return !(gain >= -0.5 * risen * risen * energy_norm_squared(problem_, x_, sums_.products));
 }
 
 template <int B>
@@ -187,19 +221,23 @@ bool Iteration<B>::end(Outcome outcome, std::string reason) {
   return true;
 }
 
-template <int B>
-void Iteration<B>::finish_phases() {
-  const auto& history = summary_.history;
-  int from = 0;
-  for (auto it = history.rbegin(); it != history.rend() && it->changed == 0; ++it) from = it->iteration;
-  summary_.linear_phase_from = from;
-}
-
 // The energies themselves are differences of what may be far larger, the gains are not.
 template <int B>
 void Iteration<B>::finish_energies() {
   auto& history = summary_.history;
   for (std::size_t k = history.size(); k-- > 1;) history[k - 1].energy = history[k].energy + gains_[k];
+}
+
+template <int B>
+void Iteration<B>::finish_stage(double begin) {
+  Stage stage;
+  stage.method = method();
+  stage.iterations = summary_.iterations;
+  stage.seconds = seconds() - begin;
+  stage.outcome = summary_.outcome;
+  stage.reason = summary_.reason;
+  add_work(stage);
+  summary_.stages = {std::move(stage)};
 }
 
 // Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.

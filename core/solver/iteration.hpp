@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ template <int B>
 class Iteration {
  public:
   virtual ~Iteration() = default;
-  /// Iterates until the problem is solved, or there is another reason to stop.
+  /// Iterates until the problem is solved, or there is another reason to stop: a summary of one stage.
   /// @param before steps that other methods have made: they count for the limit and in the numbers of the steps
   Summary run(const Monitor& monitor, int before = 0);
 
@@ -24,7 +25,7 @@ class Iteration {
   struct Step {
     std::vector<LevelReport> levels;  ///< coarsest first
     double error = 0;                 ///< estimate of ||x - x*||_A
-    double rate = 0;                  ///< Summary::rate
+    double rate = unknown_rate;       ///< Summary::rate
     bool carried = false;             ///< the residual was carried along, not computed from the iterate alone
     bool bounded = true;              ///< false: the energy has no minimum
     bool gaining = false;             ///< more energy than rounding explains was gained
@@ -50,6 +51,10 @@ class Iteration {
   virtual std::string method() const = 0;
   /// One step: from x_ to the next iterate, with x_before_, r_ and sums_; r_before_ is the residual of x_.
   virtual Step advance() = 0;
+  /// Adds the linear solver and what it has done, on the finest level.
+  virtual void add_work(Stage&) const {}
+  /// Response of the components of x_ that no bound holds.
+  virtual std::optional<double> response(const std::vector<double>& forces, double enough) = 0;
 
   /// r = b - A x and what follows from it.
   Sums evaluate(std::vector<double>& x, std::vector<double>& r) const;
@@ -76,22 +81,25 @@ class Iteration {
   void measure(double error);
   void record(Step step);
   double rounding_energy() const;
+  double rounding_error();
   bool within_tolerance() const;
   bool finished(bool gaining);
   bool rests_at_rounding() const;
   bool has_risen() const;
   bool end(Outcome outcome, std::string reason);
-  void finish_phases();
   void finish_energies();
+  void finish_stage(double begin);
   double residual_at_projected_zero();
 
   int before_ = 0;    // steps of other methods
   double trace_ = 0;  // of A
+  double size_ = 0;   // ||x||_A
   Summary summary_;
   std::vector<double> gains_;  // one for each step
   double reference_ = 0;
   double least_ = infinity;
   int stalled_ = 0;
+  std::optional<double> rounding_error_;  // in the energy norm, once it was asked for
 };
 
 }  // namespace signorini

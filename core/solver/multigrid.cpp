@@ -1,7 +1,9 @@
 #include "core/solver/multigrid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -11,6 +13,10 @@
 namespace signorini {
 
 namespace {
+
+constexpr int response_cycles = 10;
+constexpr double grown = 1.1,
+                 far_below = 0.01;  // squares of norms: of a response in a cycle, and beside what is enough
 
 // Coarse corrections live in boxes whatever the obstacle on the finest level is.
 template <int B>
@@ -124,6 +130,42 @@ CycleReport MonotoneMultigrid<B>::cycle(double* x, const Passes::Run& before, co
   levels_.back().x = x;
   descend(levels_.size() - 1, settings_.cycle, before, after);
   return report_;
+}
+
+// From zero on, with bounds that hold what is held and no others. What the cycles find grows up to what is sought.
+template <int B>
+std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& x, const std::vector<double>& forces,
+                                                     double enough) {
+  Level<B>& level = levels_.back();
+  Constraints<B> linear = level.constraints;
+  for (Index slot = 0; slot < linear.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const double value = x[Offset{linear.vector[slot]} * B + k];
+      double &lower = linear.lower[Offset{slot} * B + k], &upper = linear.upper[Offset{slot} * B + k];
+      const bool held = value <= lower || value >= upper;
+      lower = held ? 0 : -infinity;
+      upper = held ? 0 : infinity;
+    }
+  std::vector<Segment<B>> segments = one_box_segment<B>(level.vectors);
+  const double *b = std::exchange(level.b, forces.data()), near = std::exchange(near_, 0.0);
+  const bool search = std::exchange(line_search_, settings_.truncate != Truncation::none);
+  std::swap(level.constraints, linear);
+  std::swap(level.segments, segments);
+  std::vector<double> d(x.size(), 0.0);
+  double squared = 0, last = -1;
+  bool bounded = true;
+  for (int k = 0; k < response_cycles && bounded && squared > grown * last; ++k) {
+    bounded = cycle(d.data()).bounded;
+    last = squared;
+    squared = std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0));
+    if (squared <= far_below * enough * enough) break;
+  }
+  std::swap(level.constraints, linear);
+  std::swap(level.segments, segments);
+  level.b = b;
+  near_ = near;
+  line_search_ = search;
+  return bounded ? std::optional(std::sqrt(squared)) : std::nullopt;
 }
 
 template <int B>

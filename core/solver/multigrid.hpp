@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 
 #include "core/solver/components.hpp"
@@ -56,6 +57,11 @@ class MonotoneMultigrid {
 
   /// From now on directions with at most this distance left are truncated too.
   void cut_below(double distance) { near_ = distance; }
+
+  /// About ||d||_A for A d = forces on the components of x that no bound holds, by cycles without any bounds; nothing
+  /// where nothing holds what the forces move.
+  /// @param enough smaller ones need not be known exactly
+  std::optional<double> response(const std::vector<double>& x, const std::vector<double>& forces, double enough);
 
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }

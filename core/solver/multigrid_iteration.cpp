@@ -75,6 +75,11 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   return step;
 }
 
+template <int B>
+std::optional<double> MultigridIteration<B>::response(const std::vector<double>& forces, double enough) {
+  return multigrid_.response(this->x_, forces, enough);
+}
+
 // By the rate of the last cycles, which may change: asked again from time to time.
 template <int B>
 bool MultigridIteration<B>::leaves_to_active_sets() const {

@@ -22,6 +22,7 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override;
   std::string method() const override;
   Step advance() override;
+  std::optional<double> response(const std::vector<double>& forces, double enough) override;
   bool goes_without_bounds() const;
   void compare_gains(bool free);
   bool leaves_to_active_sets() const;

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <new>
-#include <optional>
+#include <utility>
 
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
@@ -27,112 +26,111 @@ std::unique_ptr<Iteration<B>> iteration(const DiscreteProblem<B>& problem, std::
   return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, registry);
 }
 
-// Levels are counted from the coarsest; a method without coarser ones does nothing there.
-void add_coarser_levels(const Summary& before, IterationRecord& after) {
-  std::vector<LevelReport> idle;
-  for (const LevelReport& level : before.history.back().levels) idle.push_back({.vectors = level.vectors});
-  if (after.levels.size() < idle.size())
-    after.levels.insert(after.levels.begin(), idle.begin(), idle.end() - static_cast<Offset>(after.levels.size()));
-}
-
-Summary joined(const Summary& before, Summary after) {
-  for (IterationRecord& record : after.history) add_coarser_levels(before, record);
-  after.history.insert(after.history.begin(), before.history.begin(), before.history.end());
-  after.iterations += before.iterations;
-  after.options.method = before.options.method + ", then " + after.options.method;
-  after.level_unknowns = before.level_unknowns;
-  return after;
-}
-
+/// The methods that "auto" goes on with where cycles are slow, each from where the last one that was kept ended: active
+/// sets, with a shift where the matrix is singular on the free components; interior points where sets cycle; where all
+/// of them fail there may be no solution, which the coarse solver on the finest level finds out; then more of the
+/// cycles.
 template <int B>
-Summary go_on(const Summary& before, Iteration<B>&& loop, const Monitor& monitor) {
-  const auto counted = [&](IterationRecord record) {
-    add_coarser_levels(before, record);
-    return !monitor || monitor(record);
-  };
-  return loop.run(counted, before.iterations);
-}
+class Continuation {
+ public:
+  /// Keeps references to all but `cycles`.
+  Continuation(Summary cycles, const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+               std::vector<double>& x, const SolverOptions& options, const Registry& registry, const Monitor& monitor)
+      : problem_(problem),
+        prolongations_(prolongations),
+        x_(x),
+        options_(options),
+        registry_(registry),
+        monitor_(monitor),
+        done_(std::move(cycles)),
+        steps_(done_.iterations) {}
 
-// All steps of a method count as one, with what they did in all: the energy may grow between them.
-Summary as_one_step(Summary steps, const std::string& what, int before) {
-  steps.reason += fmt::format(", after {} {}", steps.iterations, what);
-  IterationRecord all = steps.history.back();
-  LevelReport& finest = all.levels.back();
-  all.changed = finest.changed = finest.renewed = 0;
-  finest.seconds = 0;
-  for (const IterationRecord& step : steps.history) {
-    const LevelReport& level = step.levels.back();
-    all.changed = finest.changed += level.changed;
-    finest.renewed += level.renewed;
-    finest.seconds += level.seconds;
+  Summary run() {
+    const Offset unknowns = done_.level_unknowns.back();
+    const bool small = unknowns <= automatic::most_unknowns_where_sets_cycle;
+    const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, unknowns);
+    for (const std::string& linear : solvers)
+      if (attempt<ActiveSetIteration<B>>("pdas", linear, options_.max_iterations, automatic::shift_if_singular))
+        return std::move(done_);
+    if (small && attempt<InteriorPointIteration<B>>("interior_point", solvers.back(), automatic::most_interior_points))
+      return std::move(done_);
+    if (problem_.A.size() * B <= automatic::most_unknowns_where_sets_cycle && !prolongations_.empty())
+      cycle("newton", {}, automatic::newton_steps);
+    if (done_.outcome == Outcome::stuck || done_.outcome == Outcome::iteration_limit)
+      cycle("monotone", prolongations_, options_.max_iterations);
+    if (done_.outcome == Outcome::stuck) {
+      done_.outcome = Outcome::iteration_limit;
+      done_.reason = fmt::format("iteration limit {}: {}", options_.max_iterations, done_.reason);
+    }
+    return std::move(done_);
   }
-  all.iteration = before + 1;
-  steps.history = {all};
-  steps.iterations = 1;
-  steps.linear_phase_from = 0;
-  return steps;
-}
 
-// The coarse solver on the finest level, which is monotone and finds motions that nothing holds; where it fails too,
-// more of the cycles.
-template <int B>
-Summary go_on_with_newton(const Summary& cycles, const DiscreteProblem<B>& problem,
-                          std::span<const Prolongation> prolongations, std::vector<double>& x,
-                          const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
-  Summary before = cycles;
-  SolverOptions own = options;
-  own.method = "monotone";
-  if (problem.A.size() * B <= automatic::most_unknowns_where_sets_cycle && !prolongations.empty()) {
-    SolverOptions few = own;
-    few.max_iterations = std::min(options.max_iterations, cycles.iterations + automatic::newton_steps);
-    Summary newton = go_on(cycles, MultigridIteration<B>(problem, {}, x, few, registry), monitor);
-    newton.options.method = "newton";
-    const bool more = newton.outcome == Outcome::iteration_limit && few.max_iterations < options.max_iterations;
-    before = joined(cycles, std::move(newton));
-    if (!more) return before;
+ private:
+  /// The user's options for up to `most` further steps.
+  SolverOptions limited(int most) const {
+    SolverOptions own = options_;
+    own.max_iterations = most < options_.max_iterations - steps_ ? steps_ + most : options_.max_iterations;
+    return own;
   }
-  return joined(before, go_on(before, MultigridIteration<B>(problem, prolongations, x, own, registry), monitor));
-}
 
-/// What a method that solves linear systems makes of an iterate. Nothing where it fails: its linear solver may not be
-/// there, or out of memory.
-template <class Method, int B, class... More>
-std::optional<Summary> go_on_with(const Summary& cycles, const DiscreteProblem<B>& problem, std::vector<double>& x,
-                                  const SolverOptions& options, const Registry& registry, const Monitor& monitor,
-                                  const std::string& linear, const std::string& steps, More... more) {
-  const std::vector<double> start = x;
-  try {
-    Summary found = go_on(cycles, Method(problem, x, options, registry, linear, more...), monitor);
-    if (found.converged())
-      return joined(cycles, as_one_step(std::move(found), fmt::format("{} with {}", steps, linear), cycles.iterations));
-    if (found.outcome == Outcome::interrupted) return joined(cycles, std::move(found));
-  } catch (const Error&) {
-  } catch (const std::bad_alloc&) {
+  Monitor counted() {
+    return [this](const IterationRecord& record) {
+      ++steps_;
+      return !monitor_ || monitor_(record);
+    };
   }
-  x = start;
-  return {};
-}
 
-// Where cycles are slow: active sets, with a shift where the matrix is singular on the free components; interior points
-// where sets cycle; where all of them fail there may be no solution.
-template <int B>
-Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>& problem,
-                                std::span<const Prolongation> prolongations, std::vector<double>& x,
-                                const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
-  const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, cycles.level_unknowns.back());
-  SolverOptions own = options;
-  own.max_iterations += cycles.iterations;
-  for (const std::string& linear : solvers)
-    if (auto found = go_on_with<ActiveSetIteration<B>>(cycles, problem, x, own, registry, monitor, linear,
-                                                       "active sets", automatic::shift_if_singular))
-      return *found;
-  own.max_iterations = cycles.iterations + automatic::most_interior_points;
-  if (cycles.level_unknowns.back() <= automatic::most_unknowns_where_sets_cycle)
-    if (auto found = go_on_with<InteriorPointIteration<B>>(cycles, problem, x, own, registry, monitor, solvers.back(),
-                                                           "interior points"))
-      return *found;
-  return go_on_with_newton(cycles, problem, prolongations, x, options, registry, monitor);
-}
+  /// A method that solves linear systems: it may fail, its linear solver may not be there, or out of memory. Then what
+  /// it did is dropped. Returns whether the solve is over.
+  template <class Method, class... More>
+  bool attempt(const std::string& method, const std::string& linear, int most, More... more) {
+    if (steps_ >= options_.max_iterations) return false;
+    const SolverOptions own = limited(most);
+    const int before = steps_;
+    const std::vector<double> start = x_;
+    const double begin = seconds();
+    Stage stage;
+    stage.method = method;
+    stage.linear = linear;
+    try {
+      Summary found = Method(problem_, x_, own, registry_, linear, more...).run(counted(), steps_);
+      found.iterations = found.stages.front().iterations = 0;  // no cycles
+      if (found.converged() || found.outcome == Outcome::interrupted) {
+        done_.append(std::move(found));
+        return true;
+      }
+      stage = std::move(found.stages.front());
+    } catch (const Error& error) {
+      stage.reason = error.what();
+    } catch (const std::bad_alloc&) {
+      stage.reason = "out of memory";
+    }
+    stage.seconds = seconds() - begin;
+    stage.kept = false;
+    done_.stages.push_back(std::move(stage));
+    x_ = start;
+    steps_ = before;
+    return false;
+  }
+
+  void cycle(const char* method, std::span<const Prolongation> prolongations, int most) {
+    if (steps_ >= options_.max_iterations) return;
+    SolverOptions own = limited(most);
+    own.method = "monotone";
+    Summary found = MultigridIteration<B>(problem_, prolongations, x_, own, registry_).run(counted(), steps_);
+    found.options.method = found.stages.front().method = method;
+    done_.append(std::move(found));
+  }
+
+  const DiscreteProblem<B>& problem_;
+  std::span<const Prolongation> prolongations_;
+  std::vector<double>& x_;
+  const SolverOptions& options_;
+  const Registry& registry_;
+  const Monitor& monitor_;
+  Summary done_;
+  int steps_;  // of all that is kept
+};
 
 }  // namespace
 
@@ -145,7 +143,7 @@ Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> p
   Summary summary = loop->run(monitor);
   if (summary.outcome == Outcome::stuck && options.method == "auto" && summary.iterations < options.max_iterations) {
     loop.reset();  // its memory is needed
-    summary = solve_by_linear_systems(summary, problem, prolongations, x, options, registry, monitor);
+    summary = Continuation<B>(std::move(summary), problem, prolongations, x, options, registry, monitor).run();
   }
   summary.setup_seconds = ready - begin;
   summary.solve_seconds = seconds() - ready;

@@ -47,12 +47,14 @@ bool SparseSystem<B>::factorise(const std::vector<char>& held, const std::vector
     const bool coupled = !held[row] && !held[column];
     *value++ = row == column ? 1 : coupled ? entry * scale_[row] * scale_[column] : 0;
   });
+  ++factorisations_;
   return linear_->factorise(value_, scale_);
 }
 
 template <int B>
 bool SparseSystem<B>::solve(std::vector<double>& b) {
   for (std::size_t i = 0; i < b.size(); ++i) b[i] *= scale_[i];
+  ++solves_;
   if (!linear_->solve(b)) return false;
   for (std::size_t i = 0; i < b.size(); ++i) b[i] *= scale_[i];
   return true;

@@ -25,6 +25,9 @@ class SparseSystem {
   /// Replaces the right-hand side by the solution. Returns whether that was possible.
   bool solve(std::vector<double>& b);
 
+  int factorisations() const { return factorisations_; }
+  int solves() const { return solves_; }
+
  private:
   template <class Visit>
   void visit_lower_triangle(const Visit& visit) const;
@@ -32,6 +35,7 @@ class SparseSystem {
   const BlockMatrix<B>& A_;
   std::unique_ptr<LinearSolver> linear_;
   std::vector<double> value_, scale_;
+  int factorisations_ = 0, solves_ = 0;
 };
 
 }  // namespace signorini

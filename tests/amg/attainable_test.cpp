@@ -1,0 +1,128 @@
+// What rounding leaves of the accuracy, against closed forms: errors are estimated, and never below what they are.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <Eigen/SparseCholesky>
+
+#include "amg/black_box.hpp"
+#include "tests/amg/matrices.hpp"
+#include "tests/support/random.hpp"
+
+namespace signorini::test {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Springs in a row, the first one held, with stiffnesses that are powers of two: sums of two of them are exact.
+struct Chain {
+  std::vector<double> stiffness, load;
+
+  Chain(Random& random, std::size_t n, int most) {
+    for (std::size_t i = 0; i < n; ++i) {
+      stiffness.push_back(std::ldexp(1, random.below(most + 1)));
+      load.push_back(random.between(-1, 1));
+    }
+  }
+
+  Matrix matrix() const {
+    const auto n = static_cast<Index>(load.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index i = 0; i < n; ++i) {
+      entries.emplace_back(i, i, stiffness[i]);
+      if (i == 0) continue;
+      entries.emplace_back(i - 1, i - 1, stiffness[i]);
+      entries.emplace_back(i, i - 1, -stiffness[i]);
+      entries.emplace_back(i - 1, i, -stiffness[i]);
+    }
+    Matrix A(n, n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    return A;
+  }
+
+  /// ||x - x*||_A / ||x*||_A: a spring carries the loads behind it.
+  double error(const std::vector<double>& x) const {
+    long double carried = 0, error = 0, size = 0;
+    for (std::size_t i = load.size(); i-- > 0;) {
+      carried += load[i];
+      const long double stretch = carried / stiffness[i];
+      const long double found = static_cast<long double>(x[i]) - (i > 0 ? x[i - 1] : 0);
+      error += stiffness[i] * (found - stretch) * (found - stretch);
+      size += stiffness[i] * stretch * stretch;
+    }
+    return static_cast<double>(std::sqrt(error / size));
+  }
+};
+
+void expect_contained(const Summary& s, double error) {
+  const bool limited = s.outcome == Outcome::rounding || s.outcome == Outcome::inaccurate;
+  EXPECT_TRUE(limited || s.outcome == Outcome::converged) << s.reason;
+  EXPECT_EQ(limited, s.algebraic_error > 1e-8) << s.reason;
+  EXPECT_LE(error, 5 * std::max(s.algebraic_error, 1e-8)) << s.reason;
+}
+
+// The estimate is that of random errors: true ones may be some times as large.
+TEST(Attainable, ErrorsOfIllConditionedChainsAreContained) {
+  Random random(91);
+  int limited = 0;
+  for (const auto& [n, decades] : {std::pair{22, 20}, {22, 30}, {22, 40}, {68, 20}, {68, 30}, {300, 20}, {300, 30}})
+    for (int trial = 0; trial < 10; ++trial) {
+      SCOPED_TRACE(fmt::format("{} springs, stiffness up to 2^{}, trial {}", n, decades, trial));
+      const Chain chain(random, static_cast<std::size_t>(n), decades);
+      const BlackBox::Result result = BlackBox(chain.matrix()).solve(chain.load);
+      expect_contained(result.summary, chain.error(result.x));
+      limited += result.summary.outcome == Outcome::rounding;
+      EXPECT_LE(result.summary.algebraic_error, 1e-2);
+    }
+  EXPECT_GT(limited, 30);
+}
+
+/// The solution of A x = b by refinement with residuals in extended precision, and its distance from x, relative, in
+/// the energy norm.
+double error_of(const Matrix& A, const std::vector<double>& b, const std::vector<double>& x) {
+  using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  const Eigen::SparseMatrix<long double> wide = A.cast<long double>();
+  const Eigen::SimplicialLDLT<Matrix> factor(A);
+  const Vector load = vector(b).cast<long double>();
+  Vector exact = Vector::Zero(load.size());
+  for (int k = 0; k < 30; ++k) {
+    const Vector r = load - wide * exact;
+    exact += factor.solve(Eigen::VectorXd(r.cast<double>())).cast<long double>();
+  }
+  const Vector e = vector(x).cast<long double>() - exact;
+  return static_cast<double>(std::sqrt(e.dot(wide * e) / exact.dot(wide * exact)));
+}
+
+// Its bending has little energy beside that of its cells.
+TEST(Attainable, ErrorsOfSlenderBeamsAreContained) {
+  Model<2> model = resting_block<2>({0, -1e-6}, {});
+  model.obstacles.clear();
+  model.fixes = {{on("left"), {Field(0), Field(0)}}};
+  for (const int slenderness : {30, 300}) {
+    SCOPED_TRACE(slenderness);
+    Mesh<2> mesh = cube<2>(0, 1, 24);
+    for (auto& point : mesh.points) point[0] *= slenderness;
+    const Given<2> given(discretize<2, 2>(mesh, model).problem);
+    const BlackBox::Result result = BlackBox(given.A, 2).solve(given.b);
+    expect_contained(result.summary, error_of(given.A, given.b, result.x));
+    EXPECT_EQ(result.summary.outcome, slenderness == 30 ? Outcome::converged : Outcome::rounding);
+    fmt::print("{}: {:.1e}, {}\n", slenderness, error_of(given.A, given.b, result.x), result.summary.reason);
+  }
+}
+
+// Nor are they far above.
+TEST(Attainable, WellConditionedMatricesAreNotLimited) {
+  for (const int cells : {10, 40, 100}) {
+    const Matrix A = laplacian(cells);
+    const Eigen::VectorXd exact = vector(waves(static_cast<std::size_t>(A.rows()))), b = A * exact;
+    SolverOptions options;
+    options.tolerance = 1e-12;
+    const BlackBox::Result result = BlackBox(A, 1, options).solve(std::vector<double>(b.begin(), b.end()));
+    EXPECT_EQ(result.summary.outcome, Outcome::converged) << result.summary.reason;
+    EXPECT_LE(result.summary.rounding_error, 1e-12) << cells;
+    const Eigen::VectorXd e = vector(result.x) - exact;
+    EXPECT_LE(std::sqrt(e.dot(A * e) / exact.dot(A * exact)), 3e-12);
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test
