@@ -201,7 +201,7 @@ class BlackBox::BlockSolver final : public Solver {
       result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped);
     else
       result.x = nested_start_from<B>({start.begin(), start.end()}, problem_, levels.prolongations, options_, registry_,
-                                      monitor);
+                                      monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
     if (const Outcome o = result.summary.outcome; o != Outcome::interrupted && o != Outcome::unbounded)

@@ -246,13 +246,13 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
 template <int B>
 std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
                                       std::span<const Prolongation> prolongations, const SolverOptions& options,
-                                      const Registry& registry, const Monitor& monitor) {
+                                      const Registry& registry, const Monitor& monitor, std::vector<Stage>* dropped) {
   constexpr double small = 0.1;  // part of what coarser levels get wrong
   if (prolongations.empty()) return given;
   std::vector<double> x;
   {
     const Difference<B> difference(problem, given);
-    x = nested_start(problem, prolongations, options, registry, monitor);
+    x = nested_start(problem, prolongations, options, registry, monitor, dropped);
   }
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += given[k];
   make_admissible(problem, x);
@@ -261,7 +261,7 @@ std::vector<double> nested_start_from(const std::vector<double>& given, Discrete
   for (std::size_t k = 0; k < x.size(); ++k) correction[k] -= given[k];
   const Prolongation& P = prolongations.back();
   if (rough_energy(problem, P, correction) <= small * small * rough_energy(problem, P, x)) return x;
-  std::vector<double> none = nested_start(problem, prolongations, options, registry, monitor);
+  std::vector<double> none = nested_start(problem, prolongations, options, registry, monitor, dropped);
   make_admissible(problem, none);
   return lowers(problem, x, none) ? x : none;
 }
@@ -276,7 +276,7 @@ template std::vector<double> nested_start(const DiscreteProblem<3>&, std::span<c
 #define SIGNORINI_INSTANTIATE(B)                                                                                       \
   template std::vector<double> nested_start_from(const std::vector<double>&, DiscreteProblem<B>&,                      \
                                                  std::span<const Prolongation>, const SolverOptions&, const Registry&, \
-                                                 const Monitor&);
+                                                 const Monitor&, std::vector<Stage>*);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

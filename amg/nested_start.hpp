@@ -33,6 +33,7 @@ Stage dropped_start(double seconds, const std::string& reason);
 template <int B>
 std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
                                       std::span<const Prolongation> prolongations, const SolverOptions& options,
-                                      const Registry& registry, const Monitor& monitor = {});
+                                      const Registry& registry, const Monitor& monitor = {},
+                                      std::vector<Stage>* dropped = nullptr);
 
 }  // namespace signorini
