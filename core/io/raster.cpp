@@ -8,7 +8,7 @@ namespace signorini {
 namespace {
 
 using Vector = std::array<double, 3>;
-constexpr std::size_t edges_up_to = 6000;  ///< more triangles than this are drawn without their edges
+constexpr std::size_t edges_up_to = 1500;  ///< more triangles than this are drawn without their edges
 constexpr double edge_width = 0.45;        ///< pixels on each side
 constexpr std::array<int, 3> edge_colour{0x60, 0x60, 0x60};
 
@@ -110,7 +110,7 @@ class Canvas {
       for (int k = 0; k < 2; ++k) x[c][k] = scale_ * (x[c][k] - origin_[k]);
     }
     const double area = twice_area(x[0], x[1], x[2]);
-    if (area == 0) return;
+    if (!(std::abs(area) > 0)) return;
     const double brightness = camera_.brightness(corner[0], corner[1], corner[2]);
     std::array<double, 3> height;
     for (int c = 0; c < 3; ++c) height[c] = std::abs(area) / length(x[(c + 1) % 3], x[(c + 2) % 3]);
@@ -148,7 +148,7 @@ class Canvas {
       nearest_edge = std::min(nearest_edge, weight[c] * height[c]);
     }
     const std::size_t at = std::size_t(row) * raster_.width + column;
-    if (depth <= depth_[at]) return;
+    if (!(depth > depth_[at]) || std::isnan(value)) return;
     depth_[at] = depth;
     const auto shade = edges_ && nearest_edge < edge_width ? edge_colour : colour(value, range_);
     for (int k = 0; k < 3; ++k) raster_.rgb[3 * at + k] = static_cast<char>(static_cast<int>(brightness * shade[k]));

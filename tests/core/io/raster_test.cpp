@@ -72,6 +72,20 @@ TEST(Raster, WhatIsNearerHidesTheRestInAnyOrder) {
   EXPECT_LT(at(one, 50, 30)[0], at(one, 50, 30)[2]);
 }
 
+TEST(Raster, WhatIsNoNumberIsNotDrawn) {
+  Panel panel = plate(1, 0, 80);
+  const Raster whole = draw_patches(panel, {0, 1}, 40);
+  for (const double broken : {std::nan(""), infinity}) {
+    Patch patch = panel.patches.front();
+    patch.value[1] = std::nan("");
+    panel.patches.push_back(patch);
+    patch = panel.patches.front();
+    patch.corner[1][2] = broken * 0;
+    panel.patches.push_back(patch);
+  }
+  EXPECT_EQ(draw_patches(panel, {0, 1}, 40).rgb, whole.rgb);
+}
+
 TEST(Raster, EqualValuesHaveARangeThatIsNotEmpty) {
   for (const double value : {0.0, 3.0, -1e-9}) {
     Panel panel = plate(1, 0, 1);
