@@ -52,6 +52,24 @@ void check_near_null(const NearNullSpace& near_null, Index rows, Coarsening coar
   check_finite(what, near_null.value);
 }
 
+bool held(const std::vector<Flags>& flags, std::size_t i, int block) {
+  return flags[i / static_cast<std::size_t>(block)] >> (i % static_cast<std::size_t>(block)) & 1u;
+}
+
+/// The problem of a matrix without load and bounds.
+/// @param zero_rows per vector the components whose row is zero
+template <int B>
+DiscreteProblem<B> problem_of(const SparseRows& A, std::vector<Flags>& zero_rows) {
+  DiscreteProblem<B> out;
+  out.A = block_matrix<B>(A, &zero_rows);
+  const auto n = static_cast<std::size_t>(A.rows);
+  for (std::size_t i = 0; i < n; ++i)  // what such a row is to be put back as
+    if (held(zero_rows, i, B)) out.A.at(out.A.row[i / B])[i % B * (B + 1)] = 0;
+  out.b.assign(n, 0);
+  out.start.assign(n, 0);
+  return out;
+}
+
 }  // namespace
 
 class BlackBox::Solver {
@@ -64,6 +82,7 @@ class BlackBox::Solver {
 
   virtual ~Solver() = default;
   virtual void set_tolerance(double tolerance) = 0;
+  virtual void set_matrix(const SparseRows& A) = 0;
   virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                        std::span<const double> start, const Monitor& monitor) = 0;
 
@@ -76,12 +95,7 @@ class BlackBox::BlockSolver final : public Solver {
  public:
   BlockSolver(const SparseRows& A, const Given& given, const SolverOptions& options, NearNullSpace near_null)
       : options_(options), registry_(solver_components()), near_null_(std::move(near_null)), chosen_(!given) {
-    const auto n = static_cast<std::size_t>(A.rows);
-    problem_.A = block_matrix<B>(A, &zero_rows_);
-    for (std::size_t i = 0; i < n; ++i)  // what such a row is to be put back as
-      if (held(zero_rows_, i)) problem_.A.at(problem_.A.row[i / B])[i % B * (B + 1)] = 0;
-    problem_.b.assign(n, 0);
-    problem_.start.assign(n, 0);
+    problem_ = problem_of<B>(A, zero_rows_);
     check_options(options_);
     check_near_null(near_null_, A.rows, coarsening_of(options_));
     aggregator_ = registry_.create<Aggregator>("aggregates", options_.aggregates);
@@ -91,7 +105,7 @@ class BlackBox::BlockSolver final : public Solver {
     if (given) levels_ = take(*given);
     if (motions_->complete()) return;
     // Levels wait for the bounds, which may hold unknowns, unless the matrix is judged by them.
-    if (!levels_) set_up();
+    if (!levels_) levels_ = levels_for(problem_);
     refuse_indefinite<B>(problem_.A, *levels_);
   }
 
@@ -100,6 +114,29 @@ class BlackBox::BlockSolver final : public Solver {
     changed.tolerance = tolerance;
     check_options(changed);
     options_ = std::move(changed);
+  }
+
+  void set_matrix(const SparseRows& A) override {
+    if (A.rows != problem_.A.size() * B)
+      input_error("matrix", fmt::format("found {} rows, expected {} as before", A.rows, problem_.A.size() * B));
+    std::vector<Flags> zero_rows, fixed = problem_.fixed;
+    DiscreteProblem<B> problem = problem_of<B>(A, zero_rows);
+    for (std::size_t p = 0; p < fixed.size(); ++p) fixed[p] = (fixed[p] & ~zero_rows_[p]) | zero_rows[p];
+    HeldRows<B> held;
+    held.hold(problem, std::move(fixed));
+    held.prescribe(problem);
+    Motions<B> motions(problem.A);
+    std::optional<AlgebraicLevels<B>> levels;
+    if (levels_)
+      levels = galerkin_hierarchy<B>(problem, levels_->prolongations, transfer());
+    else if (!motions.complete())
+      levels = levels_for(problem);
+    if (!motions.complete()) refuse_indefinite<B>(problem.A, *levels);
+    problem_ = std::move(problem);
+    motions_ = std::move(motions);
+    zero_rows_ = std::move(zero_rows);
+    held_ = std::move(held);
+    levels_ = std::move(levels);
   }
 
   Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
@@ -113,11 +150,12 @@ class BlackBox::BlockSolver final : public Solver {
     hold(held_by(bounds));
     problem_.constraints = constraints<B>(bounds, problem_.fixed);
     for (std::size_t i = 0; i < n; ++i)
-      problem_.start[i] = held(problem_.fixed, i) ? prescribed_value(i, bounds[i], start) : 0;
+      problem_.start[i] = held(problem_.fixed, i, B) ? prescribed_value(i, bounds[i], start) : 0;
     held_.prescribe(problem_);
     const double begin = seconds();
     if (!motions_) motions_.emplace(problem_.A);
-    if (!levels_) set_up();
+    if (!levels_) levels_ = levels_for(problem_);
+    interpolations_.clear();
     const double ready = seconds();
     Result result;
     if (const auto row = motions_->falling(problem_.b, problem_.constraints))
@@ -144,8 +182,6 @@ class BlackBox::BlockSolver final : public Solver {
     check_finite("start", start);
   }
 
-  static bool held(const std::vector<Flags>& flags, std::size_t i) { return flags[i / B] >> (i % B) & 1u; }
-
   /// Components whose row of the matrix is zero or whose bounds are equal.
   std::vector<Flags> held_by(const Box& bounds) const {
     std::vector<Flags> out = zero_rows_;
@@ -163,12 +199,10 @@ class BlackBox::BlockSolver final : public Solver {
     levels_.reset();
   }
 
-  void set_up() {
-    if (chosen_)
-      levels_ = algebraic_hierarchy<B>(problem_, transfer(), enough_vectors, algebraic_settings(options_), near_null_,
-                                       *aggregator_);
-    else
-      levels_ = galerkin_hierarchy<B>(problem_, std::move(interpolations_), transfer());
+  AlgebraicLevels<B> levels_for(const DiscreteProblem<B>& problem) const {
+    if (!chosen_) return galerkin_hierarchy<B>(problem, interpolations_, transfer());
+    return algebraic_hierarchy<B>(problem, transfer(), enough_vectors, algebraic_settings(options_), near_null_,
+                                  *aggregator_);
   }
 
   /// The bound that the load goes to; without load, the admissible value next to the start.
@@ -296,9 +330,10 @@ BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
 
 void BlackBox::set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
-BlackBox::Result BlackBox::solve(std::span<const double> b, std::span<const double> lower,
-                                 std::span<const double> upper, std::span<const double> start, const Monitor& monitor) {
+BlackBox::Result BlackBox::solve(Values b, Values lower, Values upper, Values start, const Monitor& monitor) {
   return solver_->solve(b, lower, upper, start, monitor);
 }
+
+void BlackBox::set_matrix(const SparseRows& A) { solver_->set_matrix(A); }
 
 }  // namespace signorini

@@ -19,6 +19,16 @@ namespace signorini {
 /// naming the place; messages count rows and columns from 1.
 class BlackBox {
  public:
+  /// Numbers of the caller, of which none are copied: a vector of the standard library, of Eigen, a pointer and a
+  /// length.
+  struct Values : std::span<const double> {
+    using std::span<const double>::span;
+    Values(std::span<const double> values) : span(values) {}     // NOLINT: conversions are what it is for
+    Values(const std::vector<double>& values) : span(values) {}  // NOLINT
+    Values(const Eigen::VectorXd& values)                        // NOLINT
+        : span(values.data(), static_cast<std::size_t>(values.size())) {}
+  };
+
   struct Result {
     std::vector<double> x;
     /// A x - b where a bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere, and
@@ -64,8 +74,12 @@ class BlackBox {
   /// @param lower, upper, start one value per unknown; empty: none, and nested iteration
   /// @throws Error(Exit::input) for sizes that do not fit and values that are not numbers, Error(Exit::no_solution)
   ///     where a lower bound lies above the upper one, or no bound holds the load in a row of A that is zero
-  Result solve(std::span<const double> b, std::span<const double> lower = {}, std::span<const double> upper = {},
-               std::span<const double> start = {}, const Monitor& monitor = {});
+  Result solve(Values b, Values lower = {}, Values upper = {}, Values start = {}, const Monitor& monitor = {});
+
+  /// Another matrix of the same size for the solves from now on, such as that of the next time step: the interpolations
+  /// between the levels stay, their matrices are computed anew. The more the matrices differ the more cycles it takes.
+  /// @throws Error(Exit::input) for a matrix as above, or of another size; nothing has changed then
+  void set_matrix(const SparseRows& A);
 
  private:
   class Solver;

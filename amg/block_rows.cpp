@@ -170,8 +170,9 @@ class SymmetryCheck {
   void check_entry(Index i, Index j, double here, double there) const {
     const double size = root_[i] * root_[j];
     if (std::abs(here - there) > rounding * size)
-      fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}", i + 1,
-                       j + 1, here, j + 1, i + 1, there));
+      fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}{}",
+                       i + 1, j + 1, here, j + 1, i + 1, there,
+                       here == 0 || there == 0 ? "; where one triangle is given, say so" : ""));
     if (i != j && std::abs(here) > (1 + rounding) * size)
       fail(fmt::format(
           "not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "

@@ -13,7 +13,10 @@
 struct signorini_solver {
   signorini::BlackBox solver;
   std::size_t unknowns;
+  bool one_triangle = false;
   std::vector<signed char> active;  // of the last solve that wrote results; empty: none did
+  signorini_monitor monitor = nullptr;
+  void* monitor_data = nullptr;
 };
 
 namespace {
@@ -123,9 +126,10 @@ int create(const Matrix& matrix, int block, const signorini_setup& setup, signor
   if (solver) *solver = nullptr;
   return guarded([&] {
     require(solver, "solver");
-    const SparseRows A = matrix();
+    const bool one_triangle = setup.one_triangle != 0;
+    const SparseRows A = one_triangle ? signorini::from_triangle(matrix()) : matrix();
     BlackBox box = box_of(A, block, setup);
-    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), {}};
+    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), one_triangle};
     return report(SIGNORINI_SOLVED, "set up");
   });
 }
@@ -141,12 +145,22 @@ int status_of(Outcome outcome) {
     case Outcome::inaccurate:
       return SIGNORINI_ITERATION_LIMIT;
     case Outcome::interrupted:
+      return SIGNORINI_INTERRUPTED;
     case Outcome::stuck:
     case Outcome::failed:
     case Outcome::violated:
-      break;  // neither a monitor nor an obstacle
+      break;  // no obstacle
   }
   return SIGNORINI_FAILURE;
+}
+
+/// A monitor that goes on saying stop: it is asked on coarser levels, too.
+signorini::Monitor monitor_of(const signorini_solver& solver) {
+  if (!solver.monitor) return {};
+  return [call = solver.monitor, data = solver.monitor_data, stopped = false](const auto& record) mutable {
+    stopped = stopped || call(record.iteration, record.residual, record.algebraic_error, data) != 0;
+    return !stopped;
+  };
 }
 
 signorini_summary summary_of(const signorini::Summary& s) {
@@ -185,9 +199,10 @@ int signorini_solve(signorini_solver* solver, const double* b, const double* low
     require(x, "x");
     const auto values = [&](const double* array) { return std::span(array, array ? solver->unknowns : 0); };
     solver->solver.set_tolerance(tolerance);
-    BlackBox::Result result = solver->solver.solve(values(b), values(lower), values(upper), values(start));
+    BlackBox::Result result =
+        solver->solver.solve(values(b), values(lower), values(upper), values(start), monitor_of(*solver));
     const int status = status_of(result.summary.outcome);
-    if (status == SIGNORINI_SOLVED || status == SIGNORINI_ITERATION_LIMIT) {
+    if (status == SIGNORINI_SOLVED || status == SIGNORINI_ITERATION_LIMIT || status == SIGNORINI_INTERRUPTED) {
       std::ranges::copy(result.x, x);
       if (multiplier) std::ranges::copy(result.multiplier, multiplier);
       if (summary) *summary = summary_of(result.summary);
@@ -210,3 +225,22 @@ int signorini_active(const signorini_solver* solver, signed char* active) {
 const char* signorini_message() { return message.c_str(); }
 
 void signorini_destroy(signorini_solver* solver) { delete solver; }
+
+int signorini_set_matrix(signorini_solver* solver, const signorini_rows* matrix) {
+  return guarded([&] {
+    require(solver, "solver");
+    require(matrix, "matrix");
+    const SparseRows A = copies_of(matrix, 1).front();
+    solver->solver.set_matrix(solver->one_triangle ? signorini::from_triangle(A) : A);
+    return report(SIGNORINI_SOLVED, "set up");
+  });
+}
+
+int signorini_set_monitor(signorini_solver* solver, signorini_monitor monitor, void* data) {
+  return guarded([&] {
+    require(solver, "solver");
+    solver->monitor = monitor;
+    solver->monitor_data = data;
+    return report(SIGNORINI_SOLVED, "monitored");
+  });
+}

@@ -21,7 +21,8 @@ enum {
   SIGNORINI_BAD_INPUT = 2,       /* the matrix, a vector or an argument */
   SIGNORINI_ITERATION_LIMIT = 3, /* or rounding leaves too large an error to claim anything; results are written */
   SIGNORINI_NO_SOLUTION = 4,     /* bounds with nothing between them, energy unbounded below */
-  SIGNORINI_FAILURE = 6          /* memory, or a mistake of this library */
+  SIGNORINI_FAILURE = 6,         /* memory, or a mistake of this library */
+  SIGNORINI_INTERRUPTED = 130    /* by the monitor; results are written */
 };
 
 /* Levels of a matrix. The set-up serves any number of right-hand sides and bounds. */
@@ -69,6 +70,7 @@ typedef struct {
                                   vector of `block` unknowns, one column per coarse one */
   const signorini_rows* interpolations;
   const signorini_rows* coarse_matrices; /* one for each, in the same order: Galerkin products; null: computed */
+  int one_triangle; /* not 0: the matrix is given by its lower or its upper triangle with the diagonal */
 } signorini_setup;
 
 /* As signorini_create(); null is allowed for `setup`. */
@@ -77,9 +79,10 @@ int signorini_create_with(const signorini_rows* matrix, int block, const signori
 
 /*
  * Solves to a relative error of `tolerance`, in (0, 1). `b` has one value per row, as have the others. Null is allowed
- * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b
- * where a bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere) and `summary`. What is written is the solution where
- * SIGNORINI_SOLVED is returned, the last iterate with SIGNORINI_ITERATION_LIMIT, and nothing with the others.
+ * for `lower` and `upper` (none; single ones are infinite), `start` (from coarser levels), `multiplier` (Ax - b where a
+ * bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere) and `summary`. What is
+ * written is the solution where SIGNORINI_SOLVED is returned, the last iterate with SIGNORINI_ITERATION_LIMIT and
+ * SIGNORINI_INTERRUPTED, and nothing with the others.
  */
 int signorini_solve(signorini_solver* solver, const double* b, const double* lower, const double* upper,
                     const double* start, double tolerance, double* x, double* multiplier, signorini_summary* summary);
@@ -95,6 +98,21 @@ const char* signorini_message(void);
 
 /* Null is allowed. */
 void signorini_destroy(signorini_solver* solver);
+
+/*
+ * Another matrix of the same size for the solves from now on, such as that of the next time step: both triangles unless
+ * the setup said otherwise. The interpolations between the levels stay, their matrices are computed anew. Where another
+ * status than SIGNORINI_SOLVED is returned nothing has changed.
+ */
+int signorini_set_matrix(signorini_solver* solver, const signorini_rows* matrix);
+
+/*
+ * Called after every cycle of a solve from now on, also of those on coarser levels that give a start; `data` is passed
+ * on. Once it returns something else than 0 the solve ends with SIGNORINI_INTERRUPTED. It must not throw or jump.
+ * Null: none.
+ */
+typedef int (*signorini_monitor)(int iteration, double residual, double algebraic_error, void* data);
+int signorini_set_monitor(signorini_solver* solver, signorini_monitor monitor, void* data);
 
 #ifdef __cplusplus
 }

@@ -1,3 +1,9 @@
+# A plugin's sweeps are the inner loops of a solve.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  message(STATUS "signorini: no CMAKE_BUILD_TYPE given, taking Release")
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release (-O3) or RelWithDebInfo" FORCE)
+endif()
+
 # signorini_plugin(ID sources...): the module libsignorini_obstacle_ID.so that exports nothing but `signorini_plugin`
 # and whose every reference is met when it is linked. Used in this tree and, after find_package(signorini), outside it.
 function(signorini_plugin id)

@@ -67,6 +67,11 @@ std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene,
   std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
   if (!status.ok()) throw_failure(status, origin);
   if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
+  constexpr int most_directions = sizeof(ObstacleDescriptor::direction) / sizeof(ObstacleDescriptor::Direction);
+  if (const int found = obstacle->descriptor().directions; found < 0 || found > most_directions)
+    throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' describes {} directions, expected 0 to {}", origin,
+                                          scene.type, found, most_directions));
+  check_asked(*settings);
   return {obstacle.release(), [settings](const Obstacle<B>* held) { delete held; }};
 }
 

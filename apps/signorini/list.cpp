@@ -43,6 +43,7 @@ void print_entry(const Entry& entry) {
   fmt::print("  {:<16} {}\n", entry.id, entry.help);
   for (const OptionSpec& option : entry.options) print_option(option);
   fmt::print("      from {}{}{}\n", entry.file, entry.version.empty() ? "" : ", version ", entry.version);
+  if (!entry.optimised) fmt::print("      compiled without optimisation: solves take several times as long\n");
 }
 
 struct Kind {

@@ -12,6 +12,7 @@
 #include "apps/signorini/interrupt.hpp"
 #include "core/base/heap.hpp"
 #include "core/base/version.hpp"
+#include "core/component/crash.hpp"
 
 namespace signorini {
 namespace {
@@ -23,7 +24,7 @@ constexpr const char* exit_status = R"(Exit status:
   3    the iteration limit was reached, rounding leaves an error above 1e-2, or obstacles that meet at a vertex in
        dependent directions could not all be held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
-  5    a plugin could not be loaded
+  5    a plugin could not be loaded, or failed
   130  interrupted (Ctrl-C); nothing is written but, of several steps, those that were finished, marked
        "interrupted": true)";
 
@@ -36,7 +37,7 @@ constexpr const char* check_exit_status = R"(Exit status:
   1    wrong usage
   2    bad input (file, scene)
   4    no solution exists (infeasible bounds)
-  5    a plugin could not be loaded
+  5    a plugin could not be loaded, or failed
   130  interrupted (Ctrl-C))";
 
 constexpr const char* qp_notes =
@@ -57,7 +58,8 @@ Exit status:
 constexpr const char* list_exit_status = R"(Exit status:
   0    listed, with the plugins that were rejected
   1    wrong usage
-  2    standard output cannot be written)";
+  2    standard output cannot be written
+  5    a plugin failed while it was loaded)";
 
 struct Arguments {
   SolveArguments solve;
@@ -205,7 +207,6 @@ int run(int argc, char** argv) {
   auto* qp = add_qp(app, arguments);
   auto* list = add_list(app, arguments);
   add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
-  add_future(app, "plugin", "start a plugin project, or check a plugin");
   if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty())
     return report_error(wrong, Exit::usage);
   try {
@@ -224,6 +225,7 @@ int run(int argc, char** argv) {
 
 int guarded_run(int argc, char** argv) {
   catch_interrupts();
+  name_plugins_that_crash();
   keep_freed_memory();
   try {
     return flushed(run(argc, argv));

@@ -49,4 +49,8 @@ struct SparseRows {
 /// finite. Rows and columns are counted from 1 in messages.
 void check_entries(const SparseRows& matrix, std::string_view place);
 
+/// The symmetric matrix that one of its triangles, the lower or the upper one with the diagonal, stands for.
+/// Error(Exit::input) for a matrix as above, and where entries lie on both sides of the diagonal.
+SparseRows from_triangle(const SparseRows& triangle);
+
 }  // namespace signorini

@@ -39,6 +39,7 @@ std::string version_mismatch(const sdk::Plugin& plugin) {
 std::string differences(std::span<const FingerprintField> plugin, std::span<const FingerprintField> here) {
   std::vector<std::string> found;
   const auto compare = [&](std::string_view name, const FingerprintField* theirs, const FingerprintField* ours) {
+    if (name == sdk::optimised) return;  // slow, but no danger
     if (value_of(theirs) != value_of(ours))
       found.push_back(fmt::format("{}: {} in the plugin, {} here", name, value_of(theirs), value_of(ours)));
   };
@@ -62,6 +63,11 @@ std::string incompatibilities(const sdk::Plugin& plugin) {
     if (!mismatch.empty()) found.push_back(mismatch);
   if (found.empty()) return {};
   return fmt::format("{}: rebuild against SDK {}.{}", fmt::join(found, "; "), sdk::abi_major, sdk::abi_minor);
+}
+
+bool is_optimised(const sdk::Plugin& plugin) {
+  const FingerprintField* field = find({plugin.fingerprint, plugin.fingerprint_fields}, sdk::optimised);
+  return field && field->number != 0;
 }
 
 }  // namespace signorini

@@ -12,4 +12,7 @@ std::string incompatibilities(const sdk::Plugin& plugin);
 /// "NAME: 'x' in the plugin, 'y' here" for every field that differs or is missing on one side, separated by "; ".
 std::string differences(std::span<const sdk::FingerprintField> plugin, std::span<const sdk::FingerprintField> here);
 
+/// Whether the plugin was compiled with optimisation, as far as it says.
+bool is_optimised(const sdk::Plugin& plugin);
+
 }  // namespace signorini

@@ -11,6 +11,8 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "core/component/crash.hpp"
+#include "core/component/elf.hpp"
 #include "core/component/handshake.hpp"
 #include "core/component/staging.hpp"
 
@@ -103,13 +105,15 @@ void PluginLoader::load(const fs::path& name) {
   const fs::path file = fs::absolute(name);  // a bare name would send dlopen through its own search path
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) reject(file, "there is no such file");
+  if (const std::string missing = missing_of_elf(file); !missing.empty()) reject(file, missing);
   const sdk::Plugin& plugin = handshake(open(file), file);
+  remember_plugin(file, &plugin);
   StagingRegistrar staging;
   Status status;
   plugin.register_all(staging, status);
   if (!status.ok()) reject(file, fmt::format("its registration failed: {}", status.message));
   try {
-    staging.commit(registry_, file.string(), plugin.version);
+    staging.commit(registry_, file.string(), plugin.version, is_optimised(plugin));
   } catch (const Error& error) {
     reject(file, fmt::format("its registration failed: {}", error.what()));
   }

@@ -22,6 +22,7 @@ struct Entry {
   std::vector<OptionSpec> options;  ///< with texts of static storage duration
   std::string file;                 ///< the library or program that provides it
   std::string version;              ///< of the provider
+  bool optimised = true;            ///< whether a plugin was compiled with optimisation
 };
 
 /// All components by kind and id. Filled explicitly and handed on as an object: there is no global one, and nothing

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
+#include <atomic>
 #include <charconv>
+#include <cstring>
 #include <map>
 #include <string_view>
 #include <variant>
@@ -79,7 +80,7 @@ class CompiledSettings final : public Settings {
  public:
   CompiledSettings(const std::string& component, std::span<const OptionSpec> specs, const RawTable& given,
                    std::shared_ptr<const DistanceFunction> shape, double t)
-      : shape_(std::move(shape)), t_(t) {
+      : component_(component), shape_(std::move(shape)), t_(t) {
     for (const OptionSpec& spec : specs) {
       const RawValue* raw = given.find(spec.name);
       Option& option = options_[spec.name];
@@ -89,6 +90,18 @@ class CompiledSettings final : public Settings {
       else if (*spec.fallback)
         option.value = typed(default_value(spec, component), spec);
     }
+  }
+
+  /// What was wrong with an option that was asked for; "" for nothing.
+  std::string complaint() const {
+    if (!wrong_) return {};
+    if (options_.contains(wrong_name_))
+      return fmt::format("the plugin of {} asks for its option '{}' as if it were of another type", component_,
+                         wrong_name_);
+    std::vector<std::string> names;
+    for (const auto& [name, option] : options_) names.push_back(name);
+    return fmt::format("the plugin of {} asks for an option '{}' that is not in its table{}", component_, wrong_name_,
+                       did_you_mean(wrong_name_, names));
   }
 
   bool has(const char* name) const noexcept override {
@@ -104,12 +117,13 @@ class CompiledSettings final : public Settings {
 
   double value(const char* name, std::size_t k, const double* point, const double* normal,
                Status& status) const noexcept override {
-    const auto& fields = get<std::vector<Field>>(name);
-    if (k >= fields.size()) {
-      status.fail(static_cast<int>(Exit::input), "a field without a value was asked for");
-      return 0;
-    }
     try {
+      const auto& fields = get<std::vector<Field>>(name);
+      if (k >= fields.size()) {
+        if (const std::string wrong = complaint(); !wrong.empty()) throw Error(Exit::plugin, wrong);
+        throw Error(Exit::input,
+                    fmt::format("value {} of option '{}' was asked for, which has {}", k + 1, name, fields.size()));
+      }
       return fields[k]({{point[0], point[1], point[2]}, {normal[0], normal[1], normal[2]}, t_});
     } catch (const Error& error) {
       status.fail(static_cast<int>(error.status()), error.what());
@@ -126,17 +140,20 @@ class CompiledSettings final : public Settings {
   };
 
   // An option without value or default reads as zero or empty. Names and types come from the component's own table, so
-  // any other name is a bug of the component.
+  // anything else is a bug of the component, for check_asked().
   template <class T>
   const T& get(const char* name) const noexcept {
     static const T nothing{};
     const auto found = options_.find(name);
-    assert(found != options_.end() && "a component asked for an option that is not in its table");
-    if (found == options_.end()) return nothing;
-    const T* value = std::get_if<T>(&found->second.value);
+    if (found != options_.end() && std::holds_alternative<std::monostate>(found->second.value)) return nothing;
+    const T* value = found == options_.end() ? nullptr : std::get_if<T>(&found->second.value);
+    if (!value && !wrong_.exchange(true)) std::strncpy(wrong_name_, name, sizeof wrong_name_ - 1);
     return value ? *value : nothing;
   }
 
+  std::string component_;
+  mutable std::atomic<bool> wrong_ = false;
+  mutable char wrong_name_[64] = {};  // the first wrong option asked for: what is noexcept keeps it without memory
   std::map<std::string, Option, std::less<>> options_;
   std::shared_ptr<const DistanceFunction> shape_;
   double t_;
@@ -149,6 +166,11 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
                                                  std::shared_ptr<const DistanceFunction> shape, double t) {
   reject_unknown_keys(component, specs, given, other_keys);
   return std::make_shared<CompiledSettings>(component, specs, given, std::move(shape), t);
+}
+
+void check_asked(const Settings& settings) {
+  const auto* compiled = dynamic_cast<const CompiledSettings*>(&settings);
+  if (const std::string wrong = compiled ? compiled->complaint() : ""; !wrong.empty()) throw Error(Exit::plugin, wrong);
 }
 
 }  // namespace signorini

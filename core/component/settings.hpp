@@ -18,4 +18,8 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
                                                  const RawTable& given, std::span<const std::string> other_keys = {},
                                                  std::shared_ptr<const DistanceFunction> shape = nullptr, double t = 1);
 
+/// Throws Error(Exit::plugin) where a component asked these settings for an option that its table does not have, or for
+/// one as of another type, naming it.
+void check_asked(const Settings& settings);
+
 }  // namespace signorini

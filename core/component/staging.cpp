@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "core/base/error.hpp"
+#include "core/component/settings.hpp"
+#include "core/scene/range.hpp"
 
 namespace signorini {
 namespace {
@@ -22,6 +25,16 @@ bool is_id(std::string_view id) {
 
 const std::set<std::string_view> reserved = {"type", "body", "on", "where", "shape"};
 
+void check_range(const ObstacleType& type, const OptionSpec& spec) {
+  try {
+    (void)Range(spec.range);
+  } catch (const std::invalid_argument& error) {
+    require(false, fmt::format("obstacle '{}': the range '{}' of option '{}' {}", type.id, spec.range, spec.name,
+                               error.what()));
+  }
+}
+
+// Ranges and defaults: what is wrong with them would else show in the scene that meets it.
 void check_options(const ObstacleType& type) {
   std::set<std::string_view> names;
   for (std::size_t k = 0; k < type.option_count; ++k) {
@@ -31,7 +44,9 @@ void check_options(const ObstacleType& type) {
     require(reserved.count(spec.name) == 0,
             fmt::format("obstacle '{}': the option '{}' has the name of a key of every obstacle", type.id, spec.name));
     require(names.insert(spec.name).second, fmt::format("obstacle '{}': option '{}' stands twice", type.id, spec.name));
+    check_range(type, spec);
   }
+  (void)compile_settings(fmt::format("obstacle '{}'", type.id), {type.options, type.option_count}, {});
 }
 
 void check(const ObstacleType& type, const std::vector<ObstacleType>& others) {
@@ -58,12 +73,15 @@ void StagingRegistrar::obstacle(const ObstacleType& type, Status& status) noexce
   }
 }
 
-void StagingRegistrar::commit(Registry& registry, const std::string& file, const std::string& version) const {
+void StagingRegistrar::commit(Registry& registry, const std::string& file, const std::string& version,
+                              bool optimised) const {
   require(first_failure_.ok(), first_failure_.message);
   require(!obstacles_.empty(), "it registers nothing");
   for (const ObstacleType& type : obstacles_) registry.require_free("obstacle", type.id, file);
   for (const ObstacleType& type : obstacles_)
-    registry.add_obstacle(type, {.kind = {}, .id = {}, .help = {}, .options = {}, .file = file, .version = version});
+    registry.add_obstacle(
+        type,
+        {.kind = {}, .id = {}, .help = {}, .options = {}, .file = file, .version = version, .optimised = optimised});
 }
 
 }  // namespace signorini

@@ -81,10 +81,19 @@ class Collector {
     Status status;
     term.obstacle->assemble(vertices_.data(), vertices_.size(), constraints_.data(), status);
     if (!status.ok()) throw_failure(status, term.origin);
-    for (std::size_t i = 0; i < numbers_.size(); ++i)
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      check_directions(numbers_[i], constraints_[i].directions);
       for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], constraints_[i], k);
+    }
     numbers_.clear();
     vertices_.clear();
+  }
+
+  void check_directions(Index vertex, int directions) const {
+    if (directions < 0 || directions > B)
+      throw Error(Exit::plugin,
+                  fmt::format("{}: the plugin bounds {} directions at {}, expected 0 to {}",
+                              model_.obstacles[obstacle_].origin, directions, position(mesh_, vertex), B));
   }
 
   void add(Index vertex, const LocalConstraint<B>& constraint, int k) {

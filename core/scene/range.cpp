@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/base/types.hpp"
@@ -16,14 +17,31 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(' ') - begin + 1));
 }
 
+double end_of_interval(std::string_view text) {
+  const std::string number = trimmed(text);
+  std::size_t read = 0;
+  double value = 0;
+  try {
+    value = std::stod(number, &read);
+  } catch (const std::exception&) {
+    read = 0;
+  }
+  if (number.empty() || read != number.size() || std::isnan(value))
+    throw std::invalid_argument(fmt::format("has an end '{}' that is no number", number));
+  return value;
+}
+
 }  // namespace
 
 Range::Range(std::string_view text) : text_(text), low_(-infinity), high_(infinity) {
   if (text.empty()) return;
   const std::size_t comma = text.find(',');
-  if ((text.front() == '(' || text.front() == '[') && comma != std::string_view::npos) {
-    low_ = std::stod(trimmed(text.substr(1, comma - 1)));
-    high_ = std::stod(trimmed(text.substr(comma + 1, text.size() - comma - 2)));
+  if (text.front() == '(' || text.front() == '[') {
+    if (comma == std::string_view::npos || (text.back() != ')' && text.back() != ']'))
+      throw std::invalid_argument("is no interval such as (0, inf) or [0, 1]");
+    low_ = end_of_interval(text.substr(1, comma - 1));
+    high_ = end_of_interval(text.substr(comma + 1, text.size() - comma - 2));
+    if (!(low_ <= high_)) throw std::invalid_argument("contains no number");
     closed_low_ = text.front() == '[';
     closed_high_ = text.back() == ']';
     return;

@@ -9,6 +9,7 @@ namespace signorini {
 /// or whole numbers "body | obstacle", or "" for any.
 class Range {
  public:
+  /// std::invalid_argument for what is neither; the message goes on after the text.
   explicit Range(std::string_view text);
 
   bool contains(double number) const;

@@ -58,6 +58,21 @@ static constexpr long long exceptions = 1;
 static constexpr long long exceptions = 0;
 #endif
 
+// Infinities mean that there is no bound, and NaN must stay what it is.
+#if defined(__FAST_MATH__)
+static constexpr long long fast_math = 1;
+#else
+static constexpr long long fast_math = 0;
+#endif
+
+// The one field in which builds may differ.
+static constexpr const char* optimised = "optimised";
+#if defined(__OPTIMIZE__)
+static constexpr long long optimisation = 1;
+#else
+static constexpr long long optimisation = 0;
+#endif
+
 // GCC announces sanitizers by macros, Clang by features. The undefined behaviour sanitizer changes no interface.
 #if defined(__has_feature)
 #define SIGNORINI_HAS_FEATURE(name) __has_feature(name)
@@ -93,6 +108,9 @@ static constexpr FingerprintField fingerprint[] = {
     {"architecture", architecture, 0},
     {"exceptions", nullptr, exceptions},
     {"sanitizer", sanitizer, 0},
+    {"fast math", nullptr, fast_math},
+    {"finite math only", nullptr, __FINITE_MATH_ONLY__},
+    {optimised, nullptr, optimisation},
     SIGNORINI_NUMBER("Eigen version", 10000 * EIGEN_WORLD_VERSION + 100 * EIGEN_MAJOR_VERSION + EIGEN_MINOR_VERSION),
     SIGNORINI_NUMBER("EIGEN_MAX_ALIGN_BYTES", EIGEN_MAX_ALIGN_BYTES),
     SIGNORINI_NUMBER("EIGEN_MALLOC_ALREADY_ALIGNED", EIGEN_MALLOC_ALREADY_ALIGNED),

@@ -398,5 +398,37 @@ TEST(BlackBox, StopsWhenTheMonitorSaysSo) {
   EXPECT_EQ(result.summary.outcome, Outcome::interrupted);
 }
 
+TEST(BlackBox, TakesVectorsOfEigen) {
+  const Matrix A = laplacian(30);
+  const Eigen::VectorXd b = Eigen::VectorXd::Constant(A.rows(), -1e-3),
+                        lower = Eigen::VectorXd::Constant(A.rows(), -0.1);
+  const std::vector<double> load(b.begin(), b.end()), floor(lower.begin(), lower.end());
+  BlackBox solver(A);
+  EXPECT_EQ(solver.solve(b, lower).x, solver.solve(load, floor).x);
+  EXPECT_EQ(solver.solve(b, floor).x, solver.solve({load.data(), load.size()}, lower).x);
+}
+
+// As in time steps of different lengths: mass and stiffness with other factors.
+TEST(BlackBox, TakesAnotherMatrixOnTheSameInterpolations) {
+  constexpr int cells = 80;
+  const Matrix K = neumann_laplacian(cells);
+  Matrix M(K.rows(), K.cols());
+  M.setIdentity();
+  const auto n = static_cast<std::size_t>(K.rows());
+  std::vector<double> b(n, -1e-3), lower(n, -0.2), upper(n, infinity);
+  for (std::size_t i = 0; i < n; i += 11) upper[i] = lower[i];
+  BlackBox solver(Matrix(K + 1e-3 * M));
+  for (const double mass : {1e-3, 5e-4, 2e-3}) {
+    const Matrix A = K + mass * M;
+    solver.set_matrix(A);
+    const auto found = solver.solve(b, lower, upper), fresh = BlackBox(A).solve(b, lower, upper);
+    EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+    EXPECT_LE(found.summary.iterations, fresh.summary.iterations + 2) << mass;
+    EXPECT_LE((vector(found.x) - vector(fresh.x)).norm(), 1e-7 * vector(fresh.x).norm()) << mass;
+    const Eigen::VectorXd force = A * vector(found.x) - vector(b);
+    EXPECT_LE((vector(found.multiplier) - force).norm(), 1e-12 * A.norm() * vector(found.x).norm());
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

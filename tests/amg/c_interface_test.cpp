@@ -208,5 +208,76 @@ TEST_F(CSetup, TakesCoordinates) {
   EXPECT_EQ(x, BlackBox(blocks, 2, {}, rigid_body_modes<2>(coordinates)).solve(load).x);
 }
 
+SparseRows triangle_of(const SparseRows& A, bool lower) {
+  SparseRows out;
+  out.rows = out.columns = A.rows;
+  for (Index i = 0; i < A.rows; ++i) {
+    for (Offset k = A.row[i]; k < A.row[i + 1]; ++k)
+      if (lower ? A.column[k] <= i : A.column[k] >= i) {
+        out.column.push_back(A.column[k]);
+        out.value.push_back(A.value[k]);
+      }
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+  }
+  return out;
+}
+
+TEST_F(CSetup, TakesEitherTriangle) {
+  const std::vector<double> expected = BlackBox(A).solve(b, lower).x;
+  for (const bool low : {false, true}) {
+    const SparseRows triangle = triangle_of(A, low);
+    const signorini_rows rows = rows_of(triangle);
+    setup.one_triangle = 0;
+    EXPECT_EQ(signorini_create_with(&rows, 1, &setup, &solver), SIGNORINI_BAD_INPUT);
+    EXPECT_THAT(signorini_message(), HasSubstr("where one triangle is given, say so"));
+    setup.one_triangle = 1;
+    ASSERT_EQ(signorini_create_with(&rows, 1, &setup, &solver), SIGNORINI_SOLVED) << signorini_message();
+    ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+    EXPECT_LE((vector(x) - vector(expected)).norm(), 1e-12 * vector(expected).norm());
+    signorini_destroy(solver);
+    solver = nullptr;
+  }
+  expect_refused("row 1 has an entry above the diagonal and row");
+}
+
+int stop_after_two(int iteration, double residual, double algebraic_error, void* data) {
+  EXPECT_GE(residual, 0);
+  EXPECT_GE(algebraic_error, 0);
+  *static_cast<int*>(data) += 1;
+  return iteration == 2;
+}
+
+TEST_F(CSetup, StopsWhenTheMonitorSaysSo) {
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  int calls = 0;
+  ASSERT_EQ(signorini_set_monitor(solver, stop_after_two, &calls), SIGNORINI_SOLVED);
+  EXPECT_EQ(solve(), SIGNORINI_INTERRUPTED);
+  EXPECT_GE(calls, 2);
+  EXPECT_NE(x[n / 2], 7);  // the last iterate
+  ASSERT_EQ(signorini_set_monitor(solver, nullptr, nullptr), SIGNORINI_SOLVED);
+  EXPECT_EQ(solve(), SIGNORINI_SOLVED);
+}
+
+TEST_F(CSetup, TakesAnotherMatrix) {
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  SparseRows other = A;
+  for (double& v : other.value) v *= v > 0 ? 4 : 3;
+  const signorini_rows rows = rows_of(other);
+  ASSERT_EQ(signorini_set_matrix(solver, &rows), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  const std::vector<double> expected = BlackBox(other).solve(b, lower).x, found = x;
+  EXPECT_LE((vector(found) - vector(expected)).norm(), 1e-7 * vector(expected).norm());
+
+  other.value[0] = -1;
+  EXPECT_EQ(signorini_set_matrix(solver, &rows), SIGNORINI_BAD_INPUT);
+  const SparseRows smaller = laplacian(20);
+  const signorini_rows few = rows_of(smaller);
+  EXPECT_EQ(signorini_set_matrix(solver, &few), SIGNORINI_BAD_INPUT);
+  EXPECT_THAT(signorini_message(), HasSubstr("found 361 rows, expected 1521 as before"));
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  EXPECT_EQ(x, found);  // nothing has changed
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -21,7 +21,7 @@ class CommandLine : public Program {};
 TEST_F(CommandLine, HelpNamesAllCommandsAndEndsWell) {
   const Ended ended = signorini({"--help"});
   EXPECT_EQ(ended.status, 0);
-  for (const char* command : {"solve", "check", "qp", "list", "chart", "plugin", "Exit status"})
+  for (const char* command : {"solve", "check", "qp", "list", "chart", "Exit status"})
     EXPECT_THAT(ended.out, HasSubstr(command));
   const Ended solve = signorini({"solve", "--help"});
   EXPECT_EQ(solve.status, 0);
@@ -86,8 +86,7 @@ TEST_F(CommandLine, AnUnknownPathOfSetIsBadInputAsAWrongValueIs) {
 }
 
 TEST_F(CommandLine, LaterCommandsSayThatTheyAreNotAvailable) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-           {"chart", "a.toml"}, {"plugin", "new", "x"}, {"plugin", "check", "x.so"}}) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"chart", "a.toml"}}) {
     const Ended ended = signorini(arguments);
     EXPECT_EQ(ended.status, 2);
     EXPECT_THAT(ended.err, HasSubstr("'" + arguments[0] + "' is not available in this version"));

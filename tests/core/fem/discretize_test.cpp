@@ -365,6 +365,22 @@ TEST(Discretize, FailuresOfObstaclesNameTheirOrigin) {
   }
 }
 
+TEST(Discretize, NumbersOfDirectionsThatDoNotExistAreRejected) {
+  for (const int directions : {9, 2, -1}) {
+    Model<1> model;
+    LocalConstraint<1> wrong = bound<1>({1}, 0, infinity);
+    wrong.directions = directions;
+    model.obstacles = {term<1>([=](const SurfaceVertex&) { return wrong; }, {})};
+    try {
+      discretize(unit_mesh<2>(1), model);
+      FAIL() << directions;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.status(), Exit::plugin);
+      expect_contains(e.what(), "bounds " + std::to_string(directions) + " directions");
+    }
+  }
+}
+
 TEST(Discretize, BoundsThatAreNotNumbersAreRejected) {
   Model<1> model;
   model.obstacles = {term<1>([](const SurfaceVertex&) { return bound<1>({1}, std::nan(""), infinity); }, {})};

@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "core/base/error.hpp"
+#include "core/component/crash.hpp"
 #include "core/component/settings.hpp"
 #include "core/sdk/plugin.hpp"
 
@@ -128,6 +130,77 @@ TEST(PluginLoaderDeathTest, ALibraryThatThrowsWhileBeingLoadedIsNamedBeforeThePr
   PluginLoader loader(registry, {fixtures / "fatal"});
   EXPECT_EXIT(loader.require("throwing_library"), testing::ExitedWithCode(static_cast<int>(Exit::plugin)),
               "libsignorini_obstacle_throwing_library.so: an exception left its static constructors");
+}
+
+/// Assembles the obstacle of the fixture in that way.
+void misbehave(const char* way) {
+  name_plugins_that_crash();
+  Registry registry;
+  PluginLoader loader(registry, {fixtures});
+  loader.require("misbehaving");
+  const ObstacleType& type = registry.obstacle("misbehaving");
+  const auto settings = compile_settings("obstacle 'misbehaving'", {type.options, type.option_count},
+                                         {"scene", {{"way", {std::string(way), "way"}}}});
+  Status status;
+  const std::unique_ptr<Obstacle<1>> obstacle(type.create1(*settings, status));
+  LocalConstraint<1> constraint;
+  const SurfaceVertex vertex{};
+  obstacle->assemble(&vertex, 1, &constraint, status);
+  check_asked(*settings);
+}
+
+TEST(PluginLoaderDeathTest, AVirtualFunctionThatThrowsOrCrashesEndsTheProgramNamingThePlugin) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto failed = testing::ExitedWithCode(static_cast<int>(Exit::plugin));
+  EXPECT_EXIT(misbehave("throw"), failed, "misbehaving.so: an exception left a function of the plugin");
+  EXPECT_EXIT(misbehave("segv"), failed, "misbehaving.so: the plugin reached outside its memory");
+  EXPECT_EXIT(misbehave("divide"), failed, "misbehaving.so: the plugin made a forbidden operation");
+  EXPECT_EXIT(misbehave("abort"), failed, "misbehaving.so: the plugin gave up");
+  EXPECT_EXIT((name_plugins_that_crash(), std::abort()), testing::KilledBySignal(SIGABRT), "");
+  misbehave("behave");
+}
+
+TEST(PluginLoader, AnOptionThatIsNotInTheTableIsNamed) {
+  try {
+    misbehave("misspell");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::plugin);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("'misbehaving'"), HasSubstr("'wey'"), HasSubstr("did you mean 'way'?")));
+  }
+}
+
+TEST(PluginLoader, RejectsRangesAndDefaultsThatCannotBeMet) {
+  EXPECT_THAT(rejection("bad_range"), AllOf(HasSubstr("the range '(oops' of option 'gap'"), HasSubstr("interval")));
+  EXPECT_THAT(rejection("bad_default"), AllOf(HasSubstr("default of 'gap'"), HasSubstr("[0, 1]")));
+}
+
+TEST(PluginLoader, RejectsAPluginCompiledWithFastMath) {
+  EXPECT_THAT(rejection("fast_math"), AllOf(HasSubstr("fast math: 1 in the plugin, 0 here"), HasSubstr("finite math")));
+}
+
+TEST(PluginLoader, TellsPluginsCompiledWithoutOptimisation) {
+  Registry registry;
+  EXPECT_EQ(rejection("unoptimised", registry), "");
+  EXPECT_FALSE(registry.entry("obstacle", "unoptimised").optimised);
+#if defined(__OPTIMIZE__)
+  EXPECT_EQ(rejection("good", registry), "");
+  EXPECT_TRUE(registry.entry("obstacle", "good").optimised);
+#endif
+}
+
+TEST(PluginLoader, RejectsATruncatedLibrary) {
+  const auto size = fs::file_size(fixtures / library("good"));
+  for (const double part : {0.02, 0.3, 0.6, 0.9, 0.999}) {
+    const Folder folder;
+    folder.add("good", "good");
+    fs::resize_file(folder.path() / library("good"), static_cast<std::uintmax_t>(part * static_cast<double>(size)));
+    Registry registry;
+    PluginLoader loader(registry, {folder.path()});
+    const auto rejected = loader.load_all();
+    ASSERT_THAT(rejected, testing::Not(testing::IsEmpty())) << part;
+    EXPECT_THAT(rejected.front().reason, HasSubstr("truncated")) << part;
+  }
 }
 
 TEST(PluginLoader, AConstructorThatThrowsIsAStatusNotAnException) {

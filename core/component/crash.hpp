@@ -1,0 +1,15 @@
+#pragma once
+#include <filesystem>
+
+namespace signorini {
+
+/// From now on a fault or an exception that nothing catches while code of a plugin runs, or code that a plugin called,
+/// ends the program with Exit::plugin and a message that names the plugin's file. It is told by the stack, so that
+/// calls of plugins cost nothing more. Without a plugin on the stack the program ends as it would have.
+void name_plugins_that_crash();
+
+/// The library of a plugin, as it was loaded.
+/// @param address in it
+void remember_plugin(const std::filesystem::path& file, const void* address);
+
+}  // namespace signorini

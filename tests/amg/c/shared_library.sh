@@ -1,0 +1,31 @@
+#!/bin/sh
+# The installed libsignorini_c.so exports what amg/signorini.h declares and nothing else, pkg-config finds it for a C
+# compiler, and the examples of docs/black_box.md in C and in Python, by ctypes, print the same.
+#   shared_library.sh CMAKE BUILD SOURCE SCRATCH
+set -eu
+cmake=$1 build=$2 source=$3 scratch=$4
+here=$source/tests/amg/c
+
+rm -rf "$scratch"
+"$cmake" --install "$build" --prefix "$scratch/prefix" --component sdk >/dev/null
+PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name signorini_c.pc)")
+export PKG_CONFIG_PATH
+libraries=$(pkg-config --variable=libdir signorini_c)
+library=$libraries/libsignorini_c.so.1
+
+nm -D --defined-only --format=just-symbols "$library" | sort >"$scratch/exported"
+grep -o 'signorini_[a-z0-9_]*(' "$source/amg/signorini.h" | grep -v '^signorini_monitor(' | tr -d '(' | sort -u >"$scratch/declared"
+diff "$scratch/exported" "$scratch/declared"
+readelf -d "$library" | grep -q 'SONAME.*\[libsignorini_c\.so\.1\]'
+
+# shellcheck disable=SC2046
+cc "$here/outside/membrane.c" -o "$scratch/membrane" $(pkg-config --cflags --libs signorini_c) -Wl,-rpath,"$libraries"
+"$scratch/membrane" >"$scratch/from_c"
+python3 "$here/membrane.py" "$library" >"$scratch/from_python"
+diff "$scratch/from_c" "$scratch/from_python"
+test "$(grep -c carries "$scratch/from_c")" = 3
+python3 - "$here/membrane.py" "$source/docs/black_box.md" <<'EOF'
+import sys
+example, page = (open(name).read() for name in sys.argv[1:])
+sys.exit(0 if example in page else "docs/black_box.md does not show membrane.py as it is tested")
+EOF
