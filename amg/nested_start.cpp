@@ -101,18 +101,6 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
   return out;
 }
 
-/// J(a) - J(b) <= 0 of admissible vectors, without cancellation: J(a) - J(b) = -(a - b)'r with the residual r in the
-/// middle between them.
-template <int B>
-bool lowers(const DiscreteProblem<B>& problem, const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> middle(a.size()), r(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) middle[k] = 0.5 * (a[k] + b[k]);
-  residual<B>(problem.A, middle.data(), problem.b.data(), r.data());
-  double gain = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) gain += (a[k] - b[k]) * r[k];
-  return gain >= 0;
-}
-
 /// A sweep to either side.
 template <int B>
 void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {

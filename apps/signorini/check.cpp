@@ -96,7 +96,7 @@ void check(const Scene& scene, const Registry& registry) {
                free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));
-  print_warnings(fix_warnings(scene, hierarchy.finest(), model));
+  print_warnings(model_warnings(scene, hierarchy.finest(), model));
 }
 }  // namespace
 

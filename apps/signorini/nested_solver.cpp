@@ -8,8 +8,10 @@
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
 #include "apps/signorini/interrupt.hpp"
+#include "apps/signorini/loose_body.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
+#include "core/solver/admissible.hpp"
 #include "core/solver/solve.hpp"
 
 namespace signorini {
@@ -60,6 +62,8 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       }) {
   Stopwatch watch;
   prolongations_ = prolongations(hierarchy);
+  before_.resize(hierarchy.levels.size());
+  now_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
 }
 
@@ -69,7 +73,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   Stopwatch watch;
   const Mesh<D>& mesh = hierarchy_.levels[level];
   progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
-  Solution<B> solution{discretize<D, B>(mesh, model), {}, {}};
+  Solution<B> solution{discretize<D, B>(mesh, model), {}, {}, {}};
   solution.x = solution.discretization.problem.start;
   times_.assemble += watch.elapsed();
   return solution;
@@ -96,6 +100,20 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   times_.setup += watch.elapsed();
 }
 
+/// For a start on the finest mesh, which alone has to hold the whole problem.
+template <int D, int B>
+void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
+  if (!coarsening_below(options_, B, hierarchy_.levels.front().vertices())) return;
+  try {
+    Solution<B> coarsest = discretize_level(model, 0);
+    continue_algebraically(coarsest.discretization.problem);
+  } catch (const Error& error) {
+    if (error.status() == Exit::interrupted) throw;
+    progress_.phase(fmt::format("no levels below the coarsest mesh: {}", error.what()));
+  }
+  galerkin_.clear();
+}
+
 /// On nested meshes the matrix of the coarser one is the product that the solver would compute: it takes it over.
 template <int D, int B>
 void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
@@ -111,6 +129,29 @@ void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, Di
   times_.setup += watch.elapsed();
 }
 
+/// Of all starts there are the one with least energy.
+template <int D, int B>
+void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
+  const DiscreteProblem<B>& problem = solution.discretization.problem;
+  const auto take_better = [&](std::vector<double> x) {
+    make_admissible(problem, x);
+    if (lowers(problem, x, solution.x)) solution.x = std::move(x);
+  };
+  const std::vector<double> last = to_local(problem, before_[level]);
+  make_admissible(problem, solution.x);
+  if (options_.start == "nested")
+    take_better(last);
+  else
+    solution.x = last;
+  if (coarse.x.empty() || before_[level - 1].empty()) return;
+  const DiscreteProblem<B>& below = coarse.discretization.problem;
+  std::vector<double> change = to_local(below, before_[level - 1]);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
+  std::vector<double> x = interpolate(below, change, prolongations_[algebraic_ + level - 1], problem);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
+  take_better(std::move(x));
+}
+
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
@@ -118,6 +159,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
     solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
+    if (!before_[level].empty()) start_from_before(level, coarse, solution);
     share_matrix(coarse, level, problem);
   } else if (level == 0 && options_.start == "nested") {
     continue_algebraically(problem);
@@ -126,6 +168,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
         nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
     times_.solve += watch.elapsed();
   }
+  if (coarse.x.empty() && !before_[level].empty()) start_from_before(level, coarse, solution);
   return solution;
 }
 
@@ -151,6 +194,16 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(model.origin, solution);
 }
 
+/// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
+template <int D, int B>
+void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
+  const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
+  body.require_minimum();
+  body.fall(solution.x);
+  solve_level(model, hierarchy_.levels.size() - 1, options_, solution);
+  if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+}
+
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
 /// finest one, which alone decides: such a level gives no start.
 template <int D, int B>
@@ -159,7 +212,9 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
   try {
     const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
+    LooseBody<D, B>(hierarchy_.levels[level], model, solution.discretization).fall(solution.x);
     solve_level(model, level, options, solution);
+    now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
     return true;
   } catch (const Error& error) {
@@ -172,26 +227,33 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
 }
 
 template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
+Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   Solution<B> coarse;
   if (options_.start == "nested")
     for (std::size_t level = 0; level < finest; ++level)
       if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
+  if (!continued_ && finest > 0) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
-  solve_level(model, finest, options_, solution);
+  before_.swap(now_);
+  before_.back() = {};
+  for (auto& of_level : now_) of_level = {};
+  solve_finest(model, solution);
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
 
 template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve_from(const Model<B>& model, const std::vector<double>& start) {
-  const std::size_t finest = hierarchy_.levels.size() - 1;
-  Solution<B> solution = discretize_level(model, finest);
-  solution.x = to_local(solution.discretization.problem, start);
-  solve_level(model, finest, options_, solution);
-  return solution;
+Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
+  for (auto& solution : before_) solution.clear();
+  return start_and_solve(model);
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
+  before_.back() = u;
+  return start_and_solve(model);
 }
 
 template class NestedSolver<2, 1>;

@@ -21,6 +21,7 @@ struct Solution {
   Discretization<B> discretization;
   std::vector<double> x;
   Summary summary;
+  std::vector<std::string> undetermined;  ///< motions that nothing decides, see LooseBody
 };
 
 /// How levels below the coarsest mesh are chosen: classical or aggregation; nothing where there are none.
@@ -38,14 +39,19 @@ class NestedSolver {
   /// Starts as `solver.start` says. Error(Exit::interrupted) when the user asked to end, Error(Exit::no_solution) where
   /// none exists; without convergence the summary says so.
   Solution<B> solve(const Model<B>& model);
-  /// Starts from the solution of another step, in global coordinates.
-  Solution<B> solve_from(const Model<B>& model, const std::vector<double>& start);
+  /// The same after another step: with start "nested" from what has least energy, its solution u (global coordinates),
+  /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u.
+  Solution<B> solve_after(const Model<B>& model, const std::vector<double>& u);
 
  private:
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
+  Solution<B> start_and_solve(const Model<B>& model);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
   void continue_algebraically(DiscreteProblem<B>& coarsest);
+  void choose_levels_below(const Model<B>& model);
+  void solve_finest(const Model<B>& model, Solution<B>& solution);
   void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
@@ -60,6 +66,8 @@ class NestedSolver {
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below that at work, as far as they are known
   bool continued_ = false;
   std::vector<Stage> dropped_;  // starts that coarser levels did not give
+  std::vector<std::vector<double>> before_,
+      now_;  // per mesh, solutions of the last step and of this: global coordinates
 };
 
 }  // namespace signorini

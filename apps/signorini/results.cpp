@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
 
@@ -35,7 +36,7 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene) {
 template <int D, int B>
 StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
                        const Summary& summary) {
-  StepReport report{t, summary, {}, {}};
+  StepReport report{t, summary, {}, {}, {}};
   for (const ContactSummary<B>& contact : results.contact.obstacles)
     report.contact.push_back({static_cast<int>(report.contact.size()),
                               contact.nodes,
@@ -84,12 +85,18 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh)
 }
 
 template <int D, int B>
-std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model) {
+std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model) {
   std::vector<std::string> warnings;
   for (const FixConflict& conflict : fix_conflicts(mesh, model))
     warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
                                    scene.fixes[conflict.later].source.table, scene.fixes[conflict.earlier].source.table,
                                    conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
+  for (const CutSelection& cut : cut_selections(mesh, model))
+    warnings.push_back(fmt::format(
+        "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked, and "
+        "it "
+        "holds on about {:.2g} besides; a smaller 'size' or more 'cells' follow it more closely",
+        cut.selection->origin, cut.selection->where->text(), D == 2 ? "edges" : "faces", cut.picked, cut.missed));
   return warnings;
 }
 
@@ -97,7 +104,7 @@ std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, c
   template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
   template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&); \
   template Summary judge(const Mesh<D>&, const Model<B>&, const Solution<B>&, const std::vector<double>&, double); \
-  template std::vector<std::string> fix_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
+  template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)
 SIGNORINI_RESULTS(2, 2)

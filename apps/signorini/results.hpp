@@ -47,8 +47,9 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
 template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh);
 
-/// Fixes that contradict each other, one sentence per pair.
+/// Fixes that contradict each other, one sentence per pair, and expressions that cut through faces of the coarsest
+/// mesh.
 template <int D, int B>
-std::vector<std::string> fix_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model);
+std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model);
 
 }  // namespace signorini

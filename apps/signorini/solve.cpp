@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "amg/registration.hpp"
@@ -68,9 +69,9 @@ class SolveRun {
     if (scene_.steps.count > 1) progress_.phase(fmt::format("step {} of {}", step, scene_.steps.count));
     const Model<B> model = build_model<B>(scene_, D, registry_, t);
     if (step == 1)
-      for (auto& warning : fix_warnings(scene_, hierarchy_.finest(), model))
+      for (auto& warning : model_warnings(scene_, hierarchy_.finest(), model))
         report_.warnings.push_back(std::move(warning));
-    const Solution<B> solution = step == 1 ? solver.solve(model) : solver.solve_from(model, results_.u);
+    const Solution<B> solution = step == 1 ? solver.solve(model) : solver.solve_after(model, results_.u);
     add_results(model, solution);
   }
 
@@ -80,8 +81,19 @@ class SolveRun {
     results_ = results<D, B>(mesh, model, solution);
     report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
                                               judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
+    add_undetermined(model, solution.undetermined);
     if (!is_last_step()) write_solution();
     report_.time.output += watch.elapsed();
+  }
+
+  void add_undetermined(const Model<B>& model, const std::vector<std::string>& motions) {
+    report_.steps.back().undetermined = motions;
+    if (motions.empty()) return;
+    std::string warning = fmt::format(
+        "{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves least along them",
+        model.origin, fmt::join(motions, "; "));
+    if (std::ranges::find(report_.warnings, warning) == report_.warnings.end())
+      report_.warnings.push_back(std::move(warning));
   }
 
   bool is_last_step() const { return static_cast<int>(report_.steps.size()) == scene_.steps.count; }

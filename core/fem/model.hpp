@@ -10,7 +10,8 @@
 
 namespace signorini {
 
-/// Boundary faces picked by a named part, or by an expression that is nonzero at all vertices of the face.
+/// Boundary faces picked by a named part, or by an expression that is nonzero at all vertices of the face, on the
+/// coarsest mesh.
 struct Selection {
   std::optional<std::string> part;
   std::optional<Field> where;

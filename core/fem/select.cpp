@@ -28,10 +28,25 @@ bool holds(const Mesh<D>& mesh, const Face<D>& face, const Field& where, double 
                      [&](Index p) { return where(site<D>(mesh.points[p], t, normal)) != 0; });
 }
 
+/// Keeps the faces that come from faces of the coarsest mesh where the expression holds.
+template <int D>
+void keep_where(const Mesh<D>& mesh, const Field& where, double t, std::vector<Index>& faces) {
+  const Index children = faces_per_coarsest(mesh);
+  Index last = -1;
+  bool kept = false;
+  std::erase_if(faces, [&](Index f) {
+    if (const Index coarsest = f / children; std::exchange(last, coarsest) != coarsest)
+      kept = holds(mesh, {.vertices = coarsest_face(mesh, coarsest), .element = -1}, where, t);
+    return !kept;
+  });
+}
+
 std::string describe(const Selection& selection) {
   if (!selection.where) return fmt::format("part '{}' has no boundary face", selection.part.value_or("boundary"));
-  return fmt::format("no boundary face{} has all its vertices where '{}'",
-                     selection.part ? fmt::format(" of part '{}'", *selection.part) : "", selection.where->text());
+  return fmt::format(
+      "no boundary face{} has all its vertices where '{}'; faces of the coarsest mesh are picked, which a smaller "
+      "'size' or more 'cells' makes smaller",
+      selection.part ? fmt::format(" of part '{}'", *selection.part) : "", selection.where->text());
 }
 
 }  // namespace
@@ -39,8 +54,7 @@ std::string describe(const Selection& selection) {
 template <int D>
 std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection, double t) {
   std::vector<Index> faces = selection.part ? faces_of(mesh, *selection.part, selection.origin) : all_faces(mesh);
-  if (selection.where)
-    std::erase_if(faces, [&](Index f) { return !holds(mesh, mesh.boundary[f], *selection.where, t); });
+  if (selection.where) keep_where(mesh, *selection.where, t, faces);
   if (faces.empty()) input_error(selection.origin, describe(selection));
   return faces;
 }

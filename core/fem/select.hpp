@@ -15,8 +15,9 @@ struct Surface {
   std::vector<Index> around;    ///< numbers in Mesh::boundary, of these faces only
 };
 
-/// The boundary faces of the named part all of whose vertices satisfy the expression; either may be missing. The
-/// expression sees the normal of the face. No face at all is an Error(Exit::input) that names the selection's origin.
+/// The boundary faces of the named part all of whose vertices satisfy the expression; either may be missing. Faces of
+/// the coarsest mesh are picked, those of finer meshes inherit it: all levels agree. The expression sees the normal of
+/// the face. No face at all is an Error(Exit::input) that names the selection's origin.
 template <int D>
 std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection, double t);
 

@@ -109,6 +109,7 @@ void add_history(Json& json, const Summary& summary) {
 void add_results(Json& json, const StepReport& step) {
   json["contact"] = array(step.contact, contact);
   json["probes"] = array(step.probes, probe);
+  json["undetermined"] = step.undetermined;
 }
 
 Json step(const StepReport& step) {

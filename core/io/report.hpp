@@ -39,6 +39,7 @@ struct StepReport {
   Summary summary;
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
+  std::vector<std::string> undetermined;  ///< motions of the body that nothing decides
 };
 
 /// Everything `report.json` says.

@@ -81,10 +81,23 @@ std::vector<Index> faces_of(const Mesh<D>& mesh, std::string_view name, std::str
                                  fmt::join(names, ", ")));
 }
 
+// Child k of a face keeps its corner k, see RedRefinement.
+template <int D>
+std::array<Index, D> coarsest_face(const Mesh<D>& mesh, Index coarsest) {
+  std::array<Index, D> corners;
+  for (int k = 0; k < D; ++k) {
+    Index face = coarsest;
+    for (int step = 0; step < mesh.refinements; ++step) face = face * (1 << (D - 1)) + k;
+    corners[k] = mesh.boundary[face].vertices[k];
+  }
+  return corners;
+}
+
 #define SIGNORINI_INSTANTIATE(D)                                                                       \
   template std::vector<Face<D>> find_boundary<D>(Index, const std::vector<std::array<Index, D + 1>>&); \
   template void attach_parts(Mesh<D>&, const std::vector<FaceGroup<D>>&);                              \
-  template std::vector<Index> faces_of(const Mesh<D>&, std::string_view, std::string_view);
+  template std::vector<Index> faces_of(const Mesh<D>&, std::string_view, std::string_view);            \
+  template std::array<Index, D> coarsest_face<D>(const Mesh<D>&, Index);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

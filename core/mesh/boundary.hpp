@@ -28,4 +28,15 @@ void attach_parts(Mesh<D>& mesh, const std::vector<FaceGroup<D>>& groups);
 template <int D>
 std::vector<Index> faces_of(const Mesh<D>& mesh, std::string_view name, std::string_view place);
 
+/// The boundary faces that uniform refinement makes of one of the coarsest mesh; its children are numbered together.
+template <int D>
+Index faces_per_coarsest(const Mesh<D>& mesh) {
+  return Index{1} << ((D - 1) * mesh.refinements);
+}
+
+/// The vertices, on this mesh, of boundary face number `coarsest` of the coarsest one, which refinement leaves in
+/// place.
+template <int D>
+std::array<Index, D> coarsest_face(const Mesh<D>& mesh, Index coarsest);
+
 }  // namespace signorini

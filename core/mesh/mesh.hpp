@@ -43,6 +43,7 @@ struct Mesh {
   std::vector<Curve<D>> curves;
   std::vector<Family<D>> families;  ///< all elements once more, as children; none where they are not
   std::vector<Index> layer;         ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
+  int refinements = 0;              ///< uniform ones that made it from the coarsest mesh
 
   Index vertices() const { return static_cast<Index>(points.size()); }
 };

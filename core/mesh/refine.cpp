@@ -54,6 +54,7 @@ class Refiner {
     refine_elements();
     refine_boundary();
     fine_.curves = coarse_.curves;
+    fine_.refinements = coarse_.refinements + 1;
     bend();
     return std::move(refinement_);
   }

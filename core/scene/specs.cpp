@@ -54,7 +54,9 @@ constexpr ShapeSpec shapes[] = {
 };
 
 constexpr const char* on_help = "a named part or a physical group of the mesh; \"boundary\" is all of it";
-constexpr const char* where_help = "picks the boundary faces all of whose vertices satisfy the expression";
+constexpr const char* where_help =
+    "picks the boundary faces all of whose vertices satisfy the expression; those of the coarsest mesh, finer ones "
+    "inherit it";
 
 constexpr KeySpec fix[] = {
     {"body", text, nullptr, "", "", "name of a body"},

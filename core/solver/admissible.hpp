@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/algebra/products.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -18,6 +19,18 @@ void make_admissible(const DiscreteProblem<B>& problem, std::vector<double>& x) 
       double& v = x[Offset{c.vector[slot]} * B + k];
       v = v < c.lower[at] ? c.lower[at] : v > c.upper[at] ? c.upper[at] : v;  // NaN stays visible
     }
+}
+
+/// J(a) - J(b) <= 0 of admissible vectors, without cancellation: J(a) - J(b) = -(a - b)'r with the residual r in the
+/// middle between them.
+template <int B>
+bool lowers(const DiscreteProblem<B>& problem, const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> middle(a.size()), r(a.size());
+  for (std::size_t k = 0; k < a.size(); ++k) middle[k] = 0.5 * (a[k] + b[k]);
+  residual<B>(problem.A, middle.data(), problem.b.data(), r.data());
+  double gain = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) gain += (a[k] - b[k]) * r[k];
+  return gain >= 0;
 }
 
 }  // namespace signorini

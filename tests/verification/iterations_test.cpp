@@ -81,5 +81,50 @@ TEST(Iterations, WithoutBoundsOnAggregates) {
   EXPECT_LE(r.summary().iterations, 17);
 }
 
+// Levels below a large coarsest mesh are chosen by the matrix, wherever the iteration starts.
+TEST(Iterations, GoBelowTheCoarsestMeshFromAnyStart) {
+  const auto levels = [](const std::string& start, int refinements) {
+    const auto r = run_shipped<2, 1>("obstacle_spiral.toml",
+                                     {uniform(refinements), "body.0.cells=[36, 36]", "solver.start=" + start});
+    return r.summary().level_unknowns;
+  };
+  for (const int refinements : {0, 1, 2}) {
+    const auto nested = levels("nested", refinements), zero = levels("zero", refinements);
+    EXPECT_EQ(zero, nested) << refinements << " refinements";
+    EXPECT_LT(zero.front(), 1000);
+  }
+}
+
+// The last solution is a start, and never a bad one: the solution on coarser meshes and the change there are others.
+TEST(Iterations, StepsTakeNoMoreCyclesThanFreshSolves) {
+  for (const int count : {4, 16})
+    for (const int refinements : {2, 4}) {
+      const std::vector<std::string> settings{uniform(refinements)};
+      const Scene scene = read_scene(shipped_scenes / "disk_in_bed_steps.toml", settings);
+      Registry registry = solver_components();
+      load_plugins(scene, registry);
+      const Progress quiet(true);
+      Times times;
+      const auto meshes = build_hierarchy<2>(scene, 2);
+      NestedSolver<2, 2> steps(meshes, scene.solver, registry, quiet, times);
+      std::vector<double> u;
+      int all = 0, all_fresh = 0;
+      for (int step = 1; step <= count; ++step) {
+        const auto model = build_model<2>(scene, 2, registry, static_cast<double>(step) / count);
+        NestedSolver<2, 2> alone(meshes, scene.solver, registry, quiet, times);
+        const int fresh = alone.solve(model).summary.iterations;
+        const auto solution = step == 1 ? steps.solve(model) : steps.solve_after(model, u);
+        u = to_global(solution.discretization.problem, solution.x);
+        EXPECT_TRUE(solution.summary.converged());
+        EXPECT_LE(solution.summary.iterations, fresh + 1) << "step " << step << " of " << count;
+        all += solution.summary.iterations;
+        all_fresh += fresh;
+        show("{} refinements, step {} of {}: {} cycles, {} fresh\n", refinements, step, count,
+             solution.summary.iterations, fresh);
+      }
+      EXPECT_LE(all, all_fresh);
+    }
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -3,6 +3,8 @@
 #include <functional>
 
 #include "core/base/error.hpp"
+#include "core/fem/select.hpp"
+#include "core/mesh/simplex.hpp"
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"
@@ -352,6 +354,182 @@ TEST(LooseBody, RestsInABowl) {
         fmt::format("shape = \"box\"\nfrom = [-{0}, -{0}, -{0}]\nto = [{0}, {0}, {0}]\ncells = [2, 2, 2]", 0.3 * unit);
     expect_in_bowl<3>(cube, unit, 0, {0, 1, 2});
   }
+}
+
+std::string refusal(const std::function<void()>& solve) {
+  try {
+    solve();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::no_solution) << error.what();
+    return error.what();
+  }
+  return "solved";
+}
+
+// A load to the side: nothing is behind the block but the round, which it slides off.
+TEST(LooseBody, SlidesOffARound) {
+  for (const double aside : {1e-6, 1e-3})
+    for (const int refinement : {0, 1, 2, 3}) {
+      const auto scene = fmt::format(R"(
+[[body]]
+name = "b"
+shape = "rectangle"
+from = [0, 0]
+to = [2, 1]
+cells = [4, 4]
+young = 1
+poisson = 0.3
+[[fix]]
+body = "b"
+on = "top"
+value = ["free", 0]
+[[load]]
+body = "b"
+value = [{}, 0.01]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "sphere"
+center = [-1, 1]
+radius = 1.3
+)",
+                                     aside);
+      const std::string message = refusal([&] { run<2, 2>(scene, {uniform(refinement)}); });
+      EXPECT_NE(message.find("body.0"), std::string::npos) << message;
+      EXPECT_NE(message.find("translation along (1, 0)"), std::string::npos) << message;
+    }
+}
+
+TEST(LooseBody, TurnsInABowl) {
+  // All normals point to the centre of the bowl.
+  const auto r = refusal([] {
+    run<2, 2>(R"(
+[[body]]
+name = "b"
+shape = "rectangle"
+from = [0, 0]
+to = [1, 1]
+cells = [4, 4]
+young = 1
+poisson = 0.3
+[[load]]
+body = "b"
+value = ['-(y - 0.5)', 'x - 0.5']
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "boundary"
+shape = "sphere"
+center = [0.5, 0.5]
+radius = 3
+inside = true
+)");
+  });
+  EXPECT_NE(r.find("rotation about (0.5, 0.5)"), std::string::npos) << r;
+}
+
+template <int D>
+Index mirrored_vertex(const Mesh<D>& mesh, Index p) {
+  for (Index q = 0; q < mesh.vertices(); ++q)
+    if (std::hypot(mesh.points[q][0] + mesh.points[p][0], mesh.points[q][1] - mesh.points[p][1]) < 1e-9) return q;
+  return -1;
+}
+
+/// A mesh whose right half, x > 0, is the mirror image of the left one.
+Mesh<2> symmetric_beam() {
+  Mesh<2> mesh = rectangle({-2, 0}, {2, 0.5}, {16, 2});
+  std::vector<Simplex<2>> elements;
+  for (const Simplex<2>& e : mesh.elements) {
+    if (mesh.points[e[0]][0] + mesh.points[e[1]][0] + mesh.points[e[2]][0] > 0) continue;
+    elements.push_back(e);
+    elements.push_back({mirrored_vertex(mesh, e[0]), mirrored_vertex(mesh, e[2]), mirrored_vertex(mesh, e[1])});
+  }
+  mesh.elements = elements;
+  return mesh;
+}
+
+/// Under its own weight on two rounds.
+std::string beam_on_rounds(const std::string& mesh) {
+  std::string text = fmt::format(R"(
+[[body]]
+name = "beam"
+mesh = "{}"
+young = 1
+poisson = 0.3
+[[load]]
+body = "beam"
+value = [0, -0.001]
+)",
+                                 mesh);
+  for (const int side : {-1, 1})
+    text += fmt::format(R"(
+[[obstacle]]
+type = "contact"
+body = "beam"
+where = "y < 1e-9"
+shape = "sphere"
+center = [{}, -0.5]
+radius = 0.5
+)",
+                        side);
+  return text;
+}
+
+TEST(LooseBody, IsSymmetricWhereTheSceneIs) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("beam.msh", msh<2>(symmetric_beam(), {}));
+  for (const int refinement : {0, 1, 2, 3}) {
+    const auto r = run<2, 2>(beam_on_rounds(file), {uniform(refinement), "solver.tolerance=1e-10"});
+    double largest = 0, off = 0;
+    for (Index p = 0; p < r.mesh().vertices(); ++p) {
+      const Index q = mirrored_vertex(r.mesh(), p);
+      ASSERT_GE(q, 0);
+      largest = std::max(largest, std::abs(r.u()[2 * p + 1]));
+      off = std::max({off, std::abs(r.u()[2 * p] + r.u()[2 * q]), std::abs(r.u()[2 * p + 1] - r.u()[2 * q + 1])});
+    }
+    EXPECT_LE(off, 1e-8 * largest) << refinement << " refinements";
+    show("{} refinements: asymmetry {:.1e} of {:.2e}, {} undetermined\n", refinement, off, largest,
+         r.solution.undetermined.size());
+  }
+}
+
+TEST(LooseBody, SaysWhatNothingDetermines) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ((run<2, 2>(Resting<2>({}, 2).heavy(), {uniform(2)}).solution.undetermined),
+            (Names{"translation along (1, 0)"}));
+  EXPECT_EQ((run<3, 3>(Resting<3>({}, 2).heavy(), {uniform(1)}).solution.undetermined),
+            (Names{"translation along (1, 0, 0)", "translation along (0, 1, 0)",
+                   "rotation about the axis through (0.5, 0.5, 0.5) along (0, 0, 1)"}));
+  // Balanced loads and no obstacle in reach.
+  const auto r = run<2, 2>(lifted<2>(0, 0.1) +
+                           "[[load]]\nbody = \"b\"\non = \"bottom\"\nvalue = [0, -1e-3]\n"
+                           "[[load]]\nbody = \"b\"\non = \"top\"\nvalue = [0, 1e-3]\n");
+  EXPECT_EQ(r.solution.undetermined.size(), 3u);
+}
+
+// The mean displacement along what nothing determines is zero, and obstacles that are not pressed stay where they are.
+TEST(LooseBody, MovesLeastAlongWhatNothingDetermines) {
+  const auto mean = [](const auto& r) {
+    const auto mass = vertex_volumes(r.mesh());
+    double sum = 0, size = 0;
+    for (std::size_t p = 0; p < mass.size(); ++p)
+      sum += mass[p] * r.u()[2 * p], size += mass[p] * std::abs(r.u()[2 * p + 1]);
+    return sum / size;
+  };
+  const Resting<2> resting({}, 2);
+  const std::string block = resting.heavy();
+  EXPECT_NEAR(mean(run<2, 2>(block, {uniform(2)})), 0, 1e-12);
+  // A wall that reaches into it by a tenth moves it by that, and no further; then it bears no force.
+  const auto wall = run<2, 2>(block +
+                                  "[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\nwhere = \"1\"\n"
+                                  "shape = \"plane\"\npoint = [0.1, 0]\nnormal = [1, 0]\n",
+                              {uniform(2)});
+  double least = infinity;
+  for (Index p = 0; p < wall.mesh().vertices(); ++p)
+    if (wall.mesh().points[p][0] == 0) least = std::min(least, wall.u()[2 * p]);
+  EXPECT_NEAR(least, 0.1, 1e-9);
+  EXPECT_NEAR(wall.contact(1).force[0], 0, 1e-9 * pressure);
 }
 
 }  // namespace

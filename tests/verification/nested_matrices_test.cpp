@@ -45,9 +45,9 @@ TEST(NestedMatrices, AreNoneOnCurvedMeshesAndWithVaryingCoefficients) {
       (TwoMeshes<3, 3>("cube_on_bump.toml", {"refine.uniform=2", "body.0.young='x < 0.3 ? 1 : 100'"}).galerkin()));
 }
 
-// Faces are picked by their vertices, so on the finer mesh other common vertices have frames.
+// Faces are picked on the coarsest mesh: common vertices have the same frames, but where those are others.
 TEST(NestedMatrices, AreNoneInOtherFrames) {
-  const auto picked = [](const std::string& where) {
+  const auto picked = [](const std::string& where, const std::string& normal = "[0, 0, 1]") {
     return TwoMeshes<3, 3>(parse_scene(fmt::format(R"(
 [[body]]
 name = "cube"
@@ -67,14 +67,17 @@ body = "cube"
 where = 'z < 1e-9 && ({})'
 shape = "plane"
 point = [0, 0, 0]
-normal = [0, 0, 1]
+normal = {}
 [refine]
 uniform = 2)",
-                                                   where),
+                                                   where, normal),
                                        "test.toml", ".", {}));
   };
   EXPECT_TRUE(picked("x < 0.6").galerkin());
-  EXPECT_FALSE(picked("x < 0.26 || abs(x * 4 - floor(x * 4 + 0.5)) < 0.26").galerkin());
+  EXPECT_TRUE(picked("x < 0.26 || abs(x * 4 - floor(x * 4 + 0.5)) < 0.26").galerkin());
+  const auto level = picked("x < 0.6"), tilted = picked("x < 0.6", "[0.1, 0, 1]");
+  EXPECT_TRUE(tilted.galerkin());
+  EXPECT_FALSE(is_galerkin(level.coarse, level.P.front(), tilted.fine));
 }
 
 /// The coarse matrix of a cycle in which contact truncates.

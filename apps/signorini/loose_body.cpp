@@ -1,0 +1,304 @@
+#include "apps/signorini/loose_body.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "amg/cone.hpp"
+#include "core/algebra/products.hpp"
+#include "core/base/error.hpp"
+#include "core/fem/assemble.hpp"
+#include "core/fem/select.hpp"
+#include "core/solver/admissible.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double negligible = 1e-10;      // part of the most that is possible: work of loads, components of motions
+constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
+constexpr double force_rounding = 1e-12;  // part of the terms of a residual that is no force
+constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
+
+Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Index columns) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), columns);
+  for (std::size_t k = 0; k < rows.size(); ++k) out.row(static_cast<Eigen::Index>(k)) = rows[k];
+  return out;
+}
+
+/// lower <= row . c <= upper; zero is one such c.
+struct Slab {
+  Eigen::RowVectorXd row;
+  double lower, upper;
+};
+
+/// The point next to zero of { v : G v >= h }, which is not empty (Lawson and Hanson, Solving Least Squares Problems,
+/// SIAM 1995, ch. 23): from the projection of (0, 1) onto the cone over it.
+Eigen::VectorXd least_point(const Eigen::MatrixXd& G, const Eigen::VectorXd& h) {
+  const Eigen::Index n = G.cols();
+  if (G.rows() == 0) return Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd cone(G.rows(), n + 1);
+  cone << G, -h;
+  const Eigen::VectorXd p = project_onto_cone(cone.rowwise().normalized(), Eigen::VectorXd::Unit(n + 1, n));
+  return p.head(n) / p[n];
+}
+
+/// The point within all slabs that is next to `wanted`; zero where rounding does not let it be found.
+Eigen::VectorXd nearest(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs) {
+  const double far = wanted.norm();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(wanted.size());
+  if (!(far > 0) || !std::isfinite(far)) return zero;
+  std::vector<Eigen::RowVectorXd> rows;
+  std::vector<double> bounds;
+  for (const Slab& slab : slabs) {  // in units of the way there, which is no longer than from zero
+    const double at = slab.row.dot(wanted) / far;
+    if (slab.lower > -infinity) rows.push_back(slab.row), bounds.push_back(slab.lower / far - at);
+    if (slab.upper < infinity) rows.push_back(-slab.row), bounds.push_back(at - slab.upper / far);
+  }
+  const Eigen::Map<const Eigen::VectorXd> h(bounds.data(), std::ssize(bounds));
+  const Eigen::VectorXd found = wanted + far * least_point(stacked(rows, wanted.size()), h);
+  const double allowed = decided * far;
+  for (const Slab& slab : slabs) {
+    const double at = slab.row.dot(found);
+    if (!(at >= slab.lower - allowed && at <= slab.upper + allowed)) return zero;
+  }
+  return found;
+}
+
+}  // namespace
+
+template <int D, int B>
+LooseBody<D, B>::LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization)
+    : mesh_(mesh),
+      model_(model),
+      discretization_(discretization),
+      motions_(mesh),
+      free_(motions_.free(discretization.problem)) {
+  if (free_.cols() > 0) add_work();
+}
+
+// Of the loads themselves: what prescribed values add to the right-hand side does none.
+template <int D, int B>
+void LooseBody<D, B>::add_work() {
+  const std::vector<double> loads = load_vector<D, B>(mesh_, model_);
+  typename Motions::Row work = Motions::Row::Zero();
+  for (Index p = 0; p < mesh_.vertices(); ++p) {
+    const double* b = loads.data() + Offset{p} * B;
+    const auto here = motions_.along(p, b);
+    work += here;
+    most_work_ += here.norm();
+  }
+  work_ = free_.transpose() * work.transpose();
+}
+
+/// What the bounds leave to an iterate; those that no part of the problem is, too.
+template <int D, int B>
+auto LooseBody<D, B>::rooms(const std::vector<double>& x) const -> std::vector<Room> {
+  std::vector<Room> out;
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const auto add = [&](Index p, const Eigen::RowVectorXd& row, double lower, double upper) {
+    if (row.norm() > negligible) out.push_back({p, row, std::min(lower, 0.0), std::max(upper, 0.0)});
+  };
+  for (Index slot = 0; slot < problem.constraints.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Offset at = Offset{slot} * B + k;
+      const double lower = problem.constraints.lower[at], upper = problem.constraints.upper[at];
+      if (lower == -infinity && upper == infinity) continue;
+      const Index p = problem.constraints.vector[slot];
+      const double value = x[Offset{p} * B + k];
+      add(p, motions_.along(problem.frames, p, k) * free_, lower - value, upper - value);
+    }
+  if (discretization_.dropped.empty()) return out;
+  const std::vector<double> u = to_global(problem, x);
+  for (const Bound<B>& bound : discretization_.dropped) {
+    double value = 0;
+    for (int i = 0; i < B; ++i) value += bound.direction[i] * u[Offset{bound.vertex} * B + i];
+    add(bound.vertex, motions_.along(bound.vertex, bound.direction.data()) * free_, bound.lower - value,
+        bound.upper - value);
+  }
+  return out;
+}
+
+template <int D, int B>
+void LooseBody<D, B>::require_minimum() const {
+  const double enough = negligible * most_work_;
+  if (free_.cols() == 0 || !(work_.norm() > enough)) return;
+  std::vector<Eigen::RowVectorXd> ends;
+  for (const Room& room : rooms(discretization_.problem.start)) {
+    if (room.lower > -infinity) ends.push_back(room.row.normalized());
+    if (room.upper < infinity) ends.push_back(-room.row.normalized());
+  }
+  const Eigen::MatrixXd G = stacked(ends, free_.cols());
+  // What is left of the loads is a direction only if it is one by itself, too, and not rounding.
+  const Eigen::VectorXd left = project_onto_cone(G, work_);
+  if (!(left.norm() > enough)) return;
+  const Eigen::VectorXd motion = project_onto_cone(G, left.normalized());
+  if (!(work_.dot(motion) > enough * motion.norm())) return;
+  throw Error(Exit::no_solution,
+              fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "
+                          "which do work along this motion: {}",
+                          model_.origin, motions_.describe(free_ * motion)));
+}
+
+// Rows of what obstacles press on, which stays in contact.
+template <int D, int B>
+Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const Constraints<B>& c = problem.constraints;
+  std::vector<double> forces;
+  std::vector<Eigen::RowVectorXd> rows;
+  double largest = 0, terms = 0, size = 0;
+  for (const double value : x) size = std::max(size, std::abs(value));
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    const Index p = c.vector[slot];
+    double Ax[B];
+    row_product(problem.A, p, x.data(), Ax);
+    for (int k = 0; k < B; ++k) {
+      const double value = x[Offset{p} * B + k], b = problem.b[Offset{p} * B + k];
+      const bool below = value <= c.lower[Offset{slot} * B + k], above = value >= c.upper[Offset{slot} * B + k];
+      if (!below && !above) continue;
+      const double force = Ax[k] - b;
+      forces.push_back(below && above ? std::abs(force) : below ? force : -force);
+      rows.push_back(motions_.along(problem.frames, p, k) * free_);
+      largest = std::max(largest, forces.back());
+      terms = std::max(terms, std::abs(b) + problem.A.diagonal(p)[k * (B + 1)] * size);
+    }
+  }
+  std::vector<Eigen::RowVectorXd> kept;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (forces[k] > std::max(weak * largest, force_rounding * terms) && rows[k].norm() > negligible)
+      kept.push_back(rows[k].normalized());
+  if (work_.norm() > negligible * most_work_) kept.push_back(work_.normalized().transpose());
+  return stacked(kept, free_.cols());
+}
+
+// Motions that bounds end at once in every direction are decided: what is left of the others spans them.
+template <int D, int B>
+Eigen::MatrixXd LooseBody<D, B>::undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless,
+                                           double size) const {
+  std::vector<Eigen::RowVectorXd> ends;
+  const auto end = [&](const Eigen::RowVectorXd& row) {
+    if (row.norm() > negligible) ends.push_back(row.normalized());
+  };
+  for (const Room& room : rooms) {
+    if (room.lower >= -negligible * size) end(room.row * costless);
+    if (room.upper <= negligible * size) end(-room.row * costless);
+  }
+  const Eigen::MatrixXd G = stacked(ends, costless.cols());
+  Eigen::MatrixXd found(costless.cols(), 2 * costless.cols());
+  for (Eigen::Index k = 0; k < costless.cols(); ++k)
+    for (const int sign : {0, 1})
+      found.col(2 * k + sign) = project_onto_cone(G, (1 - 2 * sign) * Eigen::VectorXd::Unit(costless.cols(), k));
+  if (!(found.norm() > decided)) return Eigen::MatrixXd(free_.rows(), 0);
+  const Eigen::MatrixXd orthogonal = null_space(found.transpose(), decided);
+  return free_ * costless * null_space(orthogonal.transpose(), decided);
+}
+
+// min (u + z(c), u + z(c)) over c, as the bounds allow, with the mean square over the body as the norm.
+template <int D, int B>
+Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
+                                              const Eigen::MatrixXd& costless) const {
+  const Eigen::MatrixXd basis = free_ * costless;
+  const std::vector<double> u = to_global(discretization_.problem, x), mass = vertex_volumes(mesh_);
+  Eigen::Matrix<double, Motions::modes, Motions::modes> H = decltype(H)::Zero();
+  typename Motions::Motion h = Motions::Motion::Zero();
+  for (Index p = 0; p < mesh_.vertices(); ++p)
+    for (int i = 0; i < B; ++i) {
+      double axis[B] = {};
+      axis[i] = 1;
+      const auto row = motions_.along(p, axis);
+      H += mass[p] * row.transpose() * row;
+      h += mass[p] * u[Offset{p} * B + i] * row.transpose();
+    }
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(basis.transpose() * H * basis);
+  const Eigen::VectorXd best = -cholesky.solve(basis.transpose() * h);
+  std::vector<Slab> slabs;  // on c in coordinates in which the norm is the Euclidean one
+  for (const Room& room : rooms) {
+    const Eigen::VectorXd row = (room.row * costless).transpose();
+    if (row.norm() > negligible) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
+  }
+  const Eigen::VectorXd moved = nearest(cholesky.matrixU() * best, slabs);
+  return cholesky.matrixU().solve(moved);
+}
+
+// A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
+// are its solutions, and a step that is long enough ends in one.
+template <int D, int B>
+void LooseBody<D, B>::fall(std::vector<double>& x) const {
+  if (free_.cols() == 0 || !(work_.norm() > negligible * most_work_)) return;
+  std::vector<double> rigid = discretization_.problem.start;
+  for (std::vector<double>* from : {&x, &rigid}) {
+    make_admissible(discretization_.problem, *from);
+    let_fall(*from);
+  }
+  if (lowers(discretization_.problem, rigid, x)) x = std::move(rigid);
+}
+
+template <int D, int B>
+void LooseBody<D, B>::let_fall(std::vector<double>& x) const {
+  constexpr int steps = 60;
+  std::vector<Slab> slabs;
+  for (Room& room : rooms(x)) slabs.push_back({std::move(room.row), room.lower, room.upper});
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(free_.cols());
+  double length = motions_.size();
+  for (int k = 0; k < steps; ++k, length *= 2) {
+    const Eigen::VectorXd next = nearest(way + length * work_.normalized(), slabs);
+    if (!(work_.dot(next - way) > negligible * work_.norm() * next.norm())) break;
+    way = next;
+  }
+  move(free_ * way, x);
+  touch(negligible * way.norm(), x);
+}
+
+// What rounding keeps off an obstacle that the body has come to.
+template <int D, int B>
+void LooseBody<D, B>::touch(double rounding, std::vector<double>& x) const {
+  const Constraints<B>& c = discretization_.problem.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      double& value = x[Offset{c.vector[slot]} * B + k];
+      for (const double bound : {c.lower[Offset{slot} * B + k], c.upper[Offset{slot} * B + k]})
+        if (std::abs(value - bound) <= rounding) value = bound;
+    }
+}
+
+template <int D, int B>
+void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const Constraints<B>& c = problem.constraints;
+  const double size = motion.norm();
+  for (Index p = 0; p < mesh_.vertices(); ++p)
+    for (int k = 0; k < B; ++k) {
+      if (problem.fixed[p] >> k & 1u) continue;
+      const double by = motions_.along(problem.frames, p, k) * motion;
+      if (std::abs(by) > negligible * size) x[Offset{p} * B + k] += by;
+    }
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      double& value = x[Offset{c.vector[slot]} * B + k];
+      value = std::clamp(value, c.lower[Offset{slot} * B + k], c.upper[Offset{slot} * B + k]);
+    }
+}
+
+template <int D, int B>
+std::vector<std::string> LooseBody<D, B>::settle(std::vector<double>& x) const {
+  if (free_.cols() == 0) return {};
+  const Eigen::MatrixXd costless = null_space(pressed(x), decided);
+  if (costless.cols() == 0) return {};
+  const std::vector<Room> room = rooms(x);
+  const double size = std::abs(*std::ranges::max_element(x, {}, [](double value) { return std::abs(value); }));
+  const Eigen::MatrixXd open = undecided(room, costless, size);
+  if (open.cols() == 0) return {};
+  move(free_ * costless * least_motion(x, room, costless), x);
+  std::vector<std::string> names;
+  for (const auto& motion : motions_.simple_basis(open)) names.push_back(motions_.describe(motion));
+  return names;
+}
+
+template class LooseBody<2, 1>;
+template class LooseBody<3, 1>;
+template class LooseBody<2, 2>;
+template class LooseBody<3, 3>;
+
+}  // namespace signorini

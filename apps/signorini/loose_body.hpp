@@ -1,0 +1,61 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/fem/discretize.hpp"
+#include "core/fem/rigid_motions.hpp"
+
+namespace signorini {
+
+/// A body as far as its prescribed values leave it free to move without energy: whether obstacles hold it against the
+/// loads, and where it comes to rest where neither they nor the loads decide. Obstacles are taken by their bounds
+/// alone. Costs next to nothing where the prescribed values hold the body.
+template <int D, int B>
+class LooseBody {
+ public:
+  /// Keeps references to all of them.
+  LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization);
+
+  /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
+  /// has no minimum. Exact but for rounding: a motion counts whose work is more than 1e-10 of what the loads could do.
+  void require_minimum() const;
+
+  /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where the
+  /// loads take it. What is stiff comes to rest next to that, and iterations find it slowly.
+  void fall(std::vector<double>& x) const;
+
+  /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
+  /// least mean square. What the obstacles press on keeps its contact.
+  /// @return names of motions that span those which nothing decides
+  std::vector<std::string> settle(std::vector<double>& x) const;
+
+ private:
+  using Motions = RigidMotions<D, B>;
+
+  /// What a bound leaves to motions c: lower <= row . c <= upper.
+  struct Room {
+    Index vertex;
+    Eigen::RowVectorXd row;
+    double lower, upper;
+  };
+
+  void add_work();
+  void let_fall(std::vector<double>& x) const;
+  void touch(double rounding, std::vector<double>& x) const;
+  std::vector<Room> rooms(const std::vector<double>& x) const;
+  Eigen::MatrixXd pressed(const std::vector<double>& x) const;
+  Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
+  Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
+                               const Eigen::MatrixXd& costless) const;
+  void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
+
+  const Mesh<D>& mesh_;
+  const Model<B>& model_;
+  const Discretization<B>& discretization_;
+  Motions motions_;
+  Eigen::MatrixXd free_;  // columns: an orthonormal basis
+  Eigen::VectorXd work_;  // of the loads along each of them
+  double most_work_ = 0;  // that loads of this size could do along a motion of length one
+};
+
+}  // namespace signorini

@@ -1,0 +1,19 @@
+#pragma once
+#include "core/fem/model.hpp"
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// A selection whose expression cuts through faces of the coarsest mesh, which are picked as a whole or not at all.
+struct CutSelection {
+  const Selection* selection;  ///< of the model
+  double picked;               ///< measure of the faces picked
+  double missed;               ///< of what the expression holds on besides, by sampling
+};
+
+/// Those of a model's fixes, loads and obstacles. The faces must be picked already: see select_faces().
+/// @param mesh any of the hierarchy; faces are those of the coarsest one
+template <int D, int B>
+std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& model);
+
+}  // namespace signorini

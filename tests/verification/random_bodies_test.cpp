@@ -1,0 +1,341 @@
+// Bodies that fixes and obstacles may or may not hold against their loads, at random. A linear programme of rigid
+// motions, written for this test, says which of them have a solution: those are solved, the others are refused.
+#include <Eigen/Dense>
+
+#include "core/algebra/products.hpp"
+#include "core/base/error.hpp"
+#include "core/fem/element.hpp"
+#include "run.hpp"
+#include "tests/support/random.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <int D>
+std::string text(const Point<D>& x) {
+  return fmt::format("[{:.17g}]", fmt::join(x, ", "));
+}
+
+template <int D>
+Point<D> scaled(double by, Point<D> x) {
+  for (double& c : x) c *= by;
+  return x;
+}
+
+template <int D>
+Point<D> sum(Point<D> x, const Point<D>& y) {
+  for (int i = 0; i < D; ++i) x[i] += y[i];
+  return x;
+}
+
+/// A direction of no special kind, or along an axis.
+template <int D>
+Point<D> direction(Random& random) {
+  Point<D> d{};
+  if (random.chance(0.4)) {
+    d[static_cast<std::size_t>(random.below(D))] = random.chance(0.5) ? 1 : -1;
+    return d;
+  }
+  for (double& c : d) c = random.between(-1, 1);
+  normalise(d);
+  return d;
+}
+
+template <int D>
+struct RandomObstacle {
+  std::string part;  ///< of the body
+  bool plane, inside;
+  Point<D> point, normal;  ///< of a plane; the centre of a sphere
+  double radius;
+};
+
+/// A body within the unit ball about the origin, and all that acts on it; kept for the judge beside the scene's text.
+template <int D>
+struct RandomBody {
+  explicit RandomBody(std::uint64_t seed) : random(seed) {
+    text = "title = \"random\"\n[[body]]\nname = \"b\"\n" + shape() +
+           fmt::format("young = {:.3g}\npoisson = {:.3g}\n", std::pow(10.0, random.between(-3, 3)),
+                       random.between(0, 0.45));
+    add_fix();
+    add_loads();
+    for (int k = 1 + random.below(4); k > 0; --k) add_obstacle();
+    text += fmt::format("[refine]\nuniform = {}\n", random.below(D == 2 ? 3 : 2));
+  }
+
+  std::string text;
+  std::string fixed_part;
+  std::array<bool, D> fixed{};
+  std::string traction_part;
+  Point<D> body_force{}, traction{};
+  std::vector<RandomObstacle<D>> obstacles;
+
+ private:
+  std::string shape() {
+    const double a = random.between(0.15, 0.65), b = random.between(0.15, 0.65), c = random.between(0.15, 0.35);
+    if constexpr (D == 3)
+      return fmt::format("shape = \"box\"\nfrom = [{0}, {1}, {2}]\nto = [{3}, {4}, {5}]\ncells = [2, 2, 2]\n", -a, -b,
+                         -c, a, b, c);
+    const int kind = random.below(3);
+    if (kind == 0)
+      return fmt::format("shape = \"rectangle\"\nfrom = [{}, {}]\nto = [{}, {}]\ncells = [3, 3]\n", -a, -b, a, b);
+    parts = kind == 1 ? std::vector<std::string>{"boundary"} : std::vector<std::string>{"edge0", "edge1", "edge2"};
+    if (kind == 1) return fmt::format("shape = \"disk\"\ncenter = [0, 0]\nradius = {}\nsize = {}\n", a, 0.6 * a);
+    std::string points;
+    const int corners = 3 + random.below(4);
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * pi * (k + random.between(0, 0.6)) / corners, radius = random.between(0.4, 0.95);
+      points += fmt::format("{}[{}, {}]", k ? ", " : "", radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return fmt::format("shape = \"polygon\"\npoints = [{}]\nsize = 0.35\n", points);
+  }
+
+  const std::string& any_part() {
+    return parts[static_cast<std::size_t>(random.below(static_cast<int>(parts.size())))];
+  }
+
+  void add_fix() {
+    if (random.chance(0.5)) return;
+    fixed_part = any_part();
+    for (bool& held : fixed) held = random.chance(0.3);
+    fixed[static_cast<std::size_t>(random.below(D))] = true;
+    std::string value;
+    for (const bool held : fixed) value += fmt::format("{}{}", value.empty() ? "" : ", ", held ? "0" : "\"free\"");
+    text += fmt::format("[[fix]]\nbody = \"b\"\non = \"{}\"\nvalue = [{}]\n", fixed_part, value);
+  }
+
+  void add_loads() {
+    const double size = std::pow(10.0, random.between(-6, 0));
+    body_force = scaled<D>(size, direction<D>(random));
+    text += fmt::format("[[load]]\nbody = \"b\"\nvalue = {}\n", test::text<D>(body_force));
+    if (random.chance(0.6)) return;
+    traction = scaled<D>(size * std::pow(10.0, random.between(-6, 0.5)), direction<D>(random));
+    traction_part = parts[0];
+    text += fmt::format("[[load]]\nbody = \"b\"\non = \"{}\"\nvalue = {}\n", traction_part, test::text<D>(traction));
+  }
+
+  /// One that the body does not reach into.
+  void add_obstacle() {
+    const std::string part = random.chance(0.3) ? "boundary" : any_part();
+    RandomObstacle<D> o{part, random.chance(0.5), random.chance(0.3), {}, direction<D>(random), 0};
+    const double off = random.chance(0.5) ? 1 : random.between(1, 1.3);
+    o.point = scaled<D>(-off, o.normal);
+    if (!o.plane) {
+      o.radius = o.inside ? random.between(1, 3) : random.between(0.2, 2);
+      o.point = scaled<D>(o.inside ? random.between(0, o.radius - 1) : off + o.radius, o.normal);
+    }
+    obstacles.push_back(o);
+    text += fmt::format("[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\non = \"{}\"\n", o.part);
+    text += o.plane ? fmt::format("shape = \"plane\"\npoint = {}\nnormal = {}\n", test::text<D>(o.point),
+                                  test::text<D>(o.normal))
+                    : fmt::format("shape = \"sphere\"\ncenter = {}\nradius = {:.17g}\ninside = {}\n",
+                                  test::text<D>(o.point), o.radius, o.inside);
+  }
+
+  Random random;
+  std::vector<std::string> parts = D == 2 ? std::vector<std::string>{"left", "right", "bottom", "top"}
+                                          : std::vector<std::string>{"left", "right", "front", "back", "bottom", "top"};
+};
+
+/// The least sum of the components of |w - sum of lambda_i g_i| with lambda >= 0 over |w|: the first phase of the
+/// simplex method with Bland's rule. g: one per column.
+double distance_to_cone(const Eigen::MatrixXd& g, const Eigen::VectorXd& w) {
+  const Eigen::Index m = g.rows(), n = g.cols();
+  Eigen::VectorXd sign = w.unaryExpr([](double v) { return v < 0 ? -1.0 : 1.0; });
+  std::vector<Eigen::Index> basis;
+  for (Eigen::Index i = 0; i < m; ++i) basis.push_back(n + i);
+  const auto column = [&](Eigen::Index j) -> Eigen::VectorXd {
+    return j < n ? Eigen::VectorXd(g.col(j)) : Eigen::VectorXd(sign[j - n] * Eigen::VectorXd::Unit(m, j - n));
+  };
+  for (int round = 0; round < 10000; ++round) {
+    Eigen::MatrixXd B(m, m);
+    Eigen::VectorXd cost(m);
+    for (Eigen::Index i = 0; i < m; ++i) {
+      B.col(i) = column(basis[static_cast<std::size_t>(i)]);
+      cost[i] = basis[static_cast<std::size_t>(i)] >= n;
+    }
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(B);
+    const Eigen::VectorXd value = lu.solve(w), y = lu.transpose().solve(cost);
+    Eigen::Index enter = 0;
+    while (enter < n && !(y.dot(g.col(enter)) > 1e-11 * (1 + y.norm()))) ++enter;
+    if (enter == n) return cost.dot(value) / w.norm();
+    const Eigen::VectorXd change = lu.solve(column(enter));
+    Eigen::Index leave = -1;
+    double step = infinity;
+    for (Eigen::Index i = 0; i < m; ++i) {
+      if (!(change[i] > 1e-11)) continue;
+      const double t = std::max(value[i], 0.0) / change[i];
+      if (t < step || (t == step && basis[static_cast<std::size_t>(i)] < basis[static_cast<std::size_t>(leave)]))
+        step = t, leave = i;
+    }
+    if (leave < 0) return infinity;
+    basis[static_cast<std::size_t>(leave)] = enter;
+  }
+  return std::nan("");
+}
+
+/// How a displacement d at x works along the rigid motions about the origin.
+template <int D>
+Eigen::VectorXd modes(const Point<D>& x, const Point<D>& d) {
+  Eigen::VectorXd out(D == 2 ? 3 : 6);
+  for (int i = 0; i < D; ++i) out[i] = d[i];
+  if constexpr (D == 2) {
+    out[2] = x[0] * d[1] - x[1] * d[0];
+  } else {
+    const Point<3> turn = cross(x, d);
+    for (int i = 0; i < 3; ++i) out[3 + i] = turn[i];
+  }
+  return out;
+}
+
+/// What the loads would do along the motions that fixes leave free and obstacles do not end, over their size: 0 where
+/// there is a solution. A judge of its own: it shares the mesh with the program, and nothing else.
+template <int D>
+double unheld(const RandomBody<D>& body, const Mesh<D>& mesh) {
+  const auto faces_on = [&](const std::string& name) {
+    for (const Part& part : mesh.parts)
+      if (part.name == name) return part.faces;
+    std::vector<Index> all;
+    for (std::size_t f = 0; f < mesh.boundary.size(); ++f) all.push_back(static_cast<Index>(f));
+    return all;
+  };
+  std::vector<Eigen::VectorXd> held;
+  if (!body.fixed_part.empty())
+    for (const Index f : faces_on(body.fixed_part))
+      for (const Index v : mesh.boundary[f].vertices)
+        for (int i = 0; i < D; ++i) {
+          Point<D> axis{};
+          axis[i] = 1;
+          if (body.fixed[i]) held.push_back(modes<D>(mesh.points[v], axis));
+        }
+  const Eigen::Index n = D == 2 ? 3 : 6;
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(std::ssize(held), 1), n);
+  for (std::size_t k = 0; k < held.size(); ++k) H.row(static_cast<Eigen::Index>(k)) = held[k].transpose();
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(H);
+  lu.setThreshold(1e-9);
+  if (lu.rank() == n) return 0;
+  const Eigen::MatrixXd free = lu.kernel();
+
+  Eigen::VectorXd work = Eigen::VectorXd::Zero(n);
+  double size = 0;
+  for (const auto& e : mesh.elements) {
+    const double volume = linear_element(mesh, e).measure;
+    work += volume * modes<D>(centroid<D>(mesh, e), body.body_force);
+    size += volume * std::sqrt(dot(body.body_force, body.body_force));
+  }
+  if (body.traction != Point<D>{})
+    for (const Index f : faces_on(body.traction_part)) {
+      const Face<D>& face = mesh.boundary[f];
+      Point<D> n_area = area_normal(mesh, face), middle{};
+      for (const Index v : face.vertices) middle = sum<D>(middle, scaled<D>(1.0 / D, mesh.points[v]));
+      const double area = normalise(n_area);
+      work += area * modes<D>(middle, body.traction);
+      size += area * std::sqrt(dot(body.traction, body.traction));
+    }
+  const Eigen::VectorXd w = free.transpose() * work;
+  if (w.norm() <= 1e-12 * size) return 0;
+
+  std::vector<Eigen::VectorXd> normals;
+  for (const RandomObstacle<D>& o : body.obstacles)
+    for (const Index f : faces_on(o.part))
+      for (const Index v : mesh.boundary[f].vertices) {
+        Point<D> normal = o.normal;
+        if (!o.plane) {
+          normal = sum<D>(mesh.points[v], scaled<D>(-1, o.point));
+          normalise(normal);
+          if (o.inside) normal = scaled<D>(-1, normal);
+        }
+        normals.push_back(free.transpose() * modes<D>(mesh.points[v], normal));
+      }
+  // Forces along the normals balance the loads: -w = sum of lambda n, lambda >= 0.
+  Eigen::MatrixXd g(w.size(), std::ssize(normals));
+  for (Eigen::Index k = 0; k < g.cols(); ++k) g.col(k) = normals[static_cast<std::size_t>(k)];
+  return distance_to_cone(g, -w) * w.norm() / size;
+}
+
+struct Tally {
+  int solved = 0, refused = 0, near = 0, not_available = 0, wrong = 0;
+};
+
+/// The largest force that is out of balance over the largest load, or over what rounding makes of elastic forces where
+/// that is more: free components carry none, obstacles only push.
+template <int D>
+double imbalance(const Solution<D>& solution) {
+  const DiscreteProblem<D>& problem = solution.discretization.problem;
+  std::vector<double> r(solution.x.size());
+  residual<D>(problem.A, solution.x.data(), problem.b.data(), r.data());
+  double worst = 0, load = 0, stiffest = 0, farthest = 0;
+  for (Index p = 0; p < problem.A.size(); ++p)
+    for (int k = 0; k < D; ++k) {
+      const Offset i = Offset{p} * D + k;
+      if (problem.fixed[p] >> k & 1u) continue;
+      load = std::max(load, std::abs(problem.b[i]));
+      stiffest = std::max(stiffest, problem.A.diagonal(p)[k * (D + 1)]);
+      farthest = std::max(farthest, std::abs(solution.x[i]));
+      double force = r[i];
+      if (const Index slot = problem.constraints.slot[p]; slot >= 0) {
+        if (solution.x[i] <= problem.constraints.lower[Offset{slot} * D + k]) force = std::max(force, 0.0);
+        if (solution.x[i] >= problem.constraints.upper[Offset{slot} * D + k]) force = std::min(force, 0.0);
+      }
+      worst = std::max(worst, std::abs(force));
+    }
+  return worst / std::max(load, 1e-9 * stiffest * farthest);
+}
+
+template <int D>
+void judge_one(std::uint64_t seed, Tally& tally) {
+  const RandomBody<D> body(seed);
+  const Scene scene = parse_scene(body.text, "test.toml", ".", {});
+  Registry registry = solver_components();
+  load_plugins(scene, registry);
+  Times times;
+  const Progress quiet(true);
+  const MeshHierarchy<D> meshes = build_hierarchy<D>(scene, D);
+  const double by = unheld<D>(body, meshes.finest());
+  if (by > 1e-12 && by < 1e-9) return void(++tally.near);
+  const bool expected = by <= 1e-12;
+  std::string found;
+  try {
+    NestedSolver<D, D> solver(meshes, scene.solver, registry, quiet, times);
+    const Solution<D> solution = solver.solve(build_model<D>(scene, D, registry, 1));
+    if (expected && !solution.discretization.dropped.empty()) return void(++tally.not_available);
+    if (!solution.summary.converged())
+      found = "not converged: " + solution.summary.reason;
+    else if (!expected)
+      found = "solved";
+    else if (const double off = imbalance<D>(solution); !(off <= 1e-4))
+      found = fmt::format("forces out of balance by {}", off);
+    else
+      ++tally.solved;
+  } catch (const Error& error) {
+    if (error.status() == Exit::no_solution && !expected)
+      ++tally.refused;
+    else if (error.status() == Exit::input && std::string(error.what()).find("not available") != std::string::npos)
+      ++tally.not_available;
+    else
+      found = error.what();
+  }
+  if (found.empty()) return;
+  ++tally.wrong;
+  ADD_FAILURE() << "seed " << seed << ": the judge says " << (expected ? "held" : "free") << " (" << by
+                << "), found: " << found << '\n'
+                << (std::getenv("SHOW") ? body.text : "");
+}
+
+/// RANDOM_BODIES: how many instead of a few hundred.
+template <int D>
+void judge_all(int few) {
+  const char* wanted = std::getenv("RANDOM_BODIES");
+  const int count = wanted ? std::atoi(wanted) : few;
+  Tally tally;
+  for (int seed = 1; seed <= count; ++seed) judge_one<D>(static_cast<std::uint64_t>(seed), tally);
+  show("{}D: {} solved, {} refused, {} too near to tell, {} not available, {} wrong\n", D, tally.solved, tally.refused,
+       tally.near, tally.not_available, tally.wrong);
+  EXPECT_GT(tally.solved, count / 10);
+  EXPECT_GT(tally.refused, count / 10);
+}
+
+TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays2D) { judge_all<2>(250); }
+TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays3D) { judge_all<3>(100); }
+
+}  // namespace
+}  // namespace signorini::test
