@@ -119,7 +119,8 @@ template <int B>
 Summary solve_by_linear_systems(const Summary& cycles, const DiscreteProblem<B>& problem,
                                 std::span<const Prolongation> prolongations, std::vector<double>& x,
                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
-  const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, cycles.level_unknowns.back());
+  const std::vector<std::string> solvers =
+      automatic::solvers_for_active_sets(B, cycles.level_unknowns.back(), cycles.level_unknowns.front());
   SolverOptions own = options;
   own.max_iterations += cycles.iterations;
   for (const std::string& linear : solvers)
