@@ -9,6 +9,7 @@
 #include "apps/signorini/interrupt.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
+#include "core/mesh/stretch.hpp"
 #include "core/solver/solve.hpp"
 
 namespace signorini {
@@ -16,6 +17,11 @@ namespace {
 
 /// Vectors on the coarsest mesh above which the hierarchy goes on below it.
 constexpr Index large_coarsest_mesh = 1000;
+
+/// Stretching of cells (core/mesh/stretch.hpp) from which on algebraic levels from the finest mesh take about
+/// half the cycles of nested meshes or less, in about the same time: their set-up costs more for elastic bodies.
+constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
+constexpr double many = 0.1;  // part of the cells so stretched
 
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
@@ -45,11 +51,21 @@ std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int blo
   return block > 1 ? Coarsening::aggregation : Coarsening::classical;
 }
 
+template <int D>
+std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
+  const std::size_t finest = hierarchy.levels.size() - 1;
+  if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
+  if (!options.algebraic) return 0;
+  const double part = stretched_part(hierarchy.levels.front(), block == 1 ? stretched_scalar : stretched_elastic);
+  return part > many ? finest : 0;
+}
+
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
                                  const Registry& registry, const Progress& progress, Times& times)
     : hierarchy_(hierarchy),
       options_(options),
+      first_(first_mesh(hierarchy, options, B)),
       registry_(registry),
       progress_(progress),
       times_(times),
@@ -58,7 +74,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         return !interrupted();
       }) {
   Stopwatch watch;
-  prolongations_ = prolongations(hierarchy);
+  if (first_ == 0) prolongations_ = prolongations(hierarchy);
   times_.setup += watch.elapsed();
 }
 
@@ -84,7 +100,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   const AlgebraicSettings settings = algebraic_settings(options_);
   auto modes =
-      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
+      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels[first_]) : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();
@@ -99,7 +115,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
 template <int D, int B>
 void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
   Stopwatch watch;
-  const std::size_t below = algebraic_ + level - 1;
+  const std::size_t below = algebraic_ + level - first_ - 1;
   DiscreteProblem<B>& shared = coarse.discretization.problem;
   if (galerkin_.size() == below && is_galerkin(shared, prolongations_[below], problem)) {
     galerkin_.push_back({std::move(shared.A), std::move(shared.fixed), false});
@@ -116,9 +132,10 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
-    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
+    solution.x =
+        interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - first_ - 1], problem);
     share_matrix(coarse, level, problem);
-  } else if (level == 0 && options_.start == "nested") {
+  } else if (level == first_ && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
     solution.x = nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_);
@@ -131,18 +148,18 @@ template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      Solution<B>& solution) {
   stop_if_interrupted();
-  if (level == 0) continue_algebraically(solution.discretization.problem);
+  if (level == first_) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
   try {
-    solution.summary =
-        signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
-                            solution.x, options, registry_, monitor_);
+    solution.summary = signorini::solve<B>(solution.discretization.problem,
+                                           std::span(prolongations_).first(algebraic_ + level - first_), solution.x,
+                                           options, registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
   solution.discretization.problem.galerkin = {};
   if (finest) galerkin_.clear();
-  solution.summary.finest_level = static_cast<int>(level);
+  solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
@@ -171,7 +188,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   Solution<B> coarse;
   if (options_.start == "nested")
-    for (std::size_t level = 0; level < finest; ++level)
+    for (std::size_t level = first_; level < finest; ++level)
       if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
@@ -188,6 +205,8 @@ Solution<B> NestedSolver<D, B>::solve_from(const Model<B>& model, const std::vec
   return solution;
 }
 
+template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);
+template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template class NestedSolver<2, 1>;
 template class NestedSolver<3, 1>;
 template class NestedSolver<2, 2>;
