@@ -15,6 +15,7 @@
 #include "amg/motions.hpp"
 #include "amg/nested_start.hpp"
 #include "amg/recession.hpp"
+#include "amg/recognise_block.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -305,6 +306,7 @@ class BlackBox::BlockSolver final : public Solver {
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
                                                            const SolverOptions& options,
                                                            const NearNullSpace& near_null) {
+  if (block == 0 && !given) block = recognised_block(A);
   switch (block) {
     case 1:
       return std::make_unique<BlockSolver<1>>(A, given, options, near_null);

@@ -42,12 +42,12 @@ class BlackBox {
 
   /// Levels chosen by the matrix.
   /// @param block 1, 2 or 3 unknowns that belong together, such as the displacement of a mesh vertex, in consecutive
-  ///     rows
+  ///     rows; 0: as recognised_block() finds
   /// @param near_null what levels by aggregation represent exactly, such as rigid_body_modes() of an elastic body; only
   ///     unless options.coarsening = "classical"
   /// @throws Error(Exit::input) for a matrix that is not symmetric, not square or seen not to be positive semidefinite,
   ///     and a near null space that does not fit
-  explicit BlackBox(const SparseRows& A, int block = 1, const SolverOptions& options = {},
+  explicit BlackBox(const SparseRows& A, int block = 0, const SolverOptions& options = {},
                     const NearNullSpace& near_null = {});
 
   /// Levels by the interpolations of another linear multigrid code, coarsest first: one row per fine vector, one column

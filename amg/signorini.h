@@ -39,9 +39,10 @@ typedef struct {
 } signorini_summary;
 
 /*
- * Sets up a solver for `rows` rows in compressed form: entries row[i] to row[i + 1] - 1 of `column` (from 0) and `value`
- * are those of row i, in any order; both triangles are given. `block` is 1, 2 or 3 consecutive unknowns that belong
- * together. *solver is null unless SIGNORINI_SOLVED is returned. signorini_create64 is for more than 2^31 entries.
+ * Sets up a solver for `rows` rows in compressed form: entries row[i] to row[i + 1] - 1 of `column` (from 0) and
+ * `value` are those of row i, in any order; both triangles are given. `block` is 1, 2 or 3 consecutive unknowns that
+ * belong together, or 0: as the matrix looks like. *solver is null unless SIGNORINI_SOLVED is returned.
+ * signorini_create64 is for more than 2^31 entries.
  */
 int signorini_create(int32_t rows, const int32_t* row, const int32_t* column, const double* value, int block,
                      signorini_solver** solver);

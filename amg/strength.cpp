@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace signorini {
 
@@ -19,7 +20,9 @@ constexpr double strong = B == 1   ? 0.2
 // corners are coupled by 0.25 though nothing smooth goes along these couplings, as the positive ones say.
 constexpr double strong_beside_positive = 0.3, positive = 0.25;
 
-constexpr double strong_norm = 0.2;  // of groups
+// Of groups, of the larger one of the largest couplings of both: on the edges and ends of bodies all that is strong is
+// halved, and the weak couplings to where it is not would count as strong.
+constexpr float strong_norm = 0.2f;
 
 template <int B>
 double square(const double* block) {
@@ -90,8 +93,8 @@ template <int B>
 StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group) {
   constexpr Flags all = (1u << B) - 1;
   const Index groups = A.size() / group;
-  StrengthGraph graph;
-  graph.balanced.assign(static_cast<std::size_t>(groups), 1.0);
+  StrengthGraph couplings;  // all of them, by their norms
+  std::vector<float> largest(static_cast<std::size_t>(groups), 0.0f);
   std::vector<double> sum(static_cast<std::size_t>(groups), 0.0);  // zero between the rows
   std::vector<Index> found;
   for (Index g = 0; g < groups; ++g) {
@@ -103,14 +106,19 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
         if (sum[h] == 0) found.push_back(h);
         sum[h] += square<B>(A.at(k));
       }
-    double largest = 0;
-    for (const Index h : found) largest = std::max(largest, sum[h]);
     std::ranges::sort(found);
     for (const Index h : found) {
-      if (sum[h] > 0 && sum[h] >= strong_norm * strong_norm * largest)
-        graph.add({h, static_cast<float>(std::sqrt(sum[h] / largest))});
-      sum[h] = 0;
+      const auto norm = static_cast<float>(std::sqrt(std::exchange(sum[h], 0.0)));
+      if (norm > 0) couplings.add({h, norm});
+      largest[g] = std::max(largest[g], norm);
     }
+    couplings.end_row();
+  }
+  StrengthGraph graph;
+  graph.balanced.assign(static_cast<std::size_t>(groups), 1.0);
+  for (Index g = 0; g < groups; ++g) {
+    for (const Coupling& c : couplings.of(g))
+      if (c.strength >= strong_norm * std::max(largest[g], largest[c.to])) graph.add({c.to, c.strength / largest[g]});
     graph.end_row();
   }
   return graph;

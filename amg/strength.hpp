@@ -72,7 +72,8 @@ StrengthGraph reversed(const StrengthGraph& graph);
 template <int B>
 StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off);
 
-/// The same between groups of consecutive vectors, by the norms of all that couples two of them.
+/// The same between groups of consecutive vectors, by the norms of all that couples two of them; strong only where it
+/// is no small part of the largest coupling of either.
 template <int B>
 StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group);
 

@@ -57,7 +57,8 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& mod
                candidates[k].size());
 }
 
-void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, int block, Offset unknowns) {
+void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
+                  Offset unknowns) {
   const bool aggregates = below == Coarsening::aggregation;
   fmt::print("solver: method {}\n", options.method == "auto"
                                         ? "auto: " + automatic::describe(options, aggregates, block, unknowns)
@@ -70,7 +71,8 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
   fmt::print("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle,
              options.pre, options.post, options.smoother, options.coarse);
   if (below)
-    fmt::print("        levels below the coarsest mesh by {}\n",
+    fmt::print("        levels below the {} by {}\n",
+               meshes ? "coarsest mesh" : "finest mesh, without the coarser ones,",
                aggregates ? "aggregation, aggregates " + options.aggregates : "classical coarsening");
 }
 
@@ -92,7 +94,8 @@ void check(const Scene& scene, const Registry& registry) {
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
-  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels.front().vertices()), B,
+  const std::size_t first = first_mesh(hierarchy, scene.solver, B);
+  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels[first].vertices()), first == 0, B,
                free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));

@@ -22,7 +22,7 @@ Exit solve_command(const SolveArguments& arguments);
 struct QpArguments {
   std::filesystem::path matrix, load, lower, upper, start, near_null, coordinates;
   std::filesystem::path out, report;
-  int block = 1;
+  int block = 0;                      // recognised in the matrix
   std::vector<std::string> settings;  ///< "solver.cycle=W"
   std::optional<double> tolerance;    ///< go before those
   std::optional<std::string> method;

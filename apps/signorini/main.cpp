@@ -126,7 +126,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--report", qp.report, "JSON file for what the solver did, '-' for standard output");
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
-      ->capture_default_str();
+      ->default_str("what the matrix looks like");
   command->add_option("--tol", qp.tolerance, "bound for the residual and the algebraic error, both relative")
       ->check([](const std::string& found) {
         const double tolerance = std::strtod(found.c_str(), nullptr);

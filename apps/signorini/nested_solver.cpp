@@ -11,6 +11,7 @@
 #include "apps/signorini/loose_body.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
+#include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/solve.hpp"
 
@@ -19,6 +20,11 @@ namespace {
 
 /// Vectors on the coarsest mesh above which the hierarchy goes on below it.
 constexpr Index large_coarsest_mesh = 1000;
+
+/// Stretching of cells (core/mesh/stretch.hpp) from which on algebraic levels from the finest mesh take about
+/// half the cycles of nested meshes or less, in about the same time: their set-up costs more for elastic bodies.
+constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
+constexpr double many = 0.1;  // part of the cells so stretched
 
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
@@ -48,11 +54,21 @@ std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int blo
   return block > 1 ? Coarsening::aggregation : Coarsening::classical;
 }
 
+template <int D>
+std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
+  const std::size_t finest = hierarchy.levels.size() - 1;
+  if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
+  if (!options.algebraic) return 0;
+  const double part = stretched_part(hierarchy.levels.front(), block == 1 ? stretched_scalar : stretched_elastic);
+  return part > many ? finest : 0;
+}
+
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
                                  const Registry& registry, const Progress& progress, Times& times)
     : hierarchy_(hierarchy),
       options_(options),
+      first_(first_mesh(hierarchy, options, B)),
       registry_(registry),
       progress_(progress),
       times_(times),
@@ -61,7 +77,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         return !interrupted();
       }) {
   Stopwatch watch;
-  prolongations_ = prolongations(hierarchy);
+  if (first_ == 0) prolongations_ = prolongations(hierarchy);
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
@@ -89,7 +105,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   const AlgebraicSettings settings = algebraic_settings(options_);
   auto modes =
-      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels.front()) : NearNullSpace{};
+      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels[first_]) : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();
@@ -103,9 +119,9 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
 /// For a start on the finest mesh, which alone has to hold the whole problem.
 template <int D, int B>
 void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
-  if (!coarsening_below(options_, B, hierarchy_.levels.front().vertices())) return;
+  if (!coarsening_below(options_, B, hierarchy_.levels[first_].vertices())) return;
   try {
-    Solution<B> coarsest = discretize_level(model, 0);
+    Solution<B> coarsest = discretize_level(model, first_);
     continue_algebraically(coarsest.discretization.problem);
   } catch (const Error& error) {
     if (error.status() == Exit::interrupted) throw;
@@ -118,7 +134,7 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
 template <int D, int B>
 void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
   Stopwatch watch;
-  const std::size_t below = algebraic_ + level - 1;
+  const std::size_t below = algebraic_ + level - first_ - 1;
   DiscreteProblem<B>& shared = coarse.discretization.problem;
   if (galerkin_.size() == below && is_galerkin(shared, prolongations_[below], problem)) {
     galerkin_.push_back({std::move(shared.A), std::move(shared.fixed), false});
@@ -147,7 +163,7 @@ void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>&
   const DiscreteProblem<B>& below = coarse.discretization.problem;
   std::vector<double> change = to_local(below, before_[level - 1]);
   for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
-  std::vector<double> x = interpolate(below, change, prolongations_[algebraic_ + level - 1], problem);
+  std::vector<double> x = interpolate(below, change, prolongations_[algebraic_ + level - first_ - 1], problem);
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
   take_better(std::move(x));
 }
@@ -158,10 +174,11 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
-    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - 1], problem);
+    solution.x =
+        interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - first_ - 1], problem);
     if (!before_[level].empty()) start_from_before(level, coarse, solution);
     share_matrix(coarse, level, problem);
-  } else if (level == 0 && options_.start == "nested") {
+  } else if (level == first_ && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
     solution.x =
@@ -176,18 +193,18 @@ template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      Solution<B>& solution) {
   stop_if_interrupted();
-  if (level == 0) continue_algebraically(solution.discretization.problem);
+  if (level == first_) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
   try {
-    solution.summary =
-        signorini::solve<B>(solution.discretization.problem, std::span(prolongations_).first(algebraic_ + level),
-                            solution.x, options, registry_, monitor_);
+    solution.summary = signorini::solve<B>(solution.discretization.problem,
+                                           std::span(prolongations_).first(algebraic_ + level - first_), solution.x,
+                                           options, registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
   solution.discretization.problem.galerkin = {};
   if (finest) galerkin_.clear();
-  solution.summary.finest_level = static_cast<int>(level);
+  solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   stop_if_interrupted();
@@ -231,9 +248,9 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   Solution<B> coarse;
   if (options_.start == "nested")
-    for (std::size_t level = 0; level < finest; ++level)
+    for (std::size_t level = first_; level < finest; ++level)
       if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
-  if (!continued_ && finest > 0) choose_levels_below(model);
+  if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
   before_.swap(now_);
@@ -256,6 +273,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return start_and_solve(model);
 }
 
+template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);
+template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template class NestedSolver<2, 1>;
 template class NestedSolver<3, 1>;
 template class NestedSolver<2, 2>;

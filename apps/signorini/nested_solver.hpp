@@ -27,6 +27,12 @@ struct Solution {
 /// How levels below the coarsest mesh are chosen: classical or aggregation; nothing where there are none.
 std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices);
 
+/// The coarsest mesh that gives a level: the first one, or the finest alone where all coarser levels are to be
+/// algebraic: where many cells are stretched, for there point smoothing needs levels that are coarser along the strong
+/// couplings only, and uniformly refined meshes have others.
+template <int D>
+std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
+
 /// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
 /// only.
 template <int D, int B>
@@ -57,6 +63,7 @@ class NestedSolver {
 
   const MeshHierarchy<D>& hierarchy_;
   Scene::Solver options_;
+  const std::size_t first_;  // the coarsest mesh that gives a level
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;

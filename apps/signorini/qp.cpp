@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "amg/black_box.hpp"
+#include "amg/recognise_block.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/progress.hpp"
@@ -28,8 +29,7 @@ Vectors read_vectors(const QpArguments& arguments, Index size) {
           read(arguments.upper, Infinities::allowed), read(arguments.start, Infinities::refused)};
 }
 
-NearNullSpace near_null_space(const QpArguments& arguments, Index rows) {
-  const int block = arguments.block;
+NearNullSpace near_null_space(const QpArguments& arguments, int block, Index rows) {
   if (!arguments.near_null.empty()) {
     if (!arguments.coordinates.empty()) throw Error(Exit::usage, "--near-null and --coordinates exclude each other");
     Columns columns = read_columns(arguments.near_null, rows, 1, most_modes);
@@ -91,7 +91,8 @@ class QpRun {
                   fmt::format("found {} rows and {} columns, expected a square matrix of one row at least",
                               matrix_.rows, matrix_.columns));
     vectors_ = read_vectors(arguments_, matrix_.rows);
-    near_null_ = near_null_space(arguments_, matrix_.rows);
+    block_ = arguments_.block > 0 ? arguments_.block : recognised_block(matrix_);
+    near_null_ = near_null_space(arguments_, block_, matrix_.rows);
     if (!arguments_.out.empty()) outputs_.add(arguments_.out);
     if (!arguments_.report.empty() && !outputs_.add(arguments_.report))
       throw Error(Exit::usage, fmt::format("{} is both --out and --report", arguments_.out.string()));
@@ -103,7 +104,7 @@ class QpRun {
   BlackBox set_up() {
     progress_.phase(fmt::format("setting up {} unknowns", matrix_.rows));
     try {
-      return BlackBox(std::exchange(matrix_, {}), arguments_.block, options_, std::exchange(near_null_, {}));
+      return BlackBox(std::exchange(matrix_, {}), block_, options_, std::exchange(near_null_, {}));
     } catch (const Error& error) {
       throw Error(error.status(), fmt::format("{}: {}", arguments_.matrix.string(), error.what()));
     }
@@ -137,6 +138,7 @@ class QpRun {
 
   std::string report_text() const {
     auto json = to_json(result_.summary);
+    json["block"] = block_;
     json["active"] = {{"lower", active_.lower}, {"upper", active_.upper}};
     json["time"] = {{"read", time_.read}, {"setup", time_.setup}, {"solve", time_.solve}, {"total", time_.total}};
     return json.dump(2) + '\n';
@@ -144,6 +146,7 @@ class QpRun {
 
   void print() const {
     print_summary(result_.summary, result_.summary.converged());
+    if (arguments_.block == 0 && block_ > 1) fmt::print("blocks of {} unknowns, recognised in the matrix\n", block_);
     fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
     fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,
                time_.solve, time_.total, peak_memory_mb());
@@ -159,6 +162,7 @@ class QpRun {
     double read = 0, setup = 0, solve = 0, total = 0;  // seconds
   } time_;
   SparseRows matrix_;  // until the set-up
+  int block_ = 1;
   Vectors vectors_;
   NearNullSpace near_null_;
   OutputFiles outputs_;

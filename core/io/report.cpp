@@ -156,6 +156,7 @@ Json to_json(const Report& report) {
             {"levels", levels(report.last().summary)}};
   add_summary(json, report.last().summary);
   add_history(json, report.last().summary);
+  json["hierarchy"] = report.hierarchy;
   json["time"] = time(report.time);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());

@@ -46,7 +46,8 @@ struct StepReport {
 struct Report {
   std::string scene, title;
   int dimension = 0;
-  std::vector<StepReport> steps;  ///< at least one; the top-level keys are those of the last
+  std::string hierarchy = "meshes";  ///< or "matrix": all levels below the finest mesh are algebraic
+  std::vector<StepReport> steps;     ///< at least one; the top-level keys are those of the last
   std::vector<std::string> warnings;
   std::vector<PluginReport> plugins;
   Times time;

@@ -44,6 +44,7 @@ Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& fo
   solver.cut = reader.number("cut");
   solver.rotate = reader.text("rotate");
   solver.algebraic = reader.flag("algebraic");
+  solver.hierarchy = reader.text("hierarchy");
   solver.reassemble = reader.flag("reassemble");
   solver.reach = reader.text("reach");
   solver.interpolate = reader.text("interpolate");

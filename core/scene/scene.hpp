@@ -110,8 +110,10 @@ struct Scene {
   };
 
   struct Solver : SolverOptions {
-    std::string start = "nested";  ///< nested or zero
-    bool algebraic = true;         ///< levels chosen by the matrix below a large coarsest mesh
+    std::string start = "nested";    ///< nested or zero
+    bool algebraic = true;           ///< levels chosen by the matrix below a large coarsest mesh
+    std::string hierarchy = "auto";  ///< coarser levels: meshes, matrix (all algebraic), or auto: the latter where
+                                     ///< cells are stretched
     Source source;
   };
 

@@ -27,7 +27,7 @@ SolverOptions solver_options(std::span<const std::string> assignments) {
         solver = table;
       else
         for (const auto& [key, value] : table.entries) refuse(value, "solver.KEY=VALUE");
-  for (const char* key : {"start", "algebraic"})
+  for (const char* key : {"start", "algebraic", "hierarchy"})
     if (const RawValue* value = solver.find(key)) refuse(*value, "another key: this one needs meshes");
   return read_solver(solver, {});
 }

@@ -142,6 +142,10 @@ constexpr KeySpec solver[] = {
      "levels on which contact vectors use their local basis; meshes: not the algebraic ones"},
     {"algebraic", boolean, "true", "", "",
      "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
+    {"hierarchy", text, "auto", "auto | meshes | matrix", "",
+     "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
+     "auto: "
+     "the meshes, but the matrix where cells are stretched and algebraic levels are allowed"},
     {"reassemble", boolean, "true", "", "",
      "renew the matrices of algebraic levels where phases have changed; false: search along their corrections"},
     {"reach", text, "all", "all | twins", "",

@@ -18,6 +18,21 @@ bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
 }
 
+template <int B>
+bool sweeps_first(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                  const SolverOptions& options) {
+  const Index vectors = problem.A.size();
+  const Index coarsest = prolongations.empty() ? vectors : prolongations.front().coarse;
+  return automatic::begins_with_sweeps(options, coarsest, vectors, problem.A.row[vectors]) &&
+         !automatic::solvers_for_active_sets(B, Offset{vectors} * B, Offset{coarsest} * B).empty();
+}
+
+template <int B>
+Components<B> components(SolverOptions options, const Registry& registry, bool sweeps) {
+  if (sweeps) options.coarse = "pgs";
+  return components_of<B>(options, registry);
+}
+
 bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic::resting_percent * finest.critical; }
 
 }  // namespace
@@ -28,7 +43,8 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
                                           const SolverOptions& options, const Registry& registry)
     : Iteration<B>(problem, x, options),
       method_(check_options(options)),
-      multigrid_(problem, hierarchy_of(options, prolongations), components_of<B>(options, registry),
+      sweeps_(sweeps_first(problem, prolongations, options)),
+      multigrid_(problem, hierarchy_of(options, prolongations), components<B>(options, registry, sweeps_),
                  settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
@@ -83,10 +99,12 @@ std::optional<double> MultigridIteration<B>::response(const std::vector<double>&
 // By the rate of the last cycles, which may change: asked again from time to time.
 template <int B>
 bool MultigridIteration<B>::leaves_to_active_sets() const {
-  const int left = std::min(automatic::most_cycles, this->options_.max_iterations) - cycles_;
-  if (cycles_ < automatic::patience_with_cycles || cycles_ % 10 != 0 || cycles_ >= this->options_.max_iterations)
-    return false;
-  if (automatic::solvers_for_active_sets(B, this->free_unknowns(finest())).empty()) return false;
+  const int patience = sweeps_ ? automatic::patience_with_sweeps : automatic::patience_with_cycles;
+  const int most = sweeps_ ? automatic::most_sweeping_cycles : automatic::most_cycles;
+  const int left = std::min(most, this->options_.max_iterations) - cycles_;
+  if (cycles_ < patience || (cycles_ % 10 != 0 && !sweeps_) || cycles_ >= this->options_.max_iterations) return false;
+  const Offset unknowns = this->free_unknowns(finest()), coarsest = this->free_unknowns(multigrid_.levels().front());
+  if (automatic::solvers_for_active_sets(B, unknowns, coarsest).empty()) return false;
   return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);
 }
 

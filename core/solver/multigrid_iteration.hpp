@@ -32,6 +32,7 @@ class MultigridIteration final : public Iteration<B> {
   double rounding_of_gain() const;
 
   Method method_;
+  bool sweeps_;  // the coarse solver makes no Newton steps
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
   bool blocks_;         // among the interpolations' weights

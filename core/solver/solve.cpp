@@ -48,7 +48,7 @@ class Continuation {
   Summary run() {
     const Offset unknowns = done_.level_unknowns.back();
     const bool small = unknowns <= automatic::most_unknowns_where_sets_cycle;
-    const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, unknowns);
+    const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, unknowns, done_.level_unknowns.front());
     for (const std::string& linear : solvers)
       if (attempt<ActiveSetIteration<B>>("pdas", linear, options_.max_iterations, automatic::shift_if_singular))
         return std::move(done_);

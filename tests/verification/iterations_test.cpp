@@ -126,5 +126,72 @@ TEST(Iterations, StepsTakeNoMoreCyclesThanFreshSolves) {
     }
 }
 
+/// A rectangle or a box with its lower corner in the origin.
+template <int D>
+std::string block(Point<D> to, int cells) {
+  return D == 2 ? fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, {}]\ncells = [{}, {}]\n", to[0], to[1],
+                              cells, cells)
+                : fmt::format("shape = \"box\"\nfrom = [0, 0, 0]\nto = [{}, {}, {}]\ncells = [{}, {}, {}]\n", to[0],
+                              to[1], to[D - 1], cells, cells, cells);
+}
+
+template <int D>
+int cycles_of_membrane(Point<D> size, int cells, int refinements) {
+  const SceneText scene{.body = block<D>(size, cells) + "equation = \"diffusion\"",
+                        .fixes = {"on = \"boundary\"\nvalue = 0"},
+                        .loads = {"value = -1"},
+                        .obstacle = "type = \"scalar\"\nlower = -0.03",
+                        .refinements = refinements};
+  return run<D, 1>(scene).summary().iterations;
+}
+
+template <int D>
+int cycles_of_body(Point<D> size, int cells, int refinements) {
+  const double load = -1e-4 / std::pow(size[0], 3);
+  SceneText scene{.body = block<D>(size, cells) + "young = 1\npoisson = 0.3", .refinements = refinements};
+  if (D == 2) {
+    scene.fixes = {"on = \"top\"\nvalue = [0, 0]"};
+    scene.loads = {fmt::format("value = [0, {}]", load)};
+    scene.obstacle = "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]";
+  } else {
+    scene.fixes = {"on = \"top\"\nvalue = [0, 0, 0]"};
+    scene.loads = {fmt::format("value = [0, 0, {}]", load)};
+    scene.obstacle = "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]";
+  }
+  return run<D, D>(scene).summary().iterations;
+}
+
+// Point smoothing on nested meshes takes two to three times the cycles at 6, and from 64 on hardly converges.
+TEST(Iterations, CellsThatAreStretchedTakeAtMostTwiceThoseOfCompactOnes) {
+  const int plane = cycles_of_membrane<2>({1, 1}, 16, 3), space = cycles_of_membrane<3>({1, 1, 1}, 6, 2);
+  const int strip = cycles_of_body<2>({1, 1}, 12, 2), bar = cycles_of_body<3>({1, 1, 1}, 7, 1);
+  show("compact: {} {} {} {}\n", plane, space, strip, bar);
+  for (const double a : {6, 32, 1000}) {
+    const int found[] = {cycles_of_membrane<2>({a, 1}, 16, 3), cycles_of_membrane<3>({a, 1, 1}, 6, 2),
+                         cycles_of_membrane<3>({2 * a, 2 * a, 1}, 6, 2)};
+    for (const int cycles : found) EXPECT_LE(cycles, 2 * std::min(plane, space)) << a;
+    const int elastic[] = {cycles_of_body<2>({a, 1}, 12, 2), cycles_of_body<3>({a, 1, 1}, 7, 1),
+                           cycles_of_body<3>({2 * a, 2 * a, 1}, 7, 1)};
+    for (const int cycles : elastic) EXPECT_LE(cycles, 2 * std::min(strip, bar)) << a;
+    show("{}: {} {} {}, {} {} {}\n", a, found[0], found[1], found[2], elastic[0], elastic[1], elastic[2]);
+  }
+}
+
+// Whoever asks for the meshes gets them.
+TEST(Iterations, LevelsComeFromTheMatrixOnlyWhereCellsAreStretched) {
+  const auto meshes = [](const std::string& body, const std::string& hierarchy) {
+    const SceneText scene{.body = body + "equation = \"diffusion\"",
+                          .fixes = {"on = \"boundary\"\nvalue = 0"},
+                          .loads = {"value = -1"},
+                          .obstacle = "type = \"scalar\"\nlower = -0.03",
+                          .refinements = 2};
+    return run<2, 1>(scene, {"solver.hierarchy=" + hierarchy}).summary().finest_level;
+  };
+  EXPECT_EQ(meshes(block<2>({1, 1}, 16), "auto"), 2);
+  EXPECT_EQ(meshes(block<2>({1, 1}, 16), "matrix"), 0);
+  EXPECT_EQ(meshes(block<2>({9, 1}, 16), "auto"), 0);
+  EXPECT_EQ(meshes(block<2>({9, 1}, 16), "meshes"), 2);
+}
+
 }  // namespace
 }  // namespace signorini::test
