@@ -65,6 +65,8 @@ class Iteration {
   /// Error(Exit::input) where a residual is not finite.
   static void refuse_nan(double residual);
   Index free_unknowns(const Level<B>& level) const;
+  /// Whether the residual is so small that it says nothing.
+  bool rests_at_rounding() const;
   /// How many times the residual or the error after the last step was larger than the tolerance.
   double excess() const { return std::max(summary_.residual, summary_.algebraic_error) / options_.tolerance; }
 
@@ -84,7 +86,6 @@ class Iteration {
   double rounding_error();
   bool within_tolerance() const;
   bool finished(bool gaining);
-  bool rests_at_rounding() const;
   bool has_risen() const;
   bool end(Outcome outcome, std::string reason);
   void finish_energies();

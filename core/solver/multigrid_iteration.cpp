@@ -82,12 +82,15 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
-  Step step{cycle.levels, estimate_.error(), estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
+  const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
+  const double error = idle ? infinity : estimate_.error();
+  Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
   rests_ = rests(cycle.finest());
   compare_gains(free);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
   if (method_ == Method::automatic && leaves_to_active_sets()) step.stuck = "the cycles converge too slowly";
+  if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 

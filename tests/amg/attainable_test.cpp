@@ -97,15 +97,14 @@ TEST(Attainable, ErrorsOfSlenderBeamsAreContained) {
   Model<2> model = resting_block<2>({0, -1e-6}, {});
   model.obstacles.clear();
   model.fixes = {{on("left"), {Field(0), Field(0)}}};
-  for (const int slenderness : {30, 300}) {
+  for (const int slenderness : {5, 300}) {
     SCOPED_TRACE(slenderness);
     Mesh<2> mesh = cube<2>(0, 1, 24);
     for (auto& point : mesh.points) point[0] *= slenderness;
     const Given<2> given(discretize<2, 2>(mesh, model).problem);
     const BlackBox::Result result = BlackBox(given.A, 2).solve(given.b);
     expect_contained(result.summary, error_of(given.A, given.b, result.x));
-    EXPECT_EQ(result.summary.outcome, slenderness == 30 ? Outcome::converged : Outcome::rounding);
-    fmt::print("{}: {:.1e}, {}\n", slenderness, error_of(given.A, given.b, result.x), result.summary.reason);
+    EXPECT_EQ(result.summary.outcome, slenderness == 5 ? Outcome::converged : Outcome::rounding);
   }
 }
 

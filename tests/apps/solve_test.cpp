@@ -41,8 +41,11 @@ TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {
   EXPECT_EQ(r.at("dimension"), 3);
   EXPECT_EQ(r.at("converged"), true);
   EXPECT_EQ(r.at("limited_by_rounding").is_boolean(), true);
-  for (const char* key : {"residual", "algebraic_error", "rate", "energy", "peak_memory_mb"})
+  for (const char* key : {"residual", "algebraic_error", "rounding_error", "energy", "peak_memory_mb"})
     EXPECT_TRUE(r.at(key).is_number_float()) << key;
+  EXPECT_TRUE(r.at("rate").is_number_float() || r.at("rate").is_null());
+  EXPECT_EQ(r.at("stages").front().at("iterations"), r.at("iterations"));
+  EXPECT_EQ(r.at("stages").back().at("outcome"), "solved");
   for (const char* key : {"unknowns", "iterations", "linear_phase_from"})
     EXPECT_TRUE(r.at(key).is_number_integer()) << key;
   for (const char* key : {"mesh", "assemble", "setup", "solve", "output", "total"})
