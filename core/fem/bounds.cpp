@@ -149,10 +149,11 @@ BoundCombiner<D, B>::BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, c
 template <int D, int B>
 const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>* first, const Bound<B>* last,
                                                                   const FixedDirections<B>* fixed,
-                                                                  std::vector<Bound<B>>& dropped) {
+                                                                  std::vector<Bound<B>>& dropped,
+                                                                  std::vector<Bound<B>>& held) {
   reduced_.clear();
   combined_.clear();
-  for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed);
+  for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed, held);
   if (reduced_.size() > 1)  // it takes memory
     std::stable_sort(reduced_.begin(), reduced_.end(),
                      [](const Reduced& a, const Reduced& b) { return a.distance() < b.distance(); });
@@ -164,7 +165,7 @@ const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>
 
 // Takes out of a bound what is prescribed: direction . v = prescribed + |rest| (rest / |rest|) . v.
 template <int D, int B>
-void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>* fixed) {
+void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held) {
   Reduced out{bound.direction, bound.lower, bound.upper, &bound};
   if (!fixed) {
     reduced_.push_back(out);
@@ -190,6 +191,7 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
                 fmt::format("obstacle beyond the fixed boundary: the fixed value {} lies {} the obstacle's bound {}",
                             prescribed, prescribed < bound.lower ? "below" : "above",
                             (prescribed < bound.lower ? bound.lower : bound.upper) + 0.0));  // no -0
+  if (violation >= -rounding(bound.obstacle)) held.push_back(bound);
 }
 
 // Takes a bound into the combined ones; false where it fits with none of them.
@@ -205,13 +207,13 @@ bool BoundCombiner<D, B>::merge(const Reduced& bound) {
     const double cosine = dot(bound.direction, other.direction);
     if (std::fabs(cosine) > 1 - same_direction * same_direction) {
       const double lower = cosine > 0 ? bound.lower : -bound.upper, upper = cosine > 0 ? bound.upper : -bound.lower;
-      if (lower > other.lower) other.lower = lower, other.lower_obstacle = obstacle;
-      if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle;
+      if (lower > other.lower) other.lower = lower, other.lower_obstacle = obstacle, other.lower_from = bound.from;
+      if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle, other.upper_from = bound.from;
       return true;
     }
   }
   if (!independent_of_combined(bound)) return false;
-  combined_.push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle});
+  combined_.push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle, bound.from, bound.from});
   return true;
 }
 

@@ -23,6 +23,7 @@ struct CombinedBound {
   std::array<double, B> direction;
   double lower, upper;
   Index lower_obstacle, upper_obstacle;
+  const Bound<B>*lower_from, *upper_from;  ///< before they were reduced
 };
 
 /// Decides what holds at a vertex where bounds meet prescribed directions and each other.
@@ -37,9 +38,11 @@ class BoundCombiner {
   /// of this type along one direction are intersected, independent ones are kept beside each other, nearest first; all
   /// others are appended to `dropped`: those of another type, and those whose direction depends on nearer ones, up to
   /// 0.02 of its length: rounding grows by that number's inverse squared. Returns unit vectors in storage that the next
-  /// call overwrites. Error(Exit::no_solution): bounds that are violated whatever the free components are.
+  /// call overwrites. Bounds along a direction that is prescribed and that what is prescribed there touches are
+  /// appended to `held`. Error(Exit::no_solution): bounds that are violated whatever the free components are.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
-                                               const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped);
+                                               const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped,
+                                               std::vector<Bound<B>>& held);
 
  private:
   struct Reduced {
@@ -49,7 +52,7 @@ class BoundCombiner {
     double distance() const { return std::min(-lower, upper); }
   };
 
-  void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed);
+  void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
   bool merge(const Reduced& bound);
   bool independent_of_combined(const Reduced& bound) const;
   void check_order(CombinedBound<B>& bound, Index vertex);

@@ -6,6 +6,7 @@
 #include "core/algebra/products.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/sdk/block.hpp"
 
 namespace signorini {
 namespace {
@@ -72,12 +73,24 @@ class NodeReader {
     const double x = x_[Offset{p} * B + k], r = r_[Offset{p} * B + k];
     const bool at_lower = touches(x - lower, lower), at_upper = touches(upper - x, upper);
     const bool below = discretization_.upper_obstacle[at] < 0 || nearer_to_lower(at, x, r, at_lower, at_upper);
-    const bool contact = at_lower || at_upper;
     const Index obstacle = (below ? discretization_.lower_obstacle : discretization_.upper_obstacle)[at];
-    const double push = contact ? std::max(below ? r : -r, 0.0) : 0;  // what is left off contact is rounding
-    ContactNode<B> node{p, obstacle, contact, below ? x - lower : upper - x, 0, push, {}, {}};
-    add_along(p, k, below ? 1 : -1, node.direction);
-    add_along(p, k, below ? push : -push, node.force);
+    const auto [normal, part] = whole(at, below, p, k);
+    ContactNode<B> node{p, obstacle, at_lower || at_upper, false, part * (below ? x - lower : upper - x), 0, 0, {}, {}};
+    for (int i = 0; i < B; ++i) node.direction[i] = below ? normal[i] : -normal[i];
+    push(node, std::max(below ? r : -r, 0.0) / part);  // what is left of the other sign is rounding
+    return node;
+  }
+
+  ContactNode<B> read(const HeldBound<B>& held) const {
+    const Bound<B>& bound = held.bound;
+    double value = 0;
+    const std::array<double, B> u = global(bound.vertex);
+    for (int i = 0; i < B; ++i) value += bound.direction[i] * u[i];
+    const double sign = value - bound.lower <= bound.upper - value ? 1 : -1;
+    ContactNode<B> node{bound.vertex, bound.obstacle, true, true, 0, 0, 0, {}, bound.direction};
+    node.gap = std::min(value - bound.lower, bound.upper - value);
+    for (double& d : node.direction) d *= sign;
+    push(node, sign * held.force(x_));
     return node;
   }
 
@@ -93,10 +106,32 @@ class NodeReader {
     return std::isfinite(bound) && gap <= on_bound * std::max(size_, std::fabs(bound));
   }
 
-  // Adds r times the direction that local component k measures.
-  void add_along(Index p, int k, double r, std::array<double, B>& to) const {
+  // The obstacle pushes with this force.
+  static void push(ContactNode<B>& node, double force) {
+    if (!node.contact) return;
+    node.pressure = force;
+    for (int i = 0; i < B; ++i) node.force[i] = force * node.direction[i];
+  }
+
+  // The obstacle's normal and how much of it the local component k measures, which is all but for prescribed parts.
+  std::pair<std::array<double, B>, double> whole(Offset at, bool below, Index p, int k) const {
+    const auto& all = discretization_.reduced;
+    auto found = std::partition_point(all.begin(), all.end(), [at](const auto& r) { return r.at < at; });
+    if (found != all.end() && found->at == at) {
+      if (found->upper == below) ++found;
+      return {found->normal, found->part};
+    }
+    std::array<double, B> direction{};
     const double* N = problem_.frames.dual_at(p);
-    for (int i = 0; i < B; ++i) to[i] += N ? N[i * B + k] * r : (i == k ? r : 0);
+    for (int i = 0; i < B; ++i) direction[i] = N ? N[i * B + k] : (i == k ? 1 : 0);
+    return {direction, 1};
+  }
+
+  std::array<double, B> global(Index p) const {
+    std::array<double, B> u;
+    std::copy_n(x_.begin() + Offset{p} * B, B, u.begin());
+    if (const double* Q = problem_.frames.at(p)) block::product<B>(Q, x_.data() + Offset{p} * B, u.data());
+    return u;
   }
 
   const DiscreteProblem<B>& problem_;
@@ -106,6 +141,14 @@ class NodeReader {
   double size_ = 0;
 };
 
+// What holds the vertex pulls it off the obstacle.
+template <int B>
+void release(ContactNode<B>& node) {
+  node.contact = false;
+  node.pressure = 0;
+  node.force = {};
+}
+
 template <int B>
 void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least_force) {
   if (!node.contact) return;
@@ -113,6 +156,8 @@ void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least
   if (B == 1 || node.pressure * node.area > least_force) summary.area += node.area;
   for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
   summary.max_pressure = std::max(summary.max_pressure, node.pressure);
+  summary.undetermined_nodes += node.held;
+  if (node.held) summary.undetermined_force += node.pressure * node.area;
 }
 
 }  // namespace
@@ -123,14 +168,18 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
   ContactState<B> state;
   state.obstacles.resize(model.obstacles.size());
   const NodeReader<B> reader(discretization, x);
-  std::vector<double> largest(model.obstacles.size());
   for (Index slot = 0; slot < discretization.problem.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k)
-      if (reader.bounded(slot, k)) {
-        state.nodes.push_back(reader.read(slot, k));
-        double& force = largest[state.nodes.back().obstacle];
-        force = std::max(force, state.nodes.back().pressure);
-      }
+      if (reader.bounded(slot, k)) state.nodes.push_back(reader.read(slot, k));
+  for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
+  if (!discretization.held.empty())
+    std::stable_sort(state.nodes.begin(), state.nodes.end(),
+                     [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  std::vector<double> largest(model.obstacles.size());
+  for (const ContactNode<B>& node : state.nodes)
+    largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
+  for (ContactNode<B>& node : state.nodes)
+    if (node.held && !(node.pressure > positive_force * largest[node.obstacle])) release(node);
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle) {
     const TributaryAreas<D, B> areas(mesh, model.obstacles[obstacle], model.t);
     for (ContactNode<B>& node : state.nodes) {

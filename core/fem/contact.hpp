@@ -9,14 +9,17 @@ struct ContactNode {
   Index vertex;
   Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
   bool contact;    ///< the unknown lies on the bound
-  double gap;      ///< distance to the nearer bound
+  /// All components along the obstacle's normal are prescribed: how the force divides between the obstacle and what
+  /// holds the vertex is not determined. All that presses along the normal is counted as the obstacle's.
+  bool held;
+  double gap;  ///< distance to the nearer bound, along `direction`
   /// Integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle without faces
   /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
   /// degrees of -direction; where there is none all do.
   double area;
   double pressure;                  ///< consistent nodal force over area, positive where the obstacle pushes
   std::array<double, B> force;      ///< exerted by the obstacle, global coordinates; zero without contact
-  std::array<double, B> direction;  ///< in which the bound pushes, and the gap is measured; of length 1, global
+  std::array<double, B> direction;  ///< of the obstacle's whole force, and of the gap; of length 1, global
 };
 
 /// What one obstacle does to the body.
@@ -28,6 +31,8 @@ struct ContactSummary {
   double area = 0;
   std::array<double, B> force{};  ///< total
   double max_pressure = 0;
+  Index undetermined_nodes = 0;   ///< of those in contact the held ones
+  double undetermined_force = 0;  ///< the sum of what presses there
 };
 
 template <int B>
@@ -36,7 +41,9 @@ struct ContactState {
   std::vector<ContactSummary<B>> obstacles;  ///< per obstacle of the model
 };
 
-/// Contact forces r = A x - b in the bounded directions, and what follows from them.
+/// Contact forces r = A x - b in the bounded directions, and what follows from them. Where components of a vertex are
+/// prescribed the force along the free ones tells that along the whole normal; where the normal is prescribed too, see
+/// ContactNode::held.
 /// @param x solution in local coordinates
 template <int D, int B>
 ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization,

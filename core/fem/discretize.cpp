@@ -1,15 +1,19 @@
 #include "core/fem/discretize.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/algebra/local_coordinates.hpp"
 #include "core/algebra/products.hpp"
 #include "core/fem/assemble.hpp"
+#include "core/fem/element.hpp"
 #include "core/fem/magnitude.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
 namespace {
+
+constexpr double rounding = 1e-12;  // of terms that cancel
 
 template <int D, int B>
 class Discretizer {
@@ -31,6 +35,8 @@ class Discretizer {
     check_stiffness(mesh, model, problem().A);
     problem().b = load_vector(mesh, model);
     rotate(problem().A, problem().b, problem().frames);
+    if (B > 1)
+      for (const Bound<B>& bound : held_) hold(bound);
     if (!fixes_.empty()) eliminate(problem());
     check_load(mesh, model, problem());
   }
@@ -64,8 +70,9 @@ class Discretizer {
 
   void localise(Index p, const FixedDirections<B>* fixed, const Bound<B>* first, const Bound<B>* last) {
     static const std::vector<CombinedBound<B>> none;
-    const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, out_.dropped);
+    const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, out_.dropped, held_);
     if (!combined.empty()) add_constraint(p, combined);
+    if (B > 1 && fixed && !combined.empty()) add_reduced(combined);
     if (fixed && combined.empty() && (fixed->count == B || fixed->along_axes()))
       prescribe_global(p, *fixed);
     else if (fixed)
@@ -119,6 +126,38 @@ class Discretizer {
     }
   }
 
+  /// Of the slot added last.
+  void add_reduced(const std::vector<CombinedBound<B>>& combined) {
+    const Offset first = Offset{constraints().size() - 1} * B;
+    for (std::size_t k = 0; k < combined.size(); ++k)
+      for (const bool upper : {false, true}) {
+        ReducedBound<B> whole{first + static_cast<Offset>(k), upper,
+                              (upper ? combined[k].upper_from : combined[k].lower_from)->direction, 0};
+        whole.part = dot(whole.normal, combined[k].direction);
+        if (whole.part < 0)
+          for (double& c : whole.normal) c = -c;
+        whole.part = std::fabs(whole.part);
+        out_.reduced.push_back(whole);
+      }
+  }
+
+  // Keeps the part of the matrix that tells the force along a direction that is about to be eliminated.
+  void hold(const Bound<B>& bound) {
+    HeldBound<B> held{bound, {}, {}, 0};
+    std::array<double, B> along = bound.direction;
+    if (const double* N = problem().frames.dual_at(bound.vertex))
+      block::transposed_product<B>(N, bound.direction.data(), along.data());
+    const BlockMatrix<B>& A = problem().A;
+    for (Offset k = A.row[bound.vertex]; k < A.row[bound.vertex + 1]; ++k) {
+      double entry[B];
+      block::transposed_product<B>(A.at(k), along.data(), entry);
+      held.column.push_back(A.column[k]);
+      held.entry.insert(held.entry.end(), entry, entry + B);
+    }
+    for (int i = 0; i < B; ++i) held.load += along[i] * problem().b[Offset{bound.vertex} * B + i];
+    out_.held.push_back(std::move(held));
+  }
+
   Index ruling_obstacle(Index slot) const {
     const Offset k = Offset{slot} * B;
     return out_.lower_obstacle[k] >= 0 ? out_.lower_obstacle[k] : out_.upper_obstacle[k];
@@ -140,7 +179,7 @@ class Discretizer {
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
-  std::vector<Bound<B>> bounds_;
+  std::vector<Bound<B>> bounds_, held_;
   BoundCombiner<D, B> combiner_;
 };
 
@@ -149,6 +188,18 @@ class Discretizer {
 template <int D, int B>
 Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model) {
   return Discretizer<D, B>(mesh, model).take();
+}
+
+template <int B>
+double HeldBound<B>::force(const std::vector<double>& x) const {
+  double sum = -load, size = std::fabs(load);
+  for (std::size_t k = 0; k < column.size(); ++k)
+    for (int i = 0; i < B; ++i) {
+      const double term = entry[k * B + i] * x[Offset{column[k]} * B + i];
+      sum += term;
+      size += std::fabs(term);
+    }
+  return std::fabs(sum) > rounding * size ? sum : 0;
 }
 
 template <int B>
@@ -185,6 +236,7 @@ template Discretization<1> discretize(const Mesh<3>&, const Model<1>&);
 template Discretization<2> discretize(const Mesh<2>&, const Model<2>&);
 template Discretization<3> discretize(const Mesh<3>&, const Model<3>&);
 #define SIGNORINI_INSTANTIATE(B)                                                          \
+  template struct HeldBound<B>;                                                           \
   template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
   template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
   template double violation(const Bound<B>&, const std::vector<double>&);

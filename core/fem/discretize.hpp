@@ -4,6 +4,28 @@
 
 namespace signorini {
 
+/// A bound of the problem that prescribed directions have been taken out of: it is `part` times a unit vector plus what
+/// is prescribed.
+template <int B>
+struct ReducedBound {
+  Offset at;                     ///< slot * B + direction
+  bool upper;                    ///< or lower
+  std::array<double, B> normal;  ///< of the obstacle, turned so that it grows with the local component
+  double part;
+};
+
+/// A bound whose direction is prescribed, and touched: what acts along it, on the body, is known from the residual.
+template <int B>
+struct HeldBound {
+  Bound<B> bound;
+  std::vector<Index> column;  ///< of the vertex's row of the matrix
+  std::vector<double> entry;  ///< B per column: direction . A, before elimination
+  double load;                ///< direction . b
+
+  /// direction . (A x - b), x in local coordinates; 0 where the terms cancel but for rounding.
+  double force(const std::vector<double>& x) const;
+};
+
 /// A model on a mesh, ready to be solved, and what is needed to interpret its solution.
 template <int B>
 struct Discretization {
@@ -14,6 +36,8 @@ struct Discretization {
   /// Bounds that are not part of the problem, see BoundCombiner. The caller checks after the solve that they hold, see
   /// violation().
   std::vector<Bound<B>> dropped;
+  std::vector<ReducedBound<B>> reduced;  ///< by ascending `at`
+  std::vector<HeldBound<B>> held;        ///< by ascending vertex; elasticity only
 };
 
 /// Linear elements for a model. Vectors are numbered as the vertices.

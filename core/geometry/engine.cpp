@@ -1,8 +1,11 @@
 #include "core/component/companion.hpp"
+#include "core/geometry/faceted_distance.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/geometry/load_engine.hpp"
 
 namespace signorini::geometry {
+
+FacetedDistance::~FacetedDistance() = default;
 
 const Engine& load_engine(const std::filesystem::path& library) {
   void* entry = load_function(library, "signorini_geometry_engine", "the geometry library");

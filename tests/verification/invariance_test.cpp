@@ -50,6 +50,22 @@ SceneText ball_on_sphere(const Frame<3>& f) {
       .refinements = 1};
 }
 
+/// A block pressed on the ridge of a roof that a surface file holds, and pushed across it. Up to rounding, rows of
+/// nodes lie on the ridge and over diagonals of the roof's faces.
+SceneText block_on_ridge(const Frame<3>& f) {
+  Surface roof;
+  for (const double y : {-2.0, 2.0})
+    for (const Point<3>& p : {Point<3>{-2, y, -0.8}, Point<3>{0, y, 0}, Point<3>{2, y, -0.8}})
+      roof.points.push_back(f.motion.moved(p));
+  roof.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  std::ofstream(f.file + ".off") << roof.off();
+  return {
+      .body = f.body(),
+      .fixes = {"on = \"top\"\nvalue = " + f.length({0.01, 0, -0.1})},
+      .obstacle = fmt::format("type = \"contact\"\non = \"bottom\"\nshape = \"surface\"\nfile = \"{}.off\"", f.file),
+      .refinements = 2};
+}
+
 /// A square that slides along two walls in normal direction and is pressed on an incline by a traction and its weight.
 SceneText square_on_incline(const Frame<2>& f) {
   Point<2> weight{0.02 * f.modulus / f.motion.scale, -0.1 * f.modulus / f.motion.scale};
@@ -107,6 +123,14 @@ TEST(Invariance, RotationAndTranslation) {
     space.shift = {3, -2, 5};
     expect_invariant<3>(half_ball(), ball_on_sphere, space, 1);
   }
+}
+
+TEST(Invariance, OfNodesOnTheEdgesOfASurface) {
+  const Mesh<3> block = signorini::box({-1, -1, 0}, {1, 1, 1}, {4, 4, 2});
+  Motion<3> far, turned = rotation3(0.4, 1.1, -2.3), large = turned;
+  far.shift = turned.shift = {300, -2700, 0};
+  large.scale = 1e3;
+  for (const Motion<3>& motion : {far, turned, large}) expect_invariant<3>(block, block_on_ridge, motion, 1);
 }
 
 TEST(Invariance, Units) {

@@ -77,6 +77,20 @@ TEST(Signorini, OrderOfTheElasticProblem) {
   EXPECT_GE(energy.last_order(), 0.95);
 }
 
+// Half an edge of the contact belongs to the corner at x = 1, whose displacement is prescribed.
+TEST(Signorini, ForceOfTheElasticProblem) {
+  Errors force;
+  for (int k = 2; k <= 6; ++k) {
+    const auto r = run_shipped<2, 2>("signorini_elastic_2d.toml", {uniform(k)});
+    force.add(std::abs(r.contact().force[1] - 1));
+    EXPECT_EQ(r.contact().undetermined_nodes, 1);
+    show("elastic: force off by {:.2e}, order {:.2f}\n", force.value.back(), force.last_order());
+  }
+  force.expect_falling();
+  EXPECT_GE(force.mean_order(), 1.3);
+  EXPECT_LE(force.value.back(), 1e-3);
+}
+
 /// Largest relative difference of the pressure from 1.5 sqrt(x), away from the ends of the contact.
 double pressure_error(const Run<2, 2>& r) {
   double largest = 0;

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/geometry/cgal/nearest.hpp"
 #include "core/geometry/cgal/triangle_surface.hpp"
+#include "core/geometry/faceted_distance.hpp"
+#include "core/mesh/chords.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -28,21 +33,45 @@ Point<3> unit(const Point<3>& a) {
   return l > 0 ? Point<3>{a[0] / l, a[1] / l, a[2] / l} : Point<3>{};
 }
 
+/// The point of a triangle nearest to another point.
+struct Foot {
+  Index triangle;
+  Point<3> at;
+  Point<3> offset;  ///< from there to the point
+  double distance;
+  bool perpendicular;  ///< the offset is along the triangle's normal
+};
+
 /// Signs by the inside of a closed surface, and for an open one by pseudonormals: the faces' normals at an edge, and
 /// those weighted by angle at a vertex, tell the side wherever the nearest point lies [Baerentzen and Aanaes 2005].
-class SurfaceDistance : public DistanceFunction {
+/// Normals are the gradient of the distance, on the surface pseudonormals, and where several points of the surface are
+/// nearest, on the bisector of a valley, the mean over these. What is within rounding counts as the same.
+class SurfaceDistance : public FacetedDistance {
  public:
-  explicit SurfaceDistance(const std::string& file) : surface_(file) {
+  explicit SurfaceDistance(const std::string& file) : surface_(file, TriangleSurface::Coordinates::centred) {
     const auto [low, high] = surface_.box();
-    diameter_ = length<3>(difference<3>(high, low));
-    vertex_normals_.assign(surface_.points().size(), Point<3>{});
-    for (const auto& triangle : surface_.triangles()) {
-      const auto p = corners(triangle);
+    const double diameter = length<3>(difference<3>(high, low));
+    rounding_ = 16 * std::numeric_limits<double>::epsilon() * (diameter + length<3>(surface_.units().origin));
+    same_ = std::max(1e-9 * diameter, rounding_);
+    for (std::size_t t = 0; t < surface_.triangles().size(); ++t) {
+      const auto p = corners(static_cast<Index>(t));
       face_normals_.push_back(unit(cross(difference<3>(p[1], p[0]), difference<3>(p[2], p[0]))));
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Point<3> u = difference<3>(p[(k + 1) % 3], p[k]), v = difference<3>(p[(k + 2) % 3], p[k]);
-        add(vertex_normals_[triangle[k]], std::atan2(length<3>(cross(u, v)), dot(u, v)), face_normals_.back());
-      }
+    }
+  }
+
+  double sagitta_at(const double* point) const noexcept override {
+    try {
+      const Point<3> p = difference<3>({point[0], point[1], point[2]}, surface_.units().origin);
+      const Index t = surface_.nearest_triangle(p);
+      double largest = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (const Index other = surface_.neighbours()[t][k]; other >= 0) {
+          const Point<3>&a = face_normals_[t], &b = face_normals_[other];
+          largest = std::max(largest, sagitta(std::atan2(length<3>(cross(a, b)), dot(a, b)), height(t, k)));
+        }
+      return largest;
+    } catch (const std::exception&) {
+      return std::numeric_limits<double>::quiet_NaN();
     }
   }
 
@@ -56,55 +85,108 @@ class SurfaceDistance : public DistanceFunction {
   }
 
  private:
-  Distance distance(const Point<3>& p) const {
-    for (const double x : p)
+  Distance distance(const Point<3>& given) const {
+    for (const double x : given)
       if (!std::isfinite(x)) input_error(surface_.file(), "distance asked for at a point that is not finite");
-    const Index t = surface_.nearest_triangle(p);
-    const auto weights = nearest_weights(p, corners(surface_.triangles()[t]));
-    const Point<3> offset = offset_of(p, t, weights);
-    const double d = length<3>(offset);
-    const Point<3> outer = pseudonormal(t, weights);
-    const bool behind = surface_.closed() ? surface_.inside(p) : dot(offset, outer) < 0;
+    const Point<3> p = difference<3>(given, surface_.units().origin);
+    const std::vector<Foot> feet = nearest(p);
+    const Point<3> outer = pseudonormal(feet);
+    const bool behind = surface_.closed() ? surface_.inside(p) : dot(feet[0].offset, outer) < 0;
     const double sign = behind ? -1 : 1;
-    Point<3> n = unit(d > 1e-12 * diameter_ ? offset : outer);
-    if (d > 1e-12 * diameter_)
-      for (double& x : n) x *= sign;
-    return {sign * d, {n[0], n[1], n[2]}};
+    const Point<3> n = feet[0].distance > same_ ? gradient(feet, sign) : outer;
+    return {sign * feet[0].distance, {n[0], n[1], n[2]}};
   }
 
-  /// From the nearest point to p. Next to the inside of a face along its normal, which is exact however small it is.
-  Point<3> offset_of(const Point<3>& p, Index t, const std::array<double, 3>& weights) const {
-    const auto corner = corners(surface_.triangles()[t]);
-    Point<3> offset{};
-    if (std::count(weights.begin(), weights.end(), 0.0) == 0)
-      add(offset, dot(difference<3>(p, corner[0]), face_normals_[t]), face_normals_[t]);
-    else
-      for (std::size_t k = 0; k < 3; ++k) add(offset, weights[k], difference<3>(p, corner[k]));
-    return offset;
+  /// On the triangles that are no farther away than the nearest one, next to the surface on all that are within what
+  /// counts as the same point. Nearest first; where several are at one distance, perpendicular ones.
+  std::vector<Foot> nearest(const Point<3>& p) const {
+    std::vector<Foot> feet;
+    double least = infinity;
+    const auto reach = [&] { return least + (least > same_ ? rounding_ : same_); };
+    surface_.approach(p, [&](Index t) {
+      feet.push_back(foot(p, t));
+      least = std::min(least, feet.back().distance);
+      if (feet.back().distance > reach()) feet.pop_back();
+      return reach();
+    });
+    std::erase_if(feet, [limit = reach()](const Foot& f) { return f.distance > limit; });
+    const auto near = [&](const Foot& f) { return f.distance <= least + rounding_; };
+    std::ranges::stable_sort(feet, [&](const Foot& a, const Foot& b) {
+      if (near(a) && near(b) && a.perpendicular != b.perpendicular) return a.perpendicular;
+      return a.distance < b.distance;
+    });
+    return feet;
   }
 
-  Point<3> pseudonormal(Index t, const std::array<double, 3>& weights) const {
-    const auto zeros = std::count(weights.begin(), weights.end(), 0.0);
-    if (zeros == 2) {
-      const auto k = std::find(weights.begin(), weights.end(), 1.0) - weights.begin();
-      return vertex_normals_[surface_.triangles()[t][k]];
+  Foot foot(const Point<3>& p, Index t) const {
+    const auto corner = corners(t);
+    const auto weights = nearest_weights(p, corner);
+    Point<3> offset{}, at = p;
+    for (std::size_t k = 0; k < 3; ++k) add(offset, weights[k], difference<3>(p, corner[k]));
+    // Along the normal it is exact however small it is.
+    const double height = dot(difference<3>(p, corner[0]), face_normals_[t]);
+    Point<3> aside = offset;
+    add(aside, -height, face_normals_[t]);
+    const bool perpendicular = length<3>(aside) <= rounding_;
+    if (perpendicular) add(offset = {}, height, face_normals_[t]);
+    add(at, -1, offset);
+    return {t, at, offset, length<3>(offset), perpendicular};
+  }
+
+  /// The mean of the normals around the nearest point, weighted by the angle that each face takes there.
+  Point<3> pseudonormal(const std::vector<Foot>& feet) const {
+    Point<3> sum{};
+    for (const Foot& f : feet)
+      if (length<3>(difference<3>(f.at, feet[0].at)) <= 2 * same_) add(sum, angle_at(f), face_normals_[f.triangle]);
+    return length<3>(sum) > 1e-9 ? unit(sum) : face_normals_[feet[0].triangle];
+  }
+
+  /// Of a triangle at a point of it: at an edge half a turn, inside a full one.
+  double angle_at(const Foot& foot) const {
+    const auto p = corners(foot.triangle);
+    double angle = 2 * std::numbers::pi;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point<3> u = difference<3>(p[(k + 1) % 3], p[k]), v = difference<3>(p[(k + 2) % 3], p[k]);
+      const Point<3> x = difference<3>(foot.at, p[k]);
+      if (length<3>(x) <= same_) return std::atan2(length<3>(cross(u, v)), dot(u, v));
+      if (length<3>(cross(u, x)) <= same_ * length<3>(u)) angle = std::numbers::pi;
     }
-    Point<3> sum = face_normals_[t];
-    if (zeros == 1) {
-      const auto edge = std::find(weights.begin(), weights.end(), 0.0) - weights.begin();
-      if (const Index other = surface_.neighbours()[t][edge]; other >= 0) add(sum, 1, face_normals_[other]);
-    }
-    return sum;
+    return angle;
   }
 
-  std::array<Point<3>, 3> corners(const std::array<Index, 3>& triangle) const {
+  /// Every nearest point counts once: feet on faces around an edge or a vertex are one.
+  Point<3> gradient(const std::vector<Foot>& feet, double sign) const {
+    const double apart = 2 * std::sqrt(2 * feet[0].distance * rounding_) + 2 * same_;
+    std::vector<Point<3>> points;
+    Point<3> sum{};
+    for (const Foot& f : feet) {
+      if (std::ranges::any_of(points, [&](const Point<3>& q) { return length<3>(difference<3>(f.at, q)) < apart; }))
+        continue;
+      points.push_back(f.at);
+      add(sum, sign / f.distance, f.offset);
+    }
+    if (length<3>(sum) > 1e-3) return unit(sum);
+    Point<3> first{};  // in the middle, with points of the surface all around
+    add(first, sign / feet[0].distance, feet[0].offset);
+    return unit(first);
+  }
+
+  /// Of a triangle over its edge k.
+  double height(Index t, std::size_t k) const {
+    const auto p = corners(t);
+    const Point<3> edge = difference<3>(p[(k + 2) % 3], p[(k + 1) % 3]);
+    return length<3>(cross(edge, difference<3>(p[k], p[(k + 1) % 3]))) / length<3>(edge);
+  }
+
+  std::array<Point<3>, 3> corners(Index t) const {
     const auto& points = surface_.points();
-    return {points[triangle[0]], points[triangle[1]], points[triangle[2]]};
+    const auto& [a, b, c] = surface_.triangles()[t];
+    return {points[a], points[b], points[c]};
   }
 
   TriangleSurface surface_;
-  double diameter_;
-  std::vector<Point<3>> face_normals_, vertex_normals_;
+  double rounding_, same_;  ///< lengths up to which positions are one: computed, and on the surface
+  std::vector<Point<3>> face_normals_;
 };
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include <fstream>
 
 #include "core/geometry/cgal/checks.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
@@ -86,6 +87,36 @@ void read(const std::string& file, SurfaceMesh& mesh) {
   PMP::polygon_soup_to_polygon_mesh(points, polygons, mesh);
 }
 
+/// A descent into the tree that takes what is within a shrinking reach.
+class Approach {
+ public:
+  using Node = CGAL::AABB_node<CGAL::AABB_traits<CrossingKernel, Primitive>>;
+  using Priority = double;
+
+  explicit Approach(const std::function<double(Index)>& visit) : visit_(visit) {}
+
+  static constexpr bool go_further() { return true; }
+  void intersection(const Point<3>&, const Primitive& primitive) {
+    reach_ = visit_(static_cast<Index>(primitive.id()));
+  }
+  bool do_intersect(const Point<3>& p, const Node& node) const { return distance(p, node) <= reach_; }
+  std::pair<bool, double> do_intersect_with_priority(const Point<3>& p, const Node& node) const {
+    const double d = distance(p, node);
+    return {d <= reach_, -d};
+  }
+
+ private:
+  static double distance(const Point<3>& p, const Node& node) {
+    const CGAL::Bbox_3& box = node.bbox();
+    Point<3> outside;
+    for (int k = 0; k < 3; ++k) outside[k] = std::max({box.min(k) - p[k], p[k] - box.max(k), 0.0});
+    return length<3>(outside);
+  }
+
+  const std::function<double(Index)>& visit_;
+  double reach_ = infinity;
+};
+
 }  // namespace
 
 struct TriangleSurface::Tree {
@@ -100,11 +131,11 @@ TriangleSurface::TriangleSurface(const std::string& file, Coordinates coordinate
   read(file, mesh);
   for (const auto v : mesh.vertices()) given_points_.push_back(plain(mesh.point(v)));
   points_ = given_points_;
-  if (coordinates == Coordinates::own) {
-    units_ = own_units<3>(given_points_);
-    for (Point<3>& p : points_) p = units_.own(p, surface_digits);
-    for (const auto v : mesh.vertices()) mesh.point(v) = cgal(points_[v.idx()]);
-  }
+  units_ = own_units<3>(given_points_);
+  if (coordinates == Coordinates::centred) units_ = {units_.given({0.5, 0.5, 0.5}), 1};
+  for (Point<3>& p : points_)
+    p = coordinates == Coordinates::own ? units_.own(p, surface_digits) : difference<3>(p, units_.origin);
+  for (const auto v : mesh.vertices()) mesh.point(v) = cgal(points_[v.idx()]);
   if (!PMP::triangulate_faces(mesh)) input_error(file, "a face cannot be divided into triangles; expected triangles");
   closed_ = CGAL::is_closed(mesh);
   if (closed_) PMP::orient_to_bound_a_volume(mesh);
@@ -165,6 +196,11 @@ std::optional<Point<3>> TriangleSurface::crossing(const Point<3>& a, const Point
 
 Index TriangleSurface::nearest_triangle(const Point<3>& p) const {
   return static_cast<Index>(tree_->aabb.closest_point_and_primitive(cgal(p)).second);
+}
+
+void TriangleSurface::approach(const Point<3>& p, const std::function<double(Index)>& visit) const {
+  Approach approach(visit);
+  tree_->aabb.traversal_with_priority(p, approach);
 }
 
 }  // namespace signorini::geometry

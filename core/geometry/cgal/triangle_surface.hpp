@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,13 +16,14 @@ namespace signorini::geometry {
 /// Queries are thread-safe and deterministic.
 class TriangleSurface {
  public:
-  /// Where points and queries are: in the file's coordinates, or in the surface's own, see own_units().
-  enum class Coordinates { given, own };
+  /// Where points and queries are: in the surface's own coordinates, see own_units(); or in those of the file less
+  /// a point near the surface, so that nothing is lost however far away it is.
+  enum class Coordinates { own, centred };
 
   /// Reads OFF, OBJ, STL or PLY. Equal vertices are merged, duplicate faces dropped, faces of more than three vertices
   /// divided into triangles, and neighbours oriented alike; a closed surface is oriented outwards. Throws
   /// Error(Exit::input) when the file cannot be read or holds no faces.
-  explicit TriangleSurface(const std::string& file, Coordinates coordinates = Coordinates::given);
+  TriangleSurface(const std::string& file, Coordinates coordinates);
   ~TriangleSurface();
 
   const std::string& file() const { return file_; }
@@ -47,6 +49,9 @@ class TriangleSurface {
   std::optional<Point<3>> crossing(const Point<3>& a, const Point<3>& b) const;
   /// A triangle nearest to a point.
   Index nearest_triangle(const Point<3>& p) const;
+  /// Calls visit(t) for the triangles that may come within a reach of p, about the nearest first. The reach is what the
+  /// last call returned, infinite in the beginning; it must not grow.
+  void approach(const Point<3>& p, const std::function<double(Index)>& visit) const;
 
  private:
   struct Tree;

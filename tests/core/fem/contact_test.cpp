@@ -98,6 +98,76 @@ TEST(Contact, SidesCountUpTo60DegreesAndAtSharperTipsAllOfThem) {
   EXPECT_NEAR(area(20, 20), 1, 1e-13);
 }
 
+// A block whose bottom is guided upwards lies on an incline: the obstacle's whole force is along its normal, though
+// only its vertical part is along a free direction.
+TEST(Contact, TheWholeForceActsWhereComponentsArePrescribed) {
+  const double p = 0.2;
+  for (const double slope : {0.0, 0.5, 1.0, -3.0}) {
+    const std::array<double, 2> n{-slope / std::hypot(1, slope), 1 / std::hypot(1, slope)};
+    Model<2> model;
+    model.fixes = {fix<2>("bottom", {0.003, std::nullopt})};
+    model.loads = {{Selection{"top", {}, ""}, {0.0, -p}}};
+    const double gap = 0.01;
+    model.obstacles = {term<2>([&](const SurfaceVertex&) { return bound<2>(n, -gap, infinity); }, "bottom"),
+                       term<2>([&](const SurfaceVertex&) { return bound<2>(n, -100 * gap, infinity); }, "left")};
+    const Mesh<2> mesh = unit_mesh<2>(3);
+    const auto discrete = discretize(mesh, model);
+    const auto x = solve_bounded(discrete.problem);
+    const auto state = contact_state(mesh, model, discrete, x);
+    const auto u = to_global(discrete.problem, x);
+    ASSERT_EQ(state.obstacles[0].nodes, 4);
+    EXPECT_NEAR(state.obstacles[0].force[0], -slope * p, 1e-12);
+    EXPECT_NEAR(state.obstacles[0].force[1], p, 1e-12);
+    EXPECT_EQ(state.obstacles[0].undetermined_nodes, 0);
+    double sum = 0;
+    for (const auto& node : state.nodes) {
+      for (int i = 0; i < 2; ++i) EXPECT_NEAR(node.direction[i], n[i], 1e-14);
+      sum += node.pressure * node.area;
+      const double distance =
+          n[0] * u[2 * node.vertex] + n[1] * u[2 * node.vertex + 1] + (node.obstacle == 0 ? gap : 100 * gap);
+      EXPECT_NEAR(node.gap, distance, 1e-14);
+    }
+    EXPECT_NEAR(sum, p / n[1], 1e-12);
+  }
+}
+
+// Uniform uniaxial stress whose displacements are prescribed on one side: the corner there is held by the side and
+// touches the obstacle with half an edge. Or the bottom stands on a support and the obstacle at once.
+TEST(Contact, WhatPressesAtHeldVerticesIsTheObstaclesAndIsSaidToBeUndetermined) {
+  struct Case {
+    double p;
+    bool bottom;
+    Index held;
+  };
+  for (const auto& [p, bottom, held] : {Case{0.2, false, 1}, Case{0.2, true, 5}, Case{-0.2, true, 0}}) {
+    const double nu = 0.3;
+    Model<2> model;
+    model.poisson = nu;
+    const auto along = expression([=](const Site& s) { return p * nu * (1 + nu) * s.x[0]; });
+    const auto up = expression([=](const Site& s) { return -p * (1 - nu * nu) * s.x[1]; });
+    model.fixes = {fix<2>("left", {along, up})};
+    if (bottom) model.fixes.push_back(fix<2>("bottom", {std::nullopt, 0.0}));
+    model.loads = {{Selection{"top", {}, ""}, {0.0, -p}}};
+    model.obstacles = {term<2>(
+        [](const SurfaceVertex& v) {
+          return bound<2>({0, 1}, -v.position[1], infinity);
+        },
+        "boundary")};
+    const Mesh<2> mesh = unit_mesh<2>(4);
+    const auto discrete = discretize(mesh, model);
+    const auto state = contact_state(mesh, model, discrete, solve_bounded(discrete.problem));
+    const ContactSummary<2>& contact = state.obstacles[0];
+    EXPECT_NEAR(contact.force[0], 0, 1e-12);
+    EXPECT_NEAR(contact.force[1], std::max(p, 0.0), 1e-12);
+    EXPECT_EQ(contact.undetermined_nodes, held);
+    EXPECT_NEAR(contact.undetermined_force, held == 1 ? p / 8 : held == 5 ? p : 0, 1e-12);
+    EXPECT_EQ(contact.nodes, p > 0 ? 5 : 0);
+    EXPECT_NEAR(contact.area, p > 0 ? 1 : 0, 1e-12);
+    for (const auto& node : state.nodes)
+      if (node.contact) EXPECT_NEAR(node.pressure, p, 1e-11);
+  }
+}
+
 // -u'' = -1 on (0, 1), u >= -psi: by hand, in a strip of squares.
 TEST(Contact, ScalarForceBalancesTheLoadOverTheCoincidenceSet) {
   const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {20, 1});

@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "core/mesh/mesh.hpp"
+
+namespace signorini {
+
+/// How far flat faces with this angle (radians) between them are from the curve through their vertices that they may
+/// stand for; 0 where the angle is so large, more than 30 degrees, that there is an edge, or nothing but rounding.
+/// @param across extent of the faces across what they have in common
+double sagitta(double angle, double across);
+
+/// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a
+/// vertex) in common and are not on a curve that the mesh knows. 0 where there is no finer mesh.
+/// @param marked vertices of the finest mesh; on coarser ones those are that they were made from
+template <int D>
+double chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked);
+
+}  // namespace signorini

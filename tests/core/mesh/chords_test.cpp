@@ -1,0 +1,63 @@
+#include "core/mesh/chords.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/refine.hpp"
+#include "core/mesh/structured.hpp"
+
+namespace signorini {
+namespace {
+
+using std::numbers::pi;
+
+template <int D>
+double sagitta_everywhere(const Mesh<D>& mesh, int refinements) {
+  MeshHierarchy<D> meshes = hierarchy(mesh, refinements);
+  return chord_sagitta(meshes, std::vector<bool>(meshes.finest().points.size(), true));
+}
+
+/// The strip 1 <= r <= 2 over a quarter of a circle, its arcs of n chords; in 3D times a height.
+Mesh<2> arch(Index n) {
+  Mesh<2> mesh = rectangle({0, 1}, {1, 2}, {n, 1});
+  for (Point<2>& x : mesh.points) x = {-x[1] * std::cos(x[0] * pi / 2), x[1] * std::sin(x[0] * pi / 2)};
+  return mesh;
+}
+
+Mesh<3> arch_3d(Index n) {
+  Mesh<3> mesh = box({0, 1, 0}, {1, 2, 1}, {n, 1, 2});
+  for (Point<3>& x : mesh.points) x = {-x[1] * std::cos(x[0] * pi / 2), x[1] * std::sin(x[0] * pi / 2), x[2]};
+  return mesh;
+}
+
+TEST(Chords, SagittaIsThatOfTheArcsThroughTheVertices) {
+  for (const Index n : {8, 16, 64})
+    for (const int refinements : {1, 2}) {
+      const double exact = 2 * (1 - std::cos(pi / (4 * static_cast<double>(n))));  // of the outer arc
+      EXPECT_NEAR(sagitta_everywhere(arch(n), refinements), exact, 0.01 * exact);
+      EXPECT_NEAR(sagitta_everywhere(arch_3d(n), refinements), exact, 0.01 * exact);
+    }
+}
+
+TEST(Chords, PolyhedraAndMeshesThatAreNotRefinedHaveNone) {
+  EXPECT_EQ(sagitta_everywhere(rectangle({0, 0}, {3, 1}, {4, 3}), 2), 0);
+  EXPECT_EQ(sagitta_everywhere(box({0, 0, 0}, {3, 1, 2}, {2, 3, 2}), 1), 0);
+  EXPECT_EQ(sagitta_everywhere(arch(2), 1), 0) << "edges of 45 degrees";
+  EXPECT_EQ(sagitta_everywhere(arch(8), 0), 0);
+}
+
+TEST(Chords, CountWhereVerticesAreMarked) {
+  const MeshHierarchy<2> meshes = hierarchy(arch(16), 2);
+  std::vector<bool> inner(meshes.finest().points.size());
+  for (std::size_t p = 0; p < inner.size(); ++p)
+    inner[p] = std::hypot(meshes.finest().points[p][0], meshes.finest().points[p][1]) < 1.0 + 1e-9;
+  const double exact = 1 - std::cos(pi / 64);
+  EXPECT_NEAR(chord_sagitta(meshes, inner), exact, 0.01 * exact);
+  EXPECT_EQ(chord_sagitta(meshes, std::vector<bool>(inner.size())), 0);
+}
+
+}  // namespace
+}  // namespace signorini
