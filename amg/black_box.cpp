@@ -159,8 +159,9 @@ class BlackBox::BlockSolver final : public Solver {
     interpolations_.clear();
     const double ready = seconds();
     Result result;
-    if (const auto row = motions_->falling(problem_.b, problem_.constraints))
-      result = without_solution(*row, start);
+    fall_ = motions_->fall(problem_.b, problem_.constraints);
+    if (fall_.row)
+      result = without_solution(*fall_.row, start);
     else if (!algebraic_settings(options_).only_twins)
       result = solve(*levels_, start, monitor);
     else
@@ -239,8 +240,10 @@ class BlackBox::BlockSolver final : public Solver {
                                       monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
-    if (const Outcome o = result.summary.outcome; o != Outcome::interrupted && o != Outcome::unbounded)
-      recognise_unbounded(result);
+    if (fall_.certain && result.summary.outcome == Outcome::unbounded)
+      go_on_without_motions(levels, result, monitor);
+    else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
+      recognise_unbounded(levels, result);
     add_multiplier(result);
     return result;
   }
@@ -276,10 +279,41 @@ class BlackBox::BlockSolver final : public Solver {
     }
   }
 
-  void recognise_unbounded(Result& result) const {
-    if (!falls_forever(problem_, result.x)) return;
+  /// No motion falls: on a coarse level, rounding was taken for one. Sweeps there take nothing for one.
+  void go_on_without_motions(const AlgebraicLevels<B>& levels, Result& result, const Monitor& monitor) {
+    SolverOptions sweeps = options_;
+    sweeps.coarse = "pgs";
+    Summary further = signorini::solve<B>(problem_, levels.prolongations, result.x, sweeps, registry_, monitor);
+    further.reason += ", with sweeps on the coarsest level, where Newton's method met a singular matrix";
+    for (IterationRecord& record : further.history) record.iteration += result.summary.iterations;
+    result.summary.append(std::move(further));
+  }
+
+  /// Where not all motions are known, iterates that run away show one. Those of methods without a coarse correction
+  /// within bounds are slow to: cycles go on from them.
+  void recognise_unbounded(const AlgebraicLevels<B>& levels, Result& result) const {
+    if (names_a_fall(result.x, result.summary) || result.summary.converged()) return;
+    if (options_.method == "auto" || options_.method == "monotone") return;
+    SolverOptions cycles = options_;
+    cycles.method = "monotone";
+    cycles.max_iterations = cycles_to_run_away;
+    std::vector<double> x = result.x;
+    const Summary further = signorini::solve<B>(problem_, levels.prolongations, x, cycles, registry_);
+    for (Stage stage : further.stages) {
+      stage.kept = false;
+      result.summary.stages.push_back(std::move(stage));
+    }
+    if (!names_a_fall(x, result.summary) && further.outcome == Outcome::unbounded) {
+      result.summary.outcome = further.outcome;
+      result.summary.reason = further.reason;
+    }
+  }
+
+  bool names_a_fall(const std::vector<double>& x, Summary& summary) const {
+    if (!falls_forever(problem_, x)) return false;
     const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    set_unbounded(result.summary, std::max_element(result.x.begin(), result.x.end(), larger) - result.x.begin());
+    set_unbounded(summary, std::max_element(x.begin(), x.end(), larger) - x.begin());
+    return true;
   }
 
   static void set_unbounded(Summary& summary, Offset row) {
@@ -290,12 +324,15 @@ class BlackBox::BlockSolver final : public Solver {
         row + 1);
   }
 
+  static constexpr int cycles_to_run_away = 40;
+
   SolverOptions options_;
   Registry registry_;
   DiscreteProblem<B> problem_;
   std::vector<Flags> zero_rows_;  // per vector
   HeldRows<B> held_;
   std::optional<Motions<B>> motions_;  // with the components that are held; none: to be found
+  typename Motions<B>::Fall fall_;     // of the problem at hand
   NearNullSpace near_null_;
   std::unique_ptr<Aggregator> aggregator_;
   bool chosen_;                               // levels by the matrix

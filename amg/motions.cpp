@@ -16,9 +16,10 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double rounding_of_rows = 64 * epsilon;     // of the sum of the entries' sizes
 constexpr double rounding_of_motions = 16 * epsilon;  // of Sd, the diagonal of S is one; times sqrt(size of d)
+constexpr double rounding_of_squares = 8 * epsilon;   // of d'Sd for d of length one
 constexpr double rounding_of_loads = 256 * epsilon;   // of the work, relative to its terms; times the same
 constexpr double negligible = 1e-9;                   // components of a motion, relative to the largest
-constexpr double part_of_load = 1e-6;                 // that has to be left of the forces where bounds end motions
+constexpr double rounding_of_projections = 1e-11;     // onto cones, of what is projected
 
 // What may be factorised: few vectors, or nearly a tree.
 constexpr std::size_t few_vectors = 4000;
@@ -198,8 +199,10 @@ class Motions<B>::Finder {
     for (Eigen::Index k = 0; k < value.cols(); ++k) {
       Eigen::VectorXd d = factor.solve(Eigen::VectorXd::Unit(n, factor.held()[static_cast<std::size_t>(k)]));
       d -= factor.solve(S.selfadjointView<Eigen::Lower>() * d);
-      if (!((S.selfadjointView<Eigen::Lower>() * d).norm() <= small * d.norm())) return false;
-      value.col(k) = d.normalized();
+      d.normalize();
+      const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      if (!(Sd.norm() <= small && d.dot(Sd) <= rounding_of_squares)) return false;
+      value.col(k) = d;
     }
     if (value.cols() > 1) {
       const Eigen::HouseholderQR<Eigen::MatrixXd> qr(value);
@@ -207,7 +210,8 @@ class Motions<B>::Finder {
     }
     std::vector<Offset> rows;
     for (Eigen::Index k = 0; k < n; ++k) rows.push_back(row(k));
-    const double error = rounding_of_motions * norm_of_pseudoinverse(factor, value);
+    const double left = Eigen::MatrixXd(S.selfadjointView<Eigen::Lower>() * value).norm();
+    const double error = std::max(rounding_of_motions, 2 * left) * norm_of_pseudoinverse(factor, value);
     out_.bases_.push_back({std::move(rows), scale, std::move(value), error});
     return true;
   }
@@ -242,20 +246,21 @@ Motions<B>::Motions(const BlockMatrix<B>& A) {
 }
 
 template <int B>
-std::optional<Offset> Motions<B>::falling(const std::vector<double>& b, const Constraints<B>& constraints) const {
+typename Motions<B>::Fall Motions<B>::fall(const std::vector<double>& b, const Constraints<B>& constraints) const {
+  bool certain = complete_;
   for (const Basis& basis : bases_)
-    if (const auto d = direction(basis, b, constraints)) {
+    if (const Eigen::VectorXd d = falling_direction(basis, b, constraints, certain); d.size() > 0) {
       Eigen::Index largest = 0;
-      basis.scale.cwiseProduct(*d).cwiseAbs().maxCoeff(&largest);
-      return basis.row[static_cast<std::size_t>(largest)];
+      basis.scale.cwiseProduct(d).cwiseAbs().maxCoeff(&largest);
+      return {basis.row[static_cast<std::size_t>(largest)], true};
     }
-  return {};
+  return {{}, certain};
 }
 
 // The one next to the forces among the motions that every bound allows, if there is more than rounding of it.
 template <int B>
-std::optional<Eigen::VectorXd> Motions<B>::direction(const Basis& basis, const std::vector<double>& b,
-                                                     const Constraints<B>& constraints) {
+Eigen::VectorXd Motions<B>::falling_direction(const Basis& basis, const std::vector<double>& b,
+                                              const Constraints<B>& constraints, bool& certain) {
   const Eigen::Index n = basis.value.rows(), count = basis.value.cols();
   Eigen::VectorXd force(n);
   for (Eigen::Index k = 0; k < n; ++k)
@@ -287,9 +292,14 @@ std::optional<Eigen::VectorXd> Motions<B>::direction(const Basis& basis, const s
   Eigen::Index next = 0;
   for (const Eigen::Index k : lower) conditions.row(next++) = basis.value.row(k).normalized();
   for (const Eigen::Index k : upper) conditions.row(next++) = -basis.value.row(k).normalized();
-  const Eigen::VectorXd allowed = next == 0 ? work : project_onto_cone(conditions, work);
-  if (!(allowed.norm() > std::max(part_of_load * work.norm(), small * terms.norm() + error))) return {};
-  return basis.value * allowed;
+  if (next == 0) return basis.value * work;
+  const Eigen::VectorXd allowed = project_onto_cone(conditions, work);
+  const double size = allowed.norm();
+  if (!(size > std::max(rounding_of_projections * work.norm(), small * terms.norm() + error))) return {};
+  // Little of the forces may be left: whether it is more than rounding, the conditions themselves tell.
+  if ((conditions * allowed).minCoeff() >= -negligible * size) return basis.value * allowed;
+  certain = false;
+  return {};
 }
 
 template class Motions<1>;

@@ -20,9 +20,13 @@ class Motions {
   /// Whether all components are known to be positive semidefinite, and all motions are known.
   bool complete() const { return complete_; }
 
-  /// The unknown that moves most in a motion along which b does work, by more than rounding, and that no bound ends:
-  /// then 1/2 x'Ax - b'x has no minimum. Nothing where no such motion is known.
-  std::optional<Offset> falling(const std::vector<double>& b, const Constraints<B>& constraints) const;
+  struct Fall {
+    std::optional<Offset> row;  ///< the unknown that moves most; nothing: no motion is known to fall
+    bool certain;               ///< if not, there may be one all the same
+  };
+
+  /// Whether b does work, by more than rounding, along a motion that no bound ends: then 1/2 x'Ax - b'x has no minimum.
+  Fall fall(const std::vector<double>& b, const Constraints<B>& constraints) const;
 
  private:
   /// Of one component.
@@ -35,8 +39,9 @@ class Motions {
 
   class Finder;
 
-  static std::optional<Eigen::VectorXd> direction(const Basis& basis, const std::vector<double>& b,
-                                                  const Constraints<B>& constraints);
+  /// Empty where there is none.
+  static Eigen::VectorXd falling_direction(const Basis& basis, const std::vector<double>& b,
+                                           const Constraints<B>& constraints, bool& certain);
 
   std::vector<Basis> bases_;
   bool complete_ = true;

@@ -26,15 +26,15 @@ bool meets_a_bound(const Constraints<B>& c, const std::vector<double>& d, double
 
 template <int B>
 bool falls_forever(const DiscreteProblem<B>& problem, const std::vector<double>& d) {
-  const DirectionEnergy energy = energy_along(problem.A, d);
   double work = 0, terms = 0, largest = 0;
   for (std::size_t i = 0; i < d.size(); ++i) {
     work += problem.b[i] * d[i];
     terms += std::abs(problem.b[i] * d[i]);
     largest = std::max(largest, std::abs(d[i]));
   }
-  return energy.of_matrix <= rounding * energy.of_diagonal && work > negligible * terms &&
-         !meets_a_bound(problem.constraints, d, negligible * largest);
+  if (!(work > negligible * terms) || meets_a_bound(problem.constraints, d, negligible * largest)) return false;
+  const DirectionEnergy energy = energy_along(problem.A, d);
+  return energy.of_matrix <= rounding * energy.of_diagonal;
 }
 
 template bool falls_forever(const DiscreteProblem<1>&, const std::vector<double>&);

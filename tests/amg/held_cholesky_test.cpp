@@ -49,6 +49,26 @@ TEST(HeldCholesky, HoldsEachMotionWithoutEnergy) {
   }
 }
 
+TEST(HeldCholesky, TellsADirectionThatFalls) {
+  Matrix S = with_unit_diagonal(laplacian(12));
+  HeldCholesky factor;
+  factor.factorise(S);
+  EXPECT_EQ(factor.falling_direction().size(), 0);
+  for (Eigen::Index i = 0; i < S.rows(); ++i) S.coeffRef(i, i) -= 0.1;
+  factor.factorise(S);
+  const Eigen::VectorXd d = factor.falling_direction();
+  ASSERT_EQ(d.size(), S.rows());
+  EXPECT_LT(d.dot(S * d), 0);
+}
+
+TEST(HeldCholesky, RefusesToTakeMoreOperationsThanAllowed) {
+  const Matrix S = with_unit_diagonal(laplacian(12));
+  HeldCholesky factor;
+  EXPECT_FALSE(factor.factorise(S, 100));
+  EXPECT_EQ(factor.size(), 0);
+  EXPECT_TRUE(factor.factorise(S, 1e6));
+}
+
 TEST(HeldCholesky, FactorisesMatricesOfLowRank) {
   Random random(83);
   Eigen::MatrixXd X(60, 3);
