@@ -7,6 +7,7 @@
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
+#include "apps/signorini/contact_warnings.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/nested_solver.hpp"
 #include "apps/signorini/output.hpp"
@@ -55,8 +56,22 @@ class SolveRun {
     if (step == 1)
       for (auto& warning : fix_warnings(scene_, hierarchy_.finest(), model))
         report_.warnings.push_back(std::move(warning));
-    const Solution<B> solution = step == 1 ? solver.solve(model) : solver.solve_from(model, results_.u);
-    add_results(model, solution);
+    if (step == 1)
+      for (auto& warning : start_warnings(hierarchy_.levels.front(), model))
+        report_.warnings.push_back(std::move(warning));
+    add_results(model, solve_model(solver, step, model));
+  }
+
+  /// Where there is no solution, perhaps the body was meant to be on the other side.
+  Solution<B> solve_model(NestedSolver<D, B>& solver, int step, const Model<B>& model) {
+    try {
+      return step == 1 ? solver.solve(model) : solver.solve_from(model, results_.u);
+    } catch (const Error& error) {
+      if (error.status() != Exit::no_solution) throw;
+      const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
+      if (reasons.empty()) throw;
+      throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
+    }
   }
 
   void add_results(const Model<B>& model, const Solution<B>& solution) {
@@ -73,6 +88,9 @@ class SolveRun {
     stop_if_interrupted();
     Stopwatch watch;
     progress_.phase("writing");
+    for (auto& warning : contact_warnings(scene_, report_)) report_.warnings.push_back(std::move(warning));
+    for (auto& warning : chord_warnings<D, B>(scene_, hierarchy_, results_))
+      report_.warnings.push_back(std::move(warning));
     vtu_.finish();
     write_charts(files_, scene_.output, hierarchy_, results_, report_);
     report_.time.output += watch.elapsed();
