@@ -140,9 +140,11 @@ std::optional<StartDepth> start_depth(const Mesh<D>& mesh, const Model<D>& model
   const auto all = gaps(mesh, boundary, term);
   const auto asked = everywhere ? all : gaps(mesh, faces_of(mesh, model, obstacle, false), term);
   if (all.empty() || asked.empty()) return {};
-  const Gap<D> deepest = *std::ranges::min_element(asked, less);
-  const double size = extent(mesh, boundary.vertices, deepest.normal);
-  return StartDepth{-deepest.distance, size, std::ranges::max_element(all, less)->distance <= rounding * size};
+  const auto [lowest, highest] = std::ranges::minmax_element(all, less);
+  const double least = rounding * extent(mesh, boundary.vertices, lowest->normal);
+  const bool completely = highest->distance <= least && lowest->distance < -least;
+  const Gap<D> deepest = completely ? *lowest : *std::ranges::min_element(asked, less);
+  return StartDepth{-deepest.distance, extent(mesh, boundary.vertices, deepest.normal), completely};
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                \

@@ -25,7 +25,7 @@ std::optional<DeformedContact> deformed_contact(const Mesh<D>& mesh, const Model
 struct StartDepth {
   double depth = 0;        ///< of the deepest vertex
   double extent = 0;       ///< of the body along the normal there
-  bool completely = true;  ///< no vertex of the boundary lies outside
+  bool completely = true;  ///< no vertex of the boundary lies outside; then `depth` is that of any vertex
 };
 
 /// Nothing where it is not rigid, or fails.

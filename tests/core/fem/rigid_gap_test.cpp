@@ -91,8 +91,9 @@ TEST(StartDepth, TellsABodyInsideAndAReversedNormal) {
     EXPECT_TRUE(depth(0, -1, everywhere).completely);
     EXPECT_FALSE(depth(0, 1, everywhere).completely);
   }
-  EXPECT_DOUBLE_EQ(depth(0, -1, false).depth, 0);
-  EXPECT_DOUBLE_EQ(depth(0, -1, true).depth, 1);
+  EXPECT_DOUBLE_EQ(depth(0, -1, false).depth, 1);
+  model.obstacles = {rigid<3>(geometry::expression(0.0, {0.0, 0.0, 1.0}, 3, 1, 1, "touching"), "bottom")};
+  EXPECT_FALSE(start_depth(mesh, model, 0, true)->completely);
   model.obstacles[0].shape = nullptr;
   EXPECT_FALSE(start_depth(mesh, model, 0, true));
 }
