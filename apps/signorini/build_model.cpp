@@ -50,8 +50,7 @@ void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
 
 /// The obstacle with the settings it holds on to.
 template <int B>
-std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene, int dimension,
-                                                   const Registry& registry, double t) {
+ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry, double t) {
   const ObstacleType& type = registry.obstacle(scene.type);
   const std::string& origin = scene.source.table;
   const auto create = constructor<B>(type);
@@ -72,7 +71,8 @@ std::shared_ptr<const Obstacle<B>> create_obstacle(const Scene::Obstacle& scene,
     throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' describes {} directions, expected 0 to {}", origin,
                                           scene.type, found, most_directions));
   check_asked(*settings);
-  return {obstacle.release(), [settings](const Obstacle<B>* held) { delete held; }};
+  std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
+  return {std::move(shared), scene.on, origin, std::move(shape)};
 }
 
 template <int B>
@@ -97,7 +97,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   for (const auto& entry : scene.fixes) model.fixes.push_back(fix<B>(entry));
   for (const auto& entry : scene.loads) model.loads.push_back(load<B>(entry));
   for (const auto& entry : scene.obstacles)
-    model.obstacles.push_back({create_obstacle<B>(entry, dimension, registry, t), entry.on, entry.source.table});
+    model.obstacles.push_back(create_obstacle<B>(entry, dimension, registry, t));
   return model;
 }
 

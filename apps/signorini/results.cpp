@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
@@ -16,7 +17,10 @@ template <int D, int B>
 Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution) {
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(mesh, model, solution.discretization, solution.x),
+                    {},
                     {}};
+  for (std::size_t k = 0; k < model.obstacles.size(); ++k)
+    out.deformed.push_back(deformed_contact(mesh, model, static_cast<Index>(k), out.contact, out.u));
   if constexpr (B == D) out.stress = nodal_stress(mesh, element_stress(mesh, model, out.u));
   return out;
 }
@@ -33,16 +37,33 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene) {
   return probes;
 }
 
+namespace {
+
+template <int B>
+ContactReport contact_report(int obstacle, const ContactSummary<B>& contact,
+                             const std::optional<DeformedContact>& deformed) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, unknown});
+  return {.obstacle = obstacle,
+          .nodes = contact.nodes,
+          .area = contact.area,
+          .force = {contact.force.begin(), contact.force.end()},
+          .max_pressure = contact.max_pressure,
+          .undetermined_nodes = contact.undetermined_nodes,
+          .undetermined_force = contact.undetermined_force,
+          .largest_penetration = at.penetration,
+          .largest_opening = at.opening,
+          .largest_displacement = at.displacement};
+}
+
+}  // namespace
+
 template <int D, int B>
 StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
                        const Summary& summary) {
   StepReport report{t, summary, {}, {}, {}};
-  for (const ContactSummary<B>& contact : results.contact.obstacles)
-    report.contact.push_back({static_cast<int>(report.contact.size()),
-                              contact.nodes,
-                              contact.area,
-                              {contact.force.begin(), contact.force.end()},
-                              contact.max_pressure});
+  for (std::size_t k = 0; k < results.contact.obstacles.size(); ++k)
+    report.contact.push_back(contact_report(static_cast<int>(k), results.contact.obstacles[k], results.deformed[k]));
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(mesh, probes.places[k], results.u);
     report.probes.push_back({probes.names[k], {value.begin(), value.end()}});
@@ -80,8 +101,12 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh)
   if (!body.poisson.constant())
     for (const auto& element : mesh.elements)
       poisson = std::max(poisson, body.poisson(site<D>(centroid<D>(mesh, element), 1)));
-  if (poisson <= 0.45) return {};
-  return {fmt::format("linear elements lock for nearly incompressible material (poisson = {})", poisson)};
+  if (poisson < 0.45) return {};
+  return {
+      fmt::format("poisson = {}: linear elements are too stiff for nearly incompressible material, and refinement "
+                  "helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at 0.49, and "
+                  "290 % at 0.499",
+                  poisson)};
 }
 
 template <int D, int B>

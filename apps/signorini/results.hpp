@@ -6,6 +6,7 @@
 #include "apps/signorini/nested_solver.hpp"
 #include "core/fem/contact.hpp"
 #include "core/fem/probe.hpp"
+#include "core/fem/rigid_gap.hpp"
 #include "core/fem/stress.hpp"
 
 namespace signorini {
@@ -15,7 +16,8 @@ template <int D, int B>
 struct Results {
   std::vector<double> u;  ///< global coordinates, B per vertex
   ContactState<B> contact;
-  std::vector<Stress> stress;  ///< per vertex; elasticity only
+  std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
+  std::vector<Stress> stress;                            ///< per vertex; elasticity only
 };
 
 template <int D, int B>

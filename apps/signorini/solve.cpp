@@ -8,6 +8,7 @@
 #include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/components.hpp"
+#include "apps/signorini/contact_warnings.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/nested_solver.hpp"
 #include "apps/signorini/output.hpp"
@@ -72,8 +73,22 @@ class SolveRun {
     if (step == 1)
       for (auto& warning : model_warnings(scene_, hierarchy_.finest(), model))
         report_.warnings.push_back(std::move(warning));
-    const Solution<B> solution = step == 1 ? solver.solve(model) : solver.solve_after(model, results_.u);
-    add_results(model, solution);
+    if (step == 1)
+      for (auto& warning : start_warnings(hierarchy_.levels.front(), model))
+        report_.warnings.push_back(std::move(warning));
+    add_results(model, solve_model(solver, step, model));
+  }
+
+  /// Where there is no solution, perhaps the body was meant to be on the other side.
+  Solution<B> solve_model(NestedSolver<D, B>& solver, int step, const Model<B>& model) {
+    try {
+      return step == 1 ? solver.solve(model) : solver.solve_after(model, results_.u);
+    } catch (const Error& error) {
+      if (error.status() != Exit::no_solution) throw;
+      const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
+      if (reasons.empty()) throw;
+      throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
+    }
   }
 
   void add_results(const Model<B>& model, const Solution<B>& solution) {
@@ -107,6 +122,9 @@ class SolveRun {
   void finish() {
     Stopwatch watch;
     progress_.phase("writing");
+    for (auto& warning : contact_warnings(scene_, report_)) report_.warnings.push_back(std::move(warning));
+    for (auto& warning : chord_warnings<D, B>(scene_, hierarchy_, results_))
+      report_.warnings.push_back(std::move(warning));
     if (scene_.output.convergence) write_tables(files_, report_);
     Pictures pictures(files_);
     if (scene_.output.pictures) pictures.start(hierarchy_, results_, report_);

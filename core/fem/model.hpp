@@ -7,6 +7,7 @@
 
 #include "core/fem/field.hpp"
 #include "core/sdk/obstacle.hpp"
+#include "core/sdk/settings.hpp"
 
 namespace signorini {
 
@@ -42,6 +43,8 @@ struct ObstacleTerm {
   std::shared_ptr<const Obstacle<B>> obstacle;
   std::optional<Selection> on;
   std::string origin;
+  /// Of a rigid obstacle: bounds at a vertex are its distances to this shape.
+  std::shared_ptr<const DistanceFunction> shape;
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.

@@ -37,7 +37,11 @@ Json contact(const ContactReport& contact) {
           {"force", contact.force},
           {"max_pressure", contact.max_pressure},
           {"slip_nodes", contact.slip_nodes},
-          {"stick_nodes", contact.stick_nodes}};
+          {"stick_nodes", contact.stick_nodes},
+          {"undetermined_nodes", contact.undetermined_nodes},
+          {"undetermined_force", contact.undetermined_force},
+          {"largest_penetration", contact.largest_penetration},
+          {"largest_opening", contact.largest_opening}};
 }
 
 Json probe(const ProbeReport& probe) {

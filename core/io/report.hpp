@@ -16,6 +16,11 @@ struct ContactReport {
   std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
   double max_pressure = 0;
   Index slip_nodes = 0, stick_nodes = 0;
+  Index undetermined_nodes = 0;   ///< of those in contact, held by a fix along the obstacle's normal, see ContactNode
+  double undetermined_force = 0;  ///< sum of what presses there
+  /// Of the deformed boundary against the true obstacle: the deepest vertex inside it, the farthest one off it where
+  /// contact is claimed, and the largest displacement at these; NaN where the obstacle could not tell.
+  double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
 };
 
 /// The solution at a point.

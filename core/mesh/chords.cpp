@@ -78,7 +78,7 @@ double chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked
       const Point<D> here = across(mesh, face, tip);
       const auto [other, first] = open.try_emplace(common, here);
       if (first) continue;
-      const double size = 0.5 * (length<D>(here) + length<D>(other->second));
+      const double size = std::min(length<D>(here), length<D>(other->second));  // the other may be no chord
       largest = std::max(largest, sagitta(turn<D>(here, other->second), size));
     }
   return largest;

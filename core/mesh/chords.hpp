@@ -7,7 +7,7 @@ namespace signorini {
 
 /// How far flat faces with this angle (radians) between them are from the curve through their vertices that they may
 /// stand for; 0 where the angle is so large, more than 30 degrees, that there is an edge, or nothing but rounding.
-/// @param across extent of the faces across what they have in common
+/// @param across extent of the smaller face across what both have in common
 double sagitta(double angle, double across);
 
 /// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a

@@ -203,8 +203,14 @@ constexpr TableSpec tables[] = {
      "What the body may not penetrate. Every key not listed here belongs to the plugin. `on` and `where` may pick more "
      "faces than come into contact: the contact area of a node, and its pressure, which is force over area, count only "
      "those of the picked faces whose outer normal is within 60 degrees of the direction to the obstacle (at a tip "
-     "that "
-     "is sharper than that, all).",
+     "that is sharper than that, all)."
+     " Contact is linearised about the undeformed body: distance and normal of a node are those before it moves. After "
+     "the solve the nodes of the deformed boundary are compared with the true obstacle: the report has their "
+     "`largest_penetration`, and their `largest_opening` where contact is claimed, and a warning where one is over 1 % "
+     "of the displacements there. `force` is the whole force of the obstacle. How it divides between the obstacle and "
+     "a "
+     "fix that holds a node along the obstacle's normal is not determined: what presses there is counted as the "
+     "obstacle's, and `undetermined_nodes` counts such nodes.",
      obstacle},
     {"solver", false, "How the algebraic problem is solved.", solver},
     {"refine", false, "The mesh.", refine},

@@ -195,10 +195,82 @@ TEST_F(Solve, IterationLimitWritesResultsMarkedAsNotConverged) {
   EXPECT_TRUE(fs::exists(folder_ / "o/solution.vtu"));
 }
 
+/// A block that slides along walls, pressed on a plane under it.
+const char* const block_on_plane = R"(
+[[body]]
+name = "b"
+shape = "box"
+from = [0, 0, 0]
+to = [1, 1, 1]
+cells = [2, 2, 2]
+young = 1.0
+poisson = 0.25
+[[fix]]
+body = "b"
+where = "x == 0 || x == 1"
+value = [0, "free", "free"]
+[[fix]]
+body = "b"
+where = "y == 0 || y == 1"
+value = ["free", 0, "free"]
+[[load]]
+body = "b"
+on = "top"
+value = [0, 0, -0.01]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+)";
+
+TEST_F(Solve, SaysThatABodyStartsInsideAnObstacle) {
+  write("block.toml", block_on_plane);
+  ASSERT_EQ(signorini({"solve", "block.toml", "--out", "o"}).status, 0);
+  EXPECT_EQ(report("o").at("warnings").dump(), "[]");
+  ASSERT_EQ(signorini({"solve", "block.toml", "--out", "p", "--set", "obstacle.0.point=[0, 0, 0.5]"}).status, 0);
+  EXPECT_THAT(report("p").at("warnings").dump(), HasSubstr("starts inside the obstacle, by 0.5 of its 1"));
+}
+
+TEST_F(Solve, NamesAReversedNormalWhereItLeavesNoSolution) {
+  write("block.toml", block_on_plane);
+  const auto ended = signorini({"solve", "block.toml", "--out", "o", "--set", "obstacle.0.normal=[0, 0, -1]"});
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_THAT(ended.err, HasSubstr("starts completely inside the obstacle, by 1 of its 1"));
+  EXPECT_THAT(ended.err, HasSubstr("normal reversed?"));
+}
+
+TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
+  write("block.toml", block_on_plane);
+  ASSERT_EQ(signorini({"solve", "block.toml", "--out", "o"}).status, 0);
+  const auto flat = report("o").at("contact").at(0);
+  EXPECT_LE(flat.at("largest_penetration"), 1e-12);
+  EXPECT_LE(flat.at("largest_opening"), 1e-12);
+  EXPECT_EQ(flat.at("undetermined_nodes"), 0);
+  // A small ball that the block is pressed far onto.
+  std::string text = block_on_plane;
+  text.replace(text.find("shape = \"plane\""), std::string::npos,
+               "shape = \"sphere\"\ncenter = [0.6, 0.5, -0.5]\nradius = 0.5\n");
+  write("ball.toml", text);
+  ASSERT_EQ(
+      signorini({"solve", "ball.toml", "--out", "r", "--set", "refine.uniform=1", "--set", "load.0.value=[0, 0, -0.1]"})
+          .status,
+      0);
+  const auto round = report("r").at("contact").at(0);
+  EXPECT_GT(std::max(round.at("largest_penetration").get<double>(), round.at("largest_opening").get<double>()), 1e-3);
+  EXPECT_THAT(report("r").at("warnings").dump(), HasSubstr("contact is linearised about the undeformed body"));
+}
+
 TEST_F(Solve, WarnsWhereLinearElementsLock) {
   write("punch.toml", punch);
   ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o", "--set", "body.0.poisson=0.49"}).status, 0);
-  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("linear elements lock for nearly incompressible material"));
+  EXPECT_THAT(report("o").at("warnings").dump(),
+              HasSubstr("linear elements are too stiff for nearly incompressible material"));
+  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("43 % at 0.49"));
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "q", "--set", "body.0.poisson=0.45"}).status, 0);
+  EXPECT_THAT(report("q").at("warnings").dump(), HasSubstr("7 % off at 0.45"));
   ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "p"}).status, 0);
   EXPECT_TRUE(report("p").at("warnings").empty());
 }

@@ -67,7 +67,8 @@ class SurfaceDistance : public FacetedDistance {
       for (std::size_t k = 0; k < 3; ++k)
         if (const Index other = surface_.neighbours()[t][k]; other >= 0) {
           const Point<3>&a = face_normals_[t], &b = face_normals_[other];
-          largest = std::max(largest, sagitta(std::atan2(length<3>(cross(a, b)), dot(a, b)), height(t, k)));
+          largest = std::max(largest, sagitta(std::atan2(length<3>(cross(a, b)), dot(a, b)),
+                                              std::min(height(t, other), height(other, t))));
         }
       return largest;
     } catch (const std::exception&) {
@@ -171,9 +172,11 @@ class SurfaceDistance : public FacetedDistance {
     return unit(first);
   }
 
-  /// Of a triangle over its edge k.
-  double height(Index t, std::size_t k) const {
+  /// Of a triangle over the edge between it and another.
+  double height(Index t, Index other) const {
     const auto p = corners(t);
+    const auto& around = surface_.neighbours()[t];
+    const auto k = static_cast<std::size_t>(std::ranges::find(around, other) - around.begin());
     const Point<3> edge = difference<3>(p[(k + 2) % 3], p[(k + 1) % 3]);
     return length<3>(cross(edge, difference<3>(p[k], p[(k + 1) % 3]))) / length<3>(edge);
   }

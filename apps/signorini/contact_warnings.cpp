@@ -1,0 +1,115 @@
+#include "apps/signorini/contact_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/chords.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
+constexpr double noticeable = 0.01;  // of the displacements where contact is
+
+/// How far off the linearised condition is, relative to the displacements.
+double off(const ContactReport& contact) {
+  const double by = std::max(contact.largest_penetration, contact.largest_opening);
+  return contact.largest_displacement > 0 ? by / contact.largest_displacement : 0;
+}
+
+double undetermined(const ContactReport& contact) {
+  double square = 0;
+  for (const double f : contact.force) square += f * f;
+  return square > 0 ? contact.undetermined_force / std::sqrt(square) : 0;
+}
+
+/// The step in which an obstacle has the largest of these; NaN is none.
+template <class Value>
+const StepReport& worst(const Report& report, std::size_t obstacle, Value value) {
+  return *std::max_element(report.steps.begin(), report.steps.end(), [&](const StepReport& a, const StepReport& b) {
+    return value(a.contact[obstacle]) < value(b.contact[obstacle]);
+  });
+}
+
+std::string at_step(const Report& report, const StepReport& step) {
+  return report.steps.size() > 1 ? fmt::format(", at t = {:g}", step.t) : "";
+}
+
+}  // namespace
+
+template <int D, int B>
+std::vector<std::string> start_warnings(const Mesh<D>& mesh, const Model<B>& model, bool everywhere) {
+  std::vector<std::string> warnings;
+  if constexpr (B == D)
+    for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
+      const auto start = start_depth(mesh, model, static_cast<Index>(k), everywhere);
+      if (!start || !(start->completely || start->depth > deep * start->extent)) continue;
+      warnings.push_back(
+          fmt::format("{}: the body starts {}inside the obstacle, by {:.3g} of its {:.3g} along the normal "
+                      "there; is the obstacle's normal reversed?",
+                      model.obstacles[k].origin, start->completely ? "completely " : "", start->depth, start->extent));
+    }
+  return warnings;
+}
+
+std::vector<std::string> contact_warnings(const Scene& scene, const Report& report) {
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
+    const std::string& origin = scene.obstacles[k].source.table;
+    const StepReport& farthest = worst(report, k, off);
+    const ContactReport& contact = farthest.contact[k];
+    if (off(contact) > noticeable)
+      warnings.push_back(fmt::format(
+          "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: "
+          "contact is linearised about the undeformed body, and for these displacements the "
+          "obstacle or the boundary is too curved",
+          origin, std::fmax(contact.largest_penetration, contact.largest_opening),
+          contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
+                                                                 : "off the obstacle though contact is claimed",
+          contact.largest_displacement, at_step(report, farthest)));
+    const StepReport& held = worst(report, k, undetermined);
+    if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)
+      warnings.push_back(fmt::format(
+          "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix{}: how the force there divides "
+          "between obstacle and support is not determined; what presses, {:.3g}, is counted as the obstacle's",
+          origin, c.undetermined_nodes, c.nodes, at_step(report, held), c.undetermined_force));
+  }
+  return warnings;
+}
+
+template <int D, int B>
+std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<D>& hierarchy,
+                                        const Results<D, B>& results) {
+  std::vector<std::string> warnings;
+  for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
+    if (!results.deformed[k]) continue;
+    const auto add = [&, displacement = results.deformed[k]->displacement](const char* whose, double sagitta) {
+      if (!(sagitta > noticeable * displacement)) return;
+      warnings.push_back(fmt::format(
+          "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
+          "where displacements are up to {:.3g}: refinement brings out the edges between them, and the largest "
+          "pressure "
+          "gets worse with it",
+          scene.obstacles[k].source.table, whose, sagitta, displacement));
+    };
+    std::vector<bool> touching(hierarchy.finest().points.size());
+    for (const ContactNode<B>& node : results.contact.nodes)
+      if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
+    add("body", chord_sagitta(hierarchy, std::move(touching)));
+    add("obstacle", results.deformed[k]->sagitta);
+  }
+  return warnings;
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                        \
+  template std::vector<std::string> start_warnings(const Mesh<D>&, const Model<B>&, bool); \
+  template std::vector<std::string> chord_warnings(const Scene&, const MeshHierarchy<D>&, const Results<D, B>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "apps/signorini/results.hpp"
+
+namespace signorini {
+
+/// Obstacles that the body starts deep inside, more than a tenth of its extent, or completely: it is likely that the
+/// normal is reversed. One sentence each.
+/// @param everywhere asks the whole boundary, not just the part the obstacle acts on
+template <int D, int B>
+std::vector<std::string> start_warnings(const Mesh<D>& mesh, const Model<B>& model, bool everywhere = false);
+
+/// Where the deformed body is inside an obstacle, or off it where contact is claimed, by more than a hundredth of the
+/// displacements there; and forces that held vertices share with the obstacle. One sentence per obstacle and kind, for
+/// the worst step.
+std::vector<std::string> contact_warnings(const Scene& scene, const Report& report);
+
+/// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined
+/// mesh: with a distance between both that counts beside the displacements there. One sentence per obstacle and kind.
+template <int D, int B>
+std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<D>& hierarchy,
+                                        const Results<D, B>& results);
+
+}  // namespace signorini
