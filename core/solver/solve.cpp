@@ -101,6 +101,7 @@ class Continuation {
       }
       stage = std::move(found.stages.front());
     } catch (const Error& error) {
+      if (error.status() == Exit::interrupted) throw;
       stage.reason = error.what();
     } catch (const std::bad_alloc&) {
       stage.reason = "out of memory";

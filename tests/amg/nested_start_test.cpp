@@ -56,6 +56,30 @@ TEST(NestedStart, KnowsPrescribedValuesThatAMatrixNoLongerHas) {
   EXPECT_LE(start_error(discretize<2, 1>(cube<2>(0, 1, 64), model).problem), 0.08);
 }
 
+TEST(NestedStart, ThatFailsIsAStageWithTheReason) {
+  const auto problem = pressed_membrane(64);
+  const auto P = hierarchy(problem);
+  std::vector<Stage> dropped;
+  EXPECT_NE(nested_start<1>(problem, P, {}, registry(), {}, &dropped), problem.start);
+  EXPECT_TRUE(dropped.empty());
+  SolverOptions options;
+  options.coarse = "magic";
+  EXPECT_EQ(nested_start<1>(problem, P, options, registry(), {}, &dropped), problem.start);
+  ASSERT_EQ(dropped.size(), P.size()) << "one for each level that gave none";
+  for (const Stage& stage : dropped) {
+    EXPECT_EQ(stage.method, "nested start");
+    EXPECT_EQ(stage.outcome, Outcome::failed);
+    EXPECT_FALSE(stage.kept);
+    EXPECT_NE(stage.reason.find("magic"), std::string::npos) << stage.reason;
+  }
+  Summary summary;
+  summary.stages.resize(1);
+  summary.history.resize(1);
+  summary.put_in_front(dropped);
+  EXPECT_EQ(summary.stages.size(), P.size() + 1);
+  EXPECT_EQ(summary.history.front().stage, P.size());
+}
+
 TEST(NestedStart, WithoutLevelsIsTheProblemsOwn) {
   const auto problem = pressed_membrane(8);
   EXPECT_EQ(nested_start<1>(problem, {}, {}, registry()), problem.start);

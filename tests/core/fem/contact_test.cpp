@@ -190,6 +190,23 @@ TEST(Contact, ScalarForceBalancesTheLoadOverTheCoincidenceSet) {
   EXPECT_NEAR(volume, 18.0 / 20 + 1.0 / 20, 1e-12);  // without the fixed ends
 }
 
+// As rounding leaves it where the solution meets the obstacle without any force.
+TEST(Contact, ObstaclesNeverPull) {
+  const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {8, 8});
+  for (const double load : {1e-16, -1e-16}) {
+    Model<1> model;
+    model.loads = {{{}, {load}}};
+    model.obstacles = {term<1>([=](const SurfaceVertex&) { return bound<1>({1}, 0, infinity); }, {})};
+    const auto discrete = discretize(mesh, model);
+    const auto state = contact_state(mesh, model, discrete, std::vector<double>(mesh.points.size(), 0.0));
+    for (const auto& node : state.nodes) {
+      EXPECT_TRUE(node.contact);
+      EXPECT_NEAR(node.pressure, std::max(-load, 0.0), 1e-28);
+    }
+    EXPECT_NEAR(state.obstacles[0].force[0], std::max(-load, 0.0), 1e-28);
+  }
+}
+
 TEST(Contact, ForcesGoToTheObstacleThatIsTouched) {
   const Mesh<2> mesh = unit_mesh<2>(2);
   Model<2> model;
