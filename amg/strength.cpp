@@ -20,9 +20,7 @@ constexpr double strong = B == 1   ? 0.2
 // corners are coupled by 0.25 though nothing smooth goes along these couplings, as the positive ones say.
 constexpr double strong_beside_positive = 0.3, positive = 0.25;
 
-// Of groups, of the larger one of the largest couplings of both: on the edges and ends of bodies all that is strong is
-// halved, and the weak couplings to where it is not would count as strong.
-constexpr float strong_norm = 0.2f;
+constexpr float strong_norm = 0.2f;  // of groups
 
 template <int B>
 double square(const double* block) {
@@ -90,7 +88,8 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
 }
 
 template <int B>
-StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group) {
+StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group,
+                                         bool at_both_ends) {
   constexpr Flags all = (1u << B) - 1;
   const Index groups = A.size() / group;
   StrengthGraph couplings;  // all of them, by their norms
@@ -124,9 +123,9 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
   return graph;
 }
 
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index, bool);
 template StrengthGraph strong_couplings(const BlockMatrix<1>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<2>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<3>&, const std::vector<Flags>&);
