@@ -87,15 +87,18 @@ class Descent {
 template <int B>
 class Chooser {
  public:
-  Chooser(Coarsening coarsening, NearNullSpace modes, const Aggregator& aggregator)
-      : coarsening_(coarsening), modes_(std::move(modes)), aggregator_(aggregator) {}
+  Chooser(const AlgebraicSettings& settings, NearNullSpace modes, const Aggregator& aggregator)
+      : coarsening_(settings.coarsening),
+        stretched_(settings.stretched),
+        modes_(std::move(modes)),
+        aggregator_(aggregator) {}
 
   Prolongation next(const Level<B>& level) {
     const bool known = modes_.modes > 0;
     if (coarsening_ == Coarsening::classical || (coarsening_ == Coarsening::automatic && !known))
       return classical_interpolation(*level.A, level.off);
     if (!known) return smoothed_aggregation(*level.A, level.off, aggregator_);
-    ModeAggregation found = mode_aggregation(level, modes_, group_, aggregator_);
+    ModeAggregation found = mode_aggregation(level, modes_, group_, aggregator_, stretched_);
     modes_ = std::move(found.coarse);
     group_ = found.group;
     return std::move(found.prolongation);
@@ -103,6 +106,7 @@ class Chooser {
 
  private:
   Coarsening coarsening_;
+  bool stretched_;
   NearNullSpace modes_;  // of the level that comes next
   Index group_ = 1;      // of its vectors that belong together
   const Aggregator& aggregator_;
@@ -115,7 +119,7 @@ AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const 
                                        Index enough, const AlgebraicSettings& settings, NearNullSpace near_null,
                                        const Aggregator& aggregator) {
   Descent<B> descent(problem, settings);
-  Chooser<B> chooser(settings.coarsening, std::move(near_null), aggregator);
+  Chooser<B> chooser(settings, std::move(near_null), aggregator);
   while (descent.level().vectors > enough) {
     Prolongation P = chooser.next(descent.level());
     if (P.coarse == 0 || P.coarse > progress * P.fine()) break;

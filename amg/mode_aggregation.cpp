@@ -239,8 +239,8 @@ void align_with_roots(const Level<B>& level, const Aggregates& aggregates, Index
 
 template <int B>
 ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fine, Index group,
-                                 const Aggregator& aggregator) {
-  const StrengthGraph graph = strong_couplings_of_groups(*level.A, level.off, group);
+                                 const Aggregator& aggregator, bool stretched) {
+  const StrengthGraph graph = strong_couplings_of_groups(*level.A, level.off, group, stretched);
   const Aggregates aggregates = aggregator.aggregate(graph);
   const Tentative tentative = tentative_interpolation<B>(fine, group, aggregates);
   ModeAggregation out;
@@ -253,8 +253,8 @@ ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fin
   return out;
 }
 
-template ModeAggregation mode_aggregation(const Level<1>&, const NearNullSpace&, Index, const Aggregator&);
-template ModeAggregation mode_aggregation(const Level<2>&, const NearNullSpace&, Index, const Aggregator&);
-template ModeAggregation mode_aggregation(const Level<3>&, const NearNullSpace&, Index, const Aggregator&);
+template ModeAggregation mode_aggregation(const Level<1>&, const NearNullSpace&, Index, const Aggregator&, bool);
+template ModeAggregation mode_aggregation(const Level<2>&, const NearNullSpace&, Index, const Aggregator&, bool);
+template ModeAggregation mode_aggregation(const Level<3>&, const NearNullSpace&, Index, const Aggregator&, bool);
 
 }  // namespace signorini

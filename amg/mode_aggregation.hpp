@@ -21,8 +21,9 @@ struct ModeAggregation {
 /// @param level its matrix and prescribed components; phases cleared
 /// @param fine the near null space on it, in global coordinates
 /// @param group of its consecutive vectors that belong to one node
+/// @param stretched its cells are: couplings have to be strong at both ends
 template <int B>
 ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fine, Index group,
-                                 const Aggregator& aggregator = GreedyAggregator());
+                                 const Aggregator& aggregator = GreedyAggregator(), bool stretched = false);
 
 }  // namespace signorini

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace signorini {
 
 namespace {
 
-constexpr double nearly_all = 0.9, mostly_not = 0.25;
-constexpr double no_small_part = 0.01;
+constexpr double most = 0.6, mostly_not = 0.25;  // of pairs of rows
+constexpr double no_small_part = 0.01;           // of couplings
+/// Blocks that both rows are coupled to over those that one is. Zeros and single prescribed components take some away;
+/// neighbours in a seven-point stencil have 5 / 7.
+constexpr double alike = 0.75;
 
 bool has_proper_rows(const SparseRows& A) {
   return A.rows > 0 && A.rows == A.columns && std::ssize(A.row) == A.rows + 1 && A.row.front() == 0 &&
@@ -25,15 +29,18 @@ class Couplings {
   /// Part of the pairs of rows i and i + 1, i + shift + 1 no multiple of the block, that are coupled to the same
   /// blocks; pairs with rows that are coupled to nothing, such as those of prescribed values, do not count.
   double part_alike() {
-    Index alike = 0, count = 0;
+    Index found = 0, count = 0;
     for (Index i = 0; i + 1 < A_.rows; ++i) {
       if ((i + shift_ + 1) % block_ == 0 || alone(i) || alone(i + 1)) continue;
       ++count;
       find(i, one_);
       find(i + 1, other_);
-      alike += one_ == other_;
+      both_.clear();
+      std::ranges::set_intersection(one_, other_, std::back_inserter(both_));
+      const auto either = static_cast<double>(one_.size() + other_.size() - both_.size());
+      found += static_cast<double>(both_.size()) >= alike * either;
     }
-    return count > 0 ? static_cast<double>(alike) / count : 0;
+    return count > 0 ? static_cast<double>(found) / count : 0;
   }
 
  private:
@@ -52,10 +59,10 @@ class Couplings {
 
   const SparseRows& A_;
   const Index block_, shift_;
-  std::vector<Index> one_, other_;
+  std::vector<Index> one_, other_, both_;
 };
 
-/// Rows i and i + 1 of different blocks whose blocks, were they one, are coupled to the same ones.
+/// Rows i and i + 1 of different blocks that are coupled to the same columns but for few.
 double part_alike_across(const SparseRows& A, Index block) {
   // Shifted by one, the pairs within blocks of two are those across; of three, one of the two pairs is.
   const double part = Couplings(A, block, 1).part_alike();
@@ -80,7 +87,7 @@ double part_mixed(const SparseRows& A, Index block) {
 int recognised_block(const SparseRows& A) {
   if (!has_proper_rows(A)) return 1;
   for (const Index block : {3, 2})
-    if (A.rows % block == 0 && Couplings(A, block, 0).part_alike() >= nearly_all &&
+    if (A.rows % block == 0 && Couplings(A, block, 0).part_alike() >= most &&
         part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= no_small_part)
       return block;
   return 1;

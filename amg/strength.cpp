@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace signorini {
 
@@ -20,9 +19,7 @@ constexpr double strong = B == 1   ? 0.2
 // corners are coupled by 0.25 though nothing smooth goes along these couplings, as the positive ones say.
 constexpr double strong_beside_positive = 0.3, positive = 0.25;
 
-// Of groups, of the larger one of the largest couplings of both: on the edges and ends of bodies all that is strong is
-// halved, and the weak couplings to where it is not would count as strong.
-constexpr float strong_norm = 0.2f;
+constexpr double strong_norm = 0.2;  // of groups
 
 template <int B>
 double square(const double* block) {
@@ -40,6 +37,19 @@ double strength(const double* block) {
 template <int B>
 double part_that_is_strong(double largest, double largest_positive) {
   return B == 1 && largest_positive > positive * largest ? strong_beside_positive : strong<B>;
+}
+
+/// Those of couplings that are strong at their other end, too.
+/// @param largest per vector: of its couplings
+StrengthGraph strong_at_both_ends(const StrengthGraph& graph, const std::vector<double>& largest) {
+  StrengthGraph out;
+  out.balanced = graph.balanced;
+  for (Index g = 0; g < graph.size(); ++g) {
+    for (const Coupling& c : graph.of(g))
+      if (c.strength * largest[g] >= strong_norm * largest[c.to]) out.add(c);
+    out.end_row();
+  }
+  return out;
 }
 
 }  // namespace
@@ -90,12 +100,14 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
 }
 
 template <int B>
-StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group) {
+StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group,
+                                         bool at_both_ends) {
   constexpr Flags all = (1u << B) - 1;
   const Index groups = A.size() / group;
-  StrengthGraph couplings;  // all of them, by their norms
-  std::vector<float> largest(static_cast<std::size_t>(groups), 0.0f);
+  StrengthGraph graph;
+  graph.balanced.assign(static_cast<std::size_t>(groups), 1.0);
   std::vector<double> sum(static_cast<std::size_t>(groups), 0.0);  // zero between the rows
+  std::vector<double> norm;                                        // per group: of its largest coupling
   std::vector<Index> found;
   for (Index g = 0; g < groups; ++g) {
     found.clear();
@@ -106,27 +118,23 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
         if (sum[h] == 0) found.push_back(h);
         sum[h] += square<B>(A.at(k));
       }
+    double largest = 0;
+    for (const Index h : found) largest = std::max(largest, sum[h]);
     std::ranges::sort(found);
     for (const Index h : found) {
-      const auto norm = static_cast<float>(std::sqrt(std::exchange(sum[h], 0.0)));
-      if (norm > 0) couplings.add({h, norm});
-      largest[g] = std::max(largest[g], norm);
+      if (sum[h] > 0 && sum[h] >= strong_norm * strong_norm * largest)
+        graph.add({h, static_cast<float>(std::sqrt(sum[h] / largest))});
+      sum[h] = 0;
     }
-    couplings.end_row();
-  }
-  StrengthGraph graph;
-  graph.balanced.assign(static_cast<std::size_t>(groups), 1.0);
-  for (Index g = 0; g < groups; ++g) {
-    for (const Coupling& c : couplings.of(g))
-      if (c.strength >= strong_norm * std::max(largest[g], largest[c.to])) graph.add({c.to, c.strength / largest[g]});
     graph.end_row();
+    norm.push_back(std::sqrt(largest));
   }
-  return graph;
+  return at_both_ends ? strong_at_both_ends(graph, norm) : graph;
 }
 
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index, bool);
 template StrengthGraph strong_couplings(const BlockMatrix<1>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<2>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<3>&, const std::vector<Flags>&);

@@ -72,9 +72,11 @@ StrengthGraph reversed(const StrengthGraph& graph);
 template <int B>
 StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off);
 
-/// The same between groups of consecutive vectors, by the norms of all that couples two of them; strong only where it
-/// is no small part of the largest coupling of either.
+/// The same between groups of consecutive vectors, by the norms of all that couples two of them.
+/// @param at_both_ends strong only where it is for both groups: at the edges and ends of bodies of stretched cells all
+///     strong couplings are halved, and the weak ones to where they are not would count
 template <int B>
-StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group);
+StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group,
+                                         bool at_both_ends = false);
 
 }  // namespace signorini

@@ -36,6 +36,11 @@ template <int B>
                           "vertex; such obstacles are not available in this version");
 }
 
+template <int D>
+bool is_stretched(const Mesh<D>& mesh, int block) {
+  return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
+}
+
 /// Of an elastic body.
 template <int D, int B>
 NearNullSpace near_null_space(const Mesh<D>& mesh) {
@@ -59,8 +64,7 @@ std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& o
   const std::size_t finest = hierarchy.levels.size() - 1;
   if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
   if (!options.algebraic) return 0;
-  const double part = stretched_part(hierarchy.levels.front(), block == 1 ? stretched_scalar : stretched_elastic);
-  return part > many ? finest : 0;
+  return is_stretched(hierarchy.levels.front(), block) ? finest : 0;
 }
 
 template <int D, int B>
@@ -103,7 +107,8 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   if (!coarsening) return;
   Stopwatch watch;
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
-  const AlgebraicSettings settings = algebraic_settings(options_);
+  AlgebraicSettings settings = algebraic_settings(options_);
+  settings.stretched = is_stretched(hierarchy_.levels.front(), B);
   auto modes =
       *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels[first_]) : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);

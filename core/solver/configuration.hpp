@@ -26,6 +26,7 @@ struct AlgebraicSettings {
   bool only_twins = false;  ///< constrained vectors from coarse twins of such alone; else what reaches them has bounds
   bool local = false;       ///< of local components; else of global ones
   Coarsening coarsening = Coarsening::automatic;
+  bool stretched = false;  ///< cells are: aggregates are made of couplings that are strong at both their ends
 };
 
 /// What the options say about algebraic levels. Error(Exit::input) as above.
