@@ -12,7 +12,7 @@ class StagingRegistrar final : public Registrar {
   void obstacle(const ObstacleType& type, Status& status) noexcept override;
 
   /// Adds everything to the registry, or nothing and throws Error(Exit::plugin).
-  void commit(Registry& registry, const std::string& file, const std::string& version, bool optimised) const;
+  void commit(Registry& registry, const std::string& file, const std::string& version, bool optimised = true) const;
 
  private:
   std::vector<ObstacleType> obstacles_;
