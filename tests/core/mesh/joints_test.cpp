@@ -16,7 +16,7 @@ template <int D>
 Mesh<D> mesh_of(std::vector<Point<D>> points, std::vector<Simplex<D>> elements) {
   for (auto& e : elements)
     if (relative_volume<D>(corners<D>(points, e)) < 0) flip<D>(e);
-  return build_mesh<D>({std::move(points), std::move(elements), {}, {}, {}}, "test");
+  return build_mesh<D>({std::move(points), std::move(elements), {}, {}}, "test");
 }
 
 /// Numbers of hanging vertices.
