@@ -63,7 +63,9 @@ std::string described(const Stage& stage) {
   if (stage.iterations > 0) text += fmt::format(", {} iterations", stage.iterations);
   if (stage.linear_solves > 0)
     text += fmt::format(", {} linear solves, {} factorisations", stage.linear_solves, stage.factorisations);
-  return text + fmt::format("; {}{}: {}\n", stage.kept ? "" : "dropped, ", outcome_name(stage.outcome), stage.reason);
+  text += stage.kept ? "; " : "; dropped, ";
+  const std::string outcome = outcome_name(stage.outcome);
+  return text + (stage.reason.starts_with(outcome) ? "" : outcome + ": ") + stage.reason + '\n';
 }
 
 }  // namespace

@@ -24,10 +24,13 @@ inline constexpr Index many_vectors = 1000, fewer_vectors = 400, many_couplings 
 inline constexpr Index most_unknowns_for_direct = 150'000;
 /// Of the diagonal, where active sets meet a matrix that is singular on the free components.
 inline constexpr double shift_if_singular = 1e-10;
-/// Where sets cycle: interior points, and where those fail the coarse solver on the finest level, for up to so many
-/// unknowns, and for so many steps, each of which may need a factorisation.
+/// Where sets cycle: interior points, for up to so many unknowns and steps, each of which needs a factorisation.
 inline constexpr Index most_unknowns_where_sets_cycle = 50'000;
-inline constexpr int most_interior_points = 60, newton_steps = 40;
+inline constexpr int most_interior_points = 60;
+/// Where those fail: the coarse solver on the finest level, each step of which may need a dozen factorisations. (Slender
+/// bodies of 40 000 unknowns, of which rounding leaves no solution, took eight minutes for it.)
+inline constexpr Index most_unknowns_for_newton = 12'000;
+inline constexpr int newton_steps = 40;
 /// Of the energy gained in the cycle before: where weights are blocks, bounds come back after a correction without them
 /// that gained more.
 inline constexpr double slow_gain = 0.5;

@@ -48,13 +48,14 @@ class Continuation {
   Summary run() {
     const Offset unknowns = done_.level_unknowns.back();
     const bool small = unknowns <= automatic::most_unknowns_where_sets_cycle;
-    const std::vector<std::string> solvers = automatic::solvers_for_active_sets(B, unknowns, done_.level_unknowns.front());
+    const std::vector<std::string> solvers =
+        automatic::solvers_for_active_sets(B, unknowns, done_.level_unknowns.front());
     for (const std::string& linear : solvers)
       if (attempt<ActiveSetIteration<B>>("pdas", linear, options_.max_iterations, automatic::shift_if_singular))
         return std::move(done_);
     if (small && attempt<InteriorPointIteration<B>>("interior_point", solvers.back(), automatic::most_interior_points))
       return std::move(done_);
-    if (problem_.A.size() * B <= automatic::most_unknowns_where_sets_cycle && !prolongations_.empty())
+    if (problem_.A.size() * B <= automatic::most_unknowns_for_newton && !prolongations_.empty())
       cycle("newton", {}, automatic::newton_steps);
     if (done_.outcome == Outcome::stuck || done_.outcome == Outcome::iteration_limit)
       cycle("monotone", prolongations_, options_.max_iterations);
