@@ -26,6 +26,9 @@ constexpr Index large_coarsest_mesh = 1000;
 constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
 constexpr double many = 0.1;  // part of the cells so stretched
 
+/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
+constexpr int patience_with_matrix = 40;
+
 /// Obstacles that could not be made part of the problem may be what holds the body.
 template <int B>
 [[noreturn]] void throw_unbounded(const std::string& origin, const Solution<B>& solution) {
@@ -222,7 +225,9 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
   body.require_minimum();
   body.fall(solution.x);
-  solve_level(model, hierarchy_.levels.size() - 1, options_, solution);
+  SolverOptions options = options_;
+  if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
+  solve_level(model, hierarchy_.levels.size() - 1, options, solution);
   if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
 }
 
@@ -267,15 +272,52 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
 }
 
 template <int D, int B>
+bool NestedSolver<D, B>::may_fall_back() const {
+  return B > 1 && by_matrix() && options_.hierarchy == "auto" && hierarchy_.levels.size() > 1;
+}
+
+/// Slender bodies sway with so little energy that rounding in the matrix hides it. Levels by the matrix may then carry
+/// them anywhere, and say so at best by missing the tolerance; meshes keep such motions out of the corrections.
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
+  if (!may_fall_back()) return start_and_solve(model);
+  std::optional<Solution<B>> first;
+  const Stopwatch watch;
+  std::vector<Stage> left;
+  try {
+    first = start_and_solve(model);
+    if (first->summary.outcome == Outcome::converged) return std::move(*first);
+    left = first->summary.stages;
+  } catch (const Error& error) {
+    if (error.status() == Exit::interrupted) throw;
+    left = {dropped_start(watch.elapsed(), error.what())};
+  }
+  progress_.phase("levels chosen by the matrix do not reach the tolerance: once more with those of the meshes");
+  Scene::Solver own = options_;
+  own.hierarchy = "meshes";
+  auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_);
+  Solution<B> second = meshes->solve(model);
+  const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
+  if (better) meshes_ = std::move(meshes);
+  Solution<B>& kept = better ? second : *first;
+  if (!better) left = second.summary.stages;
+  for (Stage& stage : left) stage.kept = false;
+  kept.summary.put_in_front(std::move(left));
+  return std::move(kept);
+}
+
+template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
+  if (meshes_) return meshes_->solve(model);
   for (auto& solution : before_) solution.clear();
-  return start_and_solve(model);
+  return solve_safely(model);
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
+  if (meshes_) return meshes_->solve_after(model, u);
   before_.back() = u;
-  return start_and_solve(model);
+  return solve_safely(model);
 }
 
 template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -49,7 +50,12 @@ class NestedSolver {
   /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u.
   Solution<B> solve_after(const Model<B>& model, const std::vector<double>& u);
 
+  /// Whether all levels below the finest mesh are chosen by its matrix.
+  bool by_matrix() const { return first_ > 0 && !meshes_; }
+
  private:
+  bool may_fall_back() const;
+  Solution<B> solve_safely(const Model<B>& model);
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
@@ -72,7 +78,8 @@ class NestedSolver {
   std::size_t algebraic_ = 0;                // number of the latter
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below that at work, as far as they are known
   bool continued_ = false;
-  std::vector<Stage> dropped_;  // starts that coarser levels did not give
+  std::vector<Stage> dropped_;            // starts that coarser levels did not give
+  std::unique_ptr<NestedSolver> meshes_;  // what goes on where levels by the matrix did not do
   std::vector<std::vector<double>> before_,
       now_;  // per mesh, solutions of the last step and of this: global coordinates
 };

@@ -33,6 +33,7 @@ class SolveRun {
     prepare();
     NestedSolver<D, B> solver(hierarchy_, scene_.solver, registry_, progress_, report_.time);
     solve_steps(solver);
+    if (solver.by_matrix()) report_.hierarchy = "matrix";
     finish();
   }
 
@@ -45,7 +46,6 @@ class SolveRun {
     progress_.phase("meshing");
     report_.dimension = D;
     hierarchy_ = build_hierarchy<D>(scene_, B, &report_.warnings);
-    if (first_mesh(hierarchy_, scene_.solver, B) > 0) report_.hierarchy = "matrix";
     probes_ = locate_probes(hierarchy_.finest(), scene_);
     for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
       report_.warnings.push_back(std::move(warning));

@@ -124,8 +124,9 @@ void Iteration<B>::measure(double error) {
   Summary& s = summary_;
   s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : sums_.natural_residual;
   double squared = energy_norm_squared(problem_, x_, sums_.products);
-  if (squared <= trace_ * sums_.largest * sums_.largest * 1e-14) squared = std::max(squared, rounding_energy());
-  size_ = std::sqrt(squared);
+  const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
+  moves_rigidly_ = squared < rounding;
+  size_ = std::sqrt(std::max(squared, rounding));
   s.algebraic_error = error == 0 ? 0 : size_ > 0 ? error / size_ : 1;
   s.energy = energy(problem_, sums_.products);
 }
@@ -163,9 +164,11 @@ bool Iteration<B>::finished(bool gaining) {
   Summary& s = summary_;
   stalled_ = sums_.natural_residual > 0.5 * least_ ? stalled_ + 1 : 0;
   least_ = std::min(least_, sums_.natural_residual);
+  // A rigid motion has no energy that errors of its size could be compared with.
+  if (moves_rigidly_ && !gaining) s.algebraic_error = s.history.back().algebraic_error = 0;
   const bool at_rest = stalled_ >= 3 && !gaining && is_rounding_of_unknowns() && !has_risen();
   if (!within_tolerance() && !at_rest) return false;
-  const double of_rounding = size_ > 0 ? rounding_error() / size_ : 0,
+  const double of_rounding = size_ > 0 && !moves_rigidly_ ? rounding_error() / size_ : 0,
                error = std::hypot(s.algebraic_error, of_rounding);
   // Large residuals beside larger unknowns, as of slender bodies: it takes the error by rounding to explain them.
   if (of_rounding == 0 && !within_tolerance() && !rests_at_rounding()) return false;

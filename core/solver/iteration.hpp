@@ -94,9 +94,10 @@ class Iteration {
   void finish_stage(double begin);
   double residual_at_projected_zero();
 
-  int before_ = 0;    // steps of other methods
-  double trace_ = 0;  // of A
-  double size_ = 0;   // ||x||_A
+  int before_ = 0;              // steps of other methods
+  bool moves_rigidly_ = false;  // the iterate, but for rounding
+  double trace_ = 0;            // of A
+  double size_ = 0;             // ||x||_A
   Summary summary_;
   std::vector<double> gains_;  // one for each step
   double reference_ = 0;

@@ -44,8 +44,9 @@ struct Foot {
 
 /// Signs by the inside of a closed surface, and for an open one by pseudonormals: the faces' normals at an edge, and
 /// those weighted by angle at a vertex, tell the side wherever the nearest point lies [Baerentzen and Aanaes 2005].
-/// Normals are the gradient of the distance, on the surface pseudonormals, and where several points of the surface are
-/// nearest, on the bisector of a valley, the mean over these. What is within rounding counts as the same.
+/// Normals are the gradient of the distance, on the surface pseudonormals. Where several points of the surface are
+/// nearest, on the bisector of a valley, -u'n_k <= d for each of them, and so for the mean: with its unit vector n the
+/// distance is that along n, longer than d. What is within rounding counts as the same.
 class SurfaceDistance : public FacetedDistance {
  public:
   explicit SurfaceDistance(const std::string& file) : surface_(file, TriangleSurface::Coordinates::centred) {
@@ -94,8 +95,9 @@ class SurfaceDistance : public FacetedDistance {
     const Point<3> outer = pseudonormal(feet);
     const bool behind = surface_.closed() ? surface_.inside(p) : dot(feet[0].offset, outer) < 0;
     const double sign = behind ? -1 : 1;
-    const Point<3> n = feet[0].distance > same_ ? gradient(feet, sign) : outer;
-    return {sign * feet[0].distance, {n[0], n[1], n[2]}};
+    if (feet[0].distance <= same_) return {sign * feet[0].distance, {outer[0], outer[1], outer[2]}};
+    const Point<3> mean = gradient(feet, sign), n = unit(mean);
+    return {sign * feet[0].distance / length<3>(mean), {n[0], n[1], n[2]}};
   }
 
   /// On the triangles that are no farther away than the nearest one, next to the surface on all that are within what
@@ -155,7 +157,8 @@ class SurfaceDistance : public FacetedDistance {
     return angle;
   }
 
-  /// Every nearest point counts once: feet on faces around an edge or a vertex are one.
+  /// The mean over the nearest points of the unit vectors away from them. Each point counts once: feet on faces around
+  /// an edge or a vertex are one.
   Point<3> gradient(const std::vector<Foot>& feet, double sign) const {
     const double apart = 2 * std::sqrt(2 * feet[0].distance * rounding_) + 2 * same_;
     std::vector<Point<3>> points;
@@ -166,7 +169,8 @@ class SurfaceDistance : public FacetedDistance {
       points.push_back(f.at);
       add(sum, sign / f.distance, f.offset);
     }
-    if (length<3>(sum) > 1e-3) return unit(sum);
+    for (double& x : sum) x /= static_cast<double>(points.size());
+    if (length<3>(sum) > 1e-3) return sum;
     Point<3> first{};  // in the middle, with points of the surface all around
     add(first, sign / feet[0].distance, feet[0].offset);
     return unit(first);

@@ -1,0 +1,67 @@
+// Bodies of which rounding leaves little, and bodies that move without deforming.
+#include "run.hpp"
+#include "scene_text.hpp"
+
+namespace signorini::test {
+namespace {
+
+// A column that is lowered by 20 onto a plane 10 below, with a gap of 10: a bar, but for its two ends that cannot
+// widen. Swaying costs it less energy than rounding in the matrix.
+TEST(Slender, ColumnsThatCanSwayStandStraight) {
+  const SceneText scene{.body =
+                            "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1000]\ncells = [16, 16]\n"
+                            "young = 1\npoisson = 0.3",
+                        .fixes = {"on = \"top\"\nvalue = [0, -20]"},
+                        .obstacle =
+                            "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, -10]\n"
+                            "normal = [0, 1]",
+                        .refinements = 2};
+  const auto r = run<2, 2>(scene);
+  const double bar = 10.0 / 1000 / (1 - 0.3 * 0.3);  // plane strain: force over width
+  EXPECT_NEAR(r.contact().force[1], bar, 2e-3 * bar);
+  EXPECT_EQ(r.contact().nodes, 65);
+  double aside = 0;
+  for (std::size_t i = 0; i < r.u().size(); i += 2) aside = std::max(aside, std::abs(r.u()[i]));
+  EXPECT_LT(aside, 0.1);
+}
+
+// Without contact and without an error that cycles could mend: they end, and say that rounding limits the answer.
+TEST(Slender, CantileversEndWhereRoundingLetsThem) {
+  const double length = 1000, load = 1e-13;
+  const SceneText scene{.body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = [2000, 4]\n"
+                                            "young = 1\npoisson = 0",
+                                            length),
+                        .fixes = {"on = \"left\"\nvalue = [0, 0]"},
+                        .loads = {fmt::format("on = \"top\"\nvalue = [0, {}]", -load)},
+                        .obstacle =
+                            "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, -0.5]\n"
+                            "normal = [0, 1]"};
+  const auto r = run<2, 2>(scene);
+  EXPECT_EQ(r.summary().outcome, Outcome::rounding) << r.summary().reason;
+  EXPECT_GT(r.summary().rounding_error, 1e-8);
+  double lowest = 0;
+  for (std::size_t i = 1; i < r.u().size(); i += 2) lowest = std::min(lowest, r.u()[i]);
+  const double beam = 12 * load * std::pow(length, 4) / 8;
+  EXPECT_LT(-lowest, beam);        // linear elements are too stiff
+  EXPECT_GT(-lowest, 0.5 * beam);  // but not by that much
+}
+
+// The plane lifts the body by 0.01: exactly, at once, and on every mesh.
+TEST(Slender, BodiesThatOnlyMoveAreNotLimitedByRounding) {
+  for (const int refinements : {0, 3, 5}) {
+    const SceneText scene{.body =
+                              "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [4, 4]\n"
+                              "young = 1\npoisson = 0.3",
+                          .obstacle =
+                              "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0.01]\n"
+                              "normal = [0, 1]",
+                          .refinements = refinements};
+    const auto r = run<2, 2>(scene);
+    EXPECT_EQ(r.summary().outcome, Outcome::converged) << r.summary().reason;
+    EXPECT_LE(r.summary().iterations, 4);
+    for (std::size_t i = 1; i < r.u().size(); i += 2) EXPECT_NEAR(r.u()[i], 0.01, 1e-13);
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test
