@@ -45,7 +45,9 @@ std::vector<std::string> start_warnings(const Mesh<D>& mesh, const Model<B>& mod
   if constexpr (B == D)
     for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
       const auto start = start_depth(mesh, model, static_cast<Index>(k), everywhere);
-      if (!start || !(start->completely || start->depth > deep * start->extent)) continue;
+      // Away from the faces that may touch, a convex obstacle may well reach into the body.
+      const bool deeply = start && !everywhere && start->depth > deep * start->extent;
+      if (!start || !(start->completely || deeply)) continue;
       warnings.push_back(
           fmt::format("{}: the body starts {}inside the obstacle, by {:.3g} of its {:.3g} along the normal "
                       "there; is the obstacle's normal reversed?",

@@ -11,7 +11,7 @@ namespace signorini {
 
 void Silence::phase(const std::string& what, double now) {
   what_ = what;
-  since_ = spoke_ = now;
+  since_ = now;
 }
 
 std::optional<std::string> Silence::line(double now) {
@@ -34,8 +34,10 @@ Heartbeat::~Heartbeat() {
 
 void Heartbeat::begin(const std::string& what, const std::function<void()>& print) {
   const std::lock_guard lock(mutex_);
-  print();
   silence_.phase(what, seconds());
+  if (!print) return;
+  print();
+  silence_.spoke(seconds());
 }
 
 void Heartbeat::speak(const std::function<void()>& print) {

@@ -14,7 +14,7 @@ class Silence {
  public:
   Silence(double longest, double now) : longest_(longest), since_(now), spoke_(now) {}
 
-  /// A phase begins, and that is said.
+  /// A phase begins.
   void phase(const std::string& what, double now);
   /// Something was said.
   void spoke(double now) { spoke_ = now; }
@@ -38,8 +38,8 @@ class Heartbeat {
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
 
-  /// A phase begins; `print` says so.
-  void begin(const std::string& what, const std::function<void()>& print);
+  /// A phase begins; `print` says so, if there is one.
+  void begin(const std::string& what, const std::function<void()>& print = {});
   void speak(const std::function<void()>& print);
 
  private:

@@ -29,8 +29,8 @@ constexpr const char* exit_status = R"(Exit status:
        "interrupted": true)";
 
 constexpr const char* solve_notes =
-    "Progress is shown, every few seconds at least, when standard error is a terminal; the convergence table goes to "
-    "standard output.\n\n";
+    "Progress goes to standard error, a line every ten seconds at least; the convergence table goes to standard "
+    "output.\n\n";
 
 constexpr const char* check_exit_status = R"(Exit status:
   0    nothing wrong was found

@@ -15,12 +15,15 @@
 namespace signorini {
 
 namespace {
-constexpr double longest_silence = 5;  // seconds
+// Seconds.
+constexpr double longest_silence = 5, longest_silence_of_logs = 10;
 }  // namespace
 
 Progress::Progress(bool quiet) {
-  if (quiet || !isatty(STDERR_FILENO)) return;
-  heartbeat_ = std::make_unique<Heartbeat>(longest_silence, [this](const std::string& line) {
+  if (quiet) return;
+  terminal_ = isatty(STDERR_FILENO);
+  const double longest = terminal_ ? longest_silence : longest_silence_of_logs;
+  heartbeat_ = std::make_unique<Heartbeat>(longest, [this](const std::string& line) {
     clear();
     fmt::print(stderr, "{}\n", line);
   });
@@ -38,6 +41,7 @@ void Progress::clear() const {
 
 void Progress::phase(const std::string& what) const {
   if (!heartbeat_) return;
+  if (!terminal_) return heartbeat_->begin(what);
   heartbeat_->begin(what, [&] {
     clear();
     fmt::print(stderr, "{}\n", what);
@@ -45,7 +49,7 @@ void Progress::phase(const std::string& what) const {
 }
 
 void Progress::cycle(const IterationRecord& record) const {
-  if (!heartbeat_) return;
+  if (!heartbeat_ || !terminal_) return;
   heartbeat_->speak([&] {
     clear();
     fmt::print(stderr, "{}", convergence_row(record));

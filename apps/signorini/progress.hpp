@@ -9,9 +9,9 @@
 
 namespace signorini {
 
-/// Lines on standard error while long work goes on, if that is a terminal. Those of cycles take each other's place and
-/// go at the end: the table of results has them all. Where nothing else is printed for some seconds, a line says what
-/// goes on.
+/// Lines on standard error while long work goes on. On a terminal there is one for each phase and cycle; those of
+/// cycles take each other's place and go at the end: the table of results has them all. Where nothing is printed for
+/// some seconds, a line says what goes on; in files and pipes there are only these.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -25,6 +25,7 @@ class Progress {
  private:
   void clear() const;
 
+  bool terminal_ = false;
   mutable bool open_ = false;             // a cycle's line is the last one
   std::unique_ptr<Heartbeat> heartbeat_;  // none where nothing is shown
 };
