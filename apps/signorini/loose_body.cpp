@@ -137,7 +137,7 @@ void LooseBody<D, B>::require_minimum() const {
   if (!(work_.dot(motion) > enough * motion.norm())) return;
   throw Error(Exit::no_solution,
               fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "
-                          "which do work along this motion: {}",
+                          "which do work along this motion: {} (contact is linearised about the undeformed body)",
                           model_.origin, motions_.describe(free_ * motion)));
 }
 

@@ -121,6 +121,7 @@ class Continuation {
     own.method = "monotone";
     Summary found = MultigridIteration<B>(problem_, prolongations, x_, own, registry_).run(counted(), steps_);
     found.options.method = found.stages.front().method = method;
+    if (prolongations.empty()) found.iterations = found.stages.front().iterations = 0;  // no cycles
     done_.append(std::move(found));
   }
 
