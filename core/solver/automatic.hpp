@@ -27,8 +27,8 @@ inline constexpr double shift_if_singular = 1e-10;
 /// Where sets cycle: interior points, for up to so many unknowns and steps, each of which needs a factorisation.
 inline constexpr Index most_unknowns_where_sets_cycle = 50'000;
 inline constexpr int most_interior_points = 60;
-/// Where those fail: the coarse solver on the finest level, each step of which may need a dozen factorisations. (Slender
-/// bodies of 40 000 unknowns, of which rounding leaves no solution, took eight minutes for it.)
+/// Where those fail: the coarse solver on the finest level, each step of which may need a dozen factorisations.
+/// (Slender bodies of 40 000 unknowns, of which rounding leaves no solution, took eight minutes for it.)
 inline constexpr Index most_unknowns_for_newton = 12'000;
 inline constexpr int newton_steps = 40;
 /// Of the energy gained in the cycle before: where weights are blocks, bounds come back after a correction without them

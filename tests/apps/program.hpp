@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/folder.hpp"
+
 namespace signorini::test {
 
 namespace fs = std::filesystem;
@@ -31,15 +33,8 @@ struct Ended {
 };
 
 /// Each test in a folder of its own, where the program runs.
-class Program : public testing::Test {
+class Program : public Folder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "signorini-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
@@ -83,8 +78,6 @@ class Program : public testing::Test {
   nlohmann::json report(const std::string& folder) const {
     return nlohmann::json::parse(read(folder_ / folder / "report.json"));
   }
-
-  fs::path folder_;
 };
 
 /// A membrane over an obstacle; solved in a moment.

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "../mesh/mesh_checks.hpp"
+#include "tests/support/folder.hpp"
 
 namespace signorini {
 namespace {
@@ -18,15 +19,8 @@ namespace fs = std::filesystem;
 using test::input_error_of;
 using testing::HasSubstr;
 
-class Outputs : public testing::Test {
+class Outputs : public test::Folder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "signorini-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string read(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(folder_ / name).rdbuf();
@@ -39,8 +33,6 @@ class Outputs : public testing::Test {
     files.write(file, text);
     files.commit();
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Outputs, LinksAreFollowedAlsoToNowhere) {

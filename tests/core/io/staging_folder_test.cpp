@@ -11,27 +11,19 @@
 #include <fstream>
 
 #include "core/io/atomic_files.hpp"
+#include "tests/support/folder.hpp"
 
 namespace signorini {
 namespace {
 namespace fs = std::filesystem;
 
-class Staging : public testing::Test {
+class Staging : public test::Folder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "signorini-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::vector<std::string> found() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename());
     return names;
   }
-
-  fs::path folder_;
 };
 
 // As processes of two containers see each other's: the number in the name means nothing here.
