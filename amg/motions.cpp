@@ -200,9 +200,11 @@ class Motions<B>::Finder {
     const double small = rounding_of_motions * std::sqrt(static_cast<double>(n));
     for (Eigen::Index k = 0; k < value.cols(); ++k) {
       Eigen::VectorXd d = factor.solve(Eigen::VectorXd::Unit(n, factor.held()[static_cast<std::size_t>(k)]));
-      d -= factor.solve(S.selfadjointView<Eigen::Lower>() * d);
       d.normalize();
-      const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      d -= factor.solve(Sd - d.dot(Sd) * d);  // the spring would answer what is along d by more of d
+      d.normalize();
+      Sd = S.selfadjointView<Eigen::Lower>() * d;
       if (!(Sd.norm() <= small && d.dot(Sd) <= rounding_of_squares)) return false;
       value.col(k) = d;
     }

@@ -271,6 +271,27 @@ TEST(Motions, LargeBodiesWithAnyMethod) {
   }
 }
 
+// A (4, 1/8, 1/4) is zero, and the load does 4e-6 work along it.
+TEST(Motions, StiffSpringsDoNotHideThem) {
+  Matrix A(3, 3);
+  A.insert(0, 0) = 32;
+  A.insert(1, 1) = 32770;
+  A.insert(2, 2) = 0.5;
+  A.insert(0, 1) = A.insert(1, 0) = -1024;
+  A.insert(1, 2) = A.insert(2, 1) = -1;
+  const Eigen::Vector3d motion(4, 0.125, 0.25);
+  ASSERT_EQ((A * motion).norm(), 0);
+  const std::vector<double> lower{-infinity, 0, -infinity};
+  for (const double more : {1e-6, 0.0, -1e-6}) {
+    const std::vector<double> load{4 + more, -1, -63.5};
+    const Outcome outcome = BlackBox(A, 1).solve(load, lower).summary.outcome;
+    if (more > 0)
+      EXPECT_EQ(outcome, Outcome::unbounded);
+    else
+      EXPECT_EQ(outcome, Outcome::converged) << more;
+  }
+}
+
 TEST(Motions, NearlySingularIsNotSingular) {
   for (const double spring : {1e-9, 1e-12}) {
     Matrix A = neumann_laplacian(6);
