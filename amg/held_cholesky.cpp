@@ -104,11 +104,12 @@ Eigen::VectorXd HeldCholesky::solve(const Eigen::VectorXd& b) const {
   return order_.inverse() * x;
 }
 
-// The rows of L below the pivot have no part in it.
+// The rows of L below the pivot have no part in it; pivots that were replaced may have made them infinite.
 Eigen::VectorXd HeldCholesky::falling_direction() const {
   if (falling_ < 0) return {};
   Eigen::VectorXd x = Eigen::VectorXd::Unit(size(), falling_);
-  solve_transposed(x);
+  for (Eigen::Index i = falling_ - 1; i >= 0; --i)
+    for (Eigen::Index m = start_[i]; m < end_[i] && row_[m] <= falling_; ++m) x[i] -= value_[m] * x[row_[m]];
   return order_.inverse() * x;
 }
 

@@ -21,8 +21,10 @@ constexpr double rounding_of_loads = 256 * epsilon;   // of the work, relative t
 constexpr double negligible = 1e-9;                   // components of a motion, relative to the largest
 constexpr double rounding_of_projections = 1e-11;     // onto cones, of what is projected
 
-// What may be factorised: few vectors, or nearly a tree.
+// What may be factorised: few vectors or entries, or nearly a tree. To order them and to count the factor's takes
+// little time then; whether it is made, the count tells.
 constexpr std::size_t few_vectors = 4000;
+constexpr Offset few_entries = 300'000;
 constexpr Offset blocks_of_a_tree = 4;     // per vector
 constexpr std::size_t most_motions = 100;  // of one component
 
@@ -110,8 +112,8 @@ class Motions<B>::Finder {
 
   void settle(const Seen& seen) {
     if (seen.least == Dominance::none) {
-      const bool cheap =
-          vectors_.size() <= few_vectors || seen.blocks <= blocks_of_a_tree * static_cast<Offset>(vectors_.size());
+      const bool cheap = vectors_.size() <= few_vectors || seen.blocks * B * B <= few_entries ||
+                         seen.blocks <= blocks_of_a_tree * static_cast<Offset>(vectors_.size());
       if (!cheap || !factorise()) out_.complete_ = false;
     } else if (seen.least == Dominance::weak && (B > 1 || seen.most == Dominance::weak)) {
       sign_.resize(static_cast<std::size_t>(A_.size()) * B, 0);
@@ -198,9 +200,11 @@ class Motions<B>::Finder {
     const double small = rounding_of_motions * std::sqrt(static_cast<double>(n));
     for (Eigen::Index k = 0; k < value.cols(); ++k) {
       Eigen::VectorXd d = factor.solve(Eigen::VectorXd::Unit(n, factor.held()[static_cast<std::size_t>(k)]));
-      d -= factor.solve(S.selfadjointView<Eigen::Lower>() * d);
       d.normalize();
-      const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      d -= factor.solve(Sd - d.dot(Sd) * d);  // the spring would answer what is along d by more of d
+      d.normalize();
+      Sd = S.selfadjointView<Eigen::Lower>() * d;
       if (!(Sd.norm() <= small && d.dot(Sd) <= rounding_of_squares)) return false;
       value.col(k) = d;
     }

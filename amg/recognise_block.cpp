@@ -11,6 +11,7 @@ namespace {
 
 constexpr double most = 0.6, mostly_not = 0.25;  // of pairs of rows
 constexpr double no_small_part = 0.01;           // of couplings
+constexpr Index fewest_blocks = 4;               // below, chance makes rows alike
 /// Blocks that both rows are coupled to over those that one is. Zeros and single prescribed components take some away;
 /// neighbours in a seven-point stencil have 5 / 7.
 constexpr double alike = 0.75;
@@ -27,14 +28,16 @@ class Couplings {
   Couplings(const SparseRows& A, Index block, Index shift) : A_(A), block_(block), shift_(shift) {}
 
   /// Part of the pairs of rows i and i + 1, i + shift + 1 no multiple of the block, that are coupled to the same
-  /// blocks; pairs with rows that are coupled to nothing, such as those of prescribed values, do not count.
+  /// blocks; pairs with rows that are coupled to nothing, such as those of prescribed values, do not count, nor those
+  /// that are coupled to each other only: any two scalars may be.
   double part_alike() {
     Index found = 0, count = 0;
     for (Index i = 0; i + 1 < A_.rows; ++i) {
       if ((i + shift_ + 1) % block_ == 0 || alone(i) || alone(i + 1)) continue;
-      ++count;
       find(i, one_);
       find(i + 1, other_);
+      if (one_.size() == 1 && one_ == other_) continue;
+      ++count;
       both_.clear();
       std::ranges::set_intersection(one_, other_, std::back_inserter(both_));
       const auto either = static_cast<double>(one_.size() + other_.size() - both_.size());
@@ -87,7 +90,7 @@ double part_mixed(const SparseRows& A, Index block) {
 int recognised_block(const SparseRows& A) {
   if (!has_proper_rows(A)) return 1;
   for (const Index block : {3, 2})
-    if (A.rows % block == 0 && Couplings(A, block, 0).part_alike() >= most &&
+    if (A.rows % block == 0 && A.rows >= fewest_blocks * block && Couplings(A, block, 0).part_alike() >= most &&
         part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= no_small_part)
       return block;
   return 1;

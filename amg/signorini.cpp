@@ -134,6 +134,7 @@ int create(const Matrix& matrix, int block, const signorini_setup& setup, signor
   });
 }
 
+/// As the program's exit status.
 int status_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged:
@@ -143,13 +144,12 @@ int status_of(Outcome outcome) {
       return SIGNORINI_NO_SOLUTION;
     case Outcome::iteration_limit:
     case Outcome::inaccurate:
-      return SIGNORINI_ITERATION_LIMIT;
-    case Outcome::interrupted:
-      return SIGNORINI_INTERRUPTED;
     case Outcome::stuck:
     case Outcome::failed:
     case Outcome::violated:
-      break;  // no obstacle
+      return SIGNORINI_ITERATION_LIMIT;
+    case Outcome::interrupted:
+      return SIGNORINI_INTERRUPTED;
   }
   return SIGNORINI_FAILURE;
 }

@@ -19,7 +19,8 @@ extern "C" {
 enum {
   SIGNORINI_SOLVED = 0,
   SIGNORINI_BAD_INPUT = 2,       /* the matrix, a vector or an argument */
-  SIGNORINI_ITERATION_LIMIT = 3, /* or rounding leaves too large an error to claim anything; results are written */
+  SIGNORINI_ITERATION_LIMIT = 3, /* or the method cannot go on, or rounding leaves too large an error to claim anything;
+                                    results are written */
   SIGNORINI_NO_SOLUTION = 4,     /* bounds with nothing between them, energy unbounded below */
   SIGNORINI_FAILURE = 6,         /* memory, or a mistake of this library */
   SIGNORINI_INTERRUPTED = 130    /* by the monitor; results are written */

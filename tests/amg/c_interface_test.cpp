@@ -156,6 +156,25 @@ TEST_F(CSetup, TakesTheOptionsOfTheSolver) {
   }
 }
 
+// Active sets cannot go on where nothing holds the free part: the program's exit status is 3.
+TEST_F(CSetup, TellsWhereTheMethodCannotGoOn) {
+  const SparseRows floating = neumann_laplacian(10);
+  const signorini_rows rows = rows_of(floating);
+  const char* settings[] = {"method=pdas", nullptr};
+  setup.settings = settings;
+  ASSERT_EQ(signorini_create_with(&rows, 1, &setup, &solver), SIGNORINI_SOLVED) << signorini_message();
+  b.assign(121, 0.0);
+  b.front() = 1;
+  b.back() = -1;
+  lower.assign(121, -100);
+  x.assign(121, 7);
+  const BlackBox::Result expected = BlackBox(floating, 1, {.method = "pdas"}).solve(b, lower);
+  ASSERT_THAT(expected.summary.outcome, testing::AnyOf(Outcome::stuck, Outcome::failed)) << expected.summary.reason;
+  EXPECT_EQ(solve(), SIGNORINI_ITERATION_LIMIT);
+  EXPECT_EQ(signorini_message(), expected.summary.reason);
+  EXPECT_EQ(x, expected.x);
+}
+
 TEST_F(CSetup, TakesTheLevelsOfAnotherCode) {
   const int unknowns = A.rows;
   const std::vector<SparseRows> P{pairs((unknowns + 1) / 2), pairs(unknowns)};

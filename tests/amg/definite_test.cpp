@@ -63,6 +63,12 @@ double smallest_eigenvalue_of_string(Index n) {
   return 4 * std::pow(std::sin(std::numbers::pi / 2 / static_cast<double>(n + 1)), 2);
 }
 
+Matrix with_random_signs(Random& random, const Matrix& A) {
+  Eigen::VectorXd s(A.rows());
+  for (double& value : s) value = random.chance(0.5) ? 1 : -1;
+  return s.asDiagonal() * A * s.asDiagonal();
+}
+
 Matrix with_random_signs_and_units(Random& random, const Matrix& A) {
   Eigen::VectorXd s(A.rows());
   for (double& value : s) value = std::ldexp(random.chance(0.5) ? 1 : -1, random.below(9) - 4);
@@ -82,7 +88,7 @@ TEST(Definite, ShiftedStrings) {
     }
 }
 
-// Too large to be factorised: smooth directions are looked for level by level.
+// Most are too large to be factorised: smooth directions are looked for level by level.
 TEST(Definite, ShiftedMembranesAndBodies) {
   for (const int cells : {100, 250}) {
     const Matrix A = laplacian(cells);
@@ -94,11 +100,37 @@ TEST(Definite, ShiftedMembranesAndBodies) {
   }
   Model<2> model;
   model.fixes = {{on("bottom"), {Field(0), Field(0)}}};
-  const Matrix A = sparse(discretize<2, 2>(cube<2>(0, 1, 70), model).problem.A);
+  const Matrix A = sparse(discretize<2, 2>(cube<2>(0, 1, 120), model).problem.A);
   const double eigenvalue = smallest_eigenvalue(A);
   for (const double times : {1.05, 1.2, 1.5})
     EXPECT_THAT(refusal(shifted(A, times * eigenvalue), 2), HasSubstr("indefinite: d'Ad is -")) << times;
   EXPECT_EQ(refusal(shifted(A, 0.99 * eigenvalue), 2), "");
+}
+
+// What is smooth then changes its sign from one unknown to the next, and no level represents it.
+TEST(Definite, ShiftedMembranesWithRandomSigns) {
+  Random random(104);
+  const auto check = [&](int cells, std::initializer_list<double> shifts) {
+    const double eigenvalue = 8 * std::pow(std::sin(std::numbers::pi / 2 / cells), 2);
+    for (const double times : shifts)
+      EXPECT_THAT(refusal(with_random_signs(random, shifted(laplacian(cells), times * eigenvalue))),
+                  HasSubstr("indefinite: d'Ad is -"))
+          << cells << ", " << times;
+    EXPECT_EQ(refusal(with_random_signs(random, shifted(laplacian(cells), 0.99 * eigenvalue))), "") << cells;
+  };
+  check(81, {1.01, 1.05, 1.5, 2, 5, 20});
+  check(201, {5});
+}
+
+// Levels that see one unknown per row represent few of the smooth directions.
+TEST(Definite, ShiftedBodiesWithoutBlocks) {
+  Model<2> model;
+  model.fixes = {{on("bottom"), {Field(0), Field(0)}}};
+  const Matrix A = sparse(discretize<2, 2>(cube<2>(0, 1, 60), model).problem.A);
+  const double eigenvalue = smallest_eigenvalue(A);
+  for (const double times : {1.01, 1.2, 5.0})
+    EXPECT_THAT(refusal(shifted(A, times * eigenvalue)), HasSubstr("indefinite: d'Ad is -")) << times;
+  EXPECT_EQ(refusal(shifted(A, 0.99 * eigenvalue)), "");
 }
 
 // Q'DQ with random rotations.

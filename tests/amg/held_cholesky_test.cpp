@@ -61,6 +61,20 @@ TEST(HeldCholesky, TellsADirectionThatFalls) {
   EXPECT_LT(d.dot(S * d), 0);
 }
 
+// Pivots that are replaced make what follows them grow beyond all numbers.
+TEST(HeldCholesky, TellsADirectionThatFallsAmongMany) {
+  const Matrix given = with_unit_diagonal(laplacian(81));
+  for (const double shift : {1e-3, 1e-2, 0.1, 0.5}) {
+    Matrix S = given;
+    for (Eigen::Index i = 0; i < S.rows(); ++i) S.coeffRef(i, i) -= shift;
+    HeldCholesky factor;
+    factor.factorise(S);
+    const Eigen::VectorXd d = factor.falling_direction();
+    ASSERT_EQ(d.size(), S.rows()) << shift;
+    EXPECT_LT(d.dot(S * d), 0) << shift;
+  }
+}
+
 TEST(HeldCholesky, RefusesToTakeMoreOperationsThanAllowed) {
   const Matrix S = with_unit_diagonal(laplacian(12));
   HeldCholesky factor;

@@ -222,27 +222,73 @@ TEST(Motions, ElasticBodies) {
   EXPECT_EQ(solver.solve(corner, lower, upper).summary.outcome, Outcome::unbounded);
 }
 
+/// D A D: its motions are no constants, and its diagonal does not dominate.
+Matrix scaled_by_waves(const Matrix& A) {
+  const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>(A.rows()))).array() + 2;
+  return s.asDiagonal() * A * s.asDiagonal();
+}
+
+/// A body on a floor, and a load that pushes it sideways as well.
+template <int D>
+struct PushedAside {
+  Matrix A;
+  std::vector<double> load, floor;
+
+  explicit PushedAside(int cells) {
+    const Mesh<D> mesh = cube<D>(0, 1, cells);
+    A = sparse(stiffness<D, D>(mesh, Model<D>{}));
+    for (const Point<D>& x : mesh.points)
+      for (int k = 0; k < D; ++k) {
+        load.push_back(k + 1 < D ? 0.1 : -1);
+        floor.push_back(k + 1 == D && x[k] == 0 ? 0.0 : -infinity);
+      }
+  }
+};
+
+TEST(Motions, PlaneBodiesOfManyVectorsAreFactorised) {
+  EXPECT_TRUE(Motions<1>(block_matrix<1>(SparseRows(scaled_by_waves(neumann_laplacian(64))))).complete());
+  const PushedAside<2> body(64);
+  EXPECT_TRUE(Motions<2>(block_matrix<2>(SparseRows(body.A))).complete());
+  const Summary summary = BlackBox(body.A, 2).solve(body.load, body.floor).summary;
+  EXPECT_EQ(summary.outcome, Outcome::unbounded);
+  EXPECT_EQ(summary.iterations, 0);
+}
+
 // Too large to be factorised: iterates that run away tell.
 TEST(Motions, LargeBodiesWithAnyMethod) {
-  const int cells = 64;
-  const Eigen::Index n = (cells + 1) * (cells + 1);
-  const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>(n))).array() + 2;
-  const Matrix membrane = s.asDiagonal() * neumann_laplacian(cells) * s.asDiagonal();
-  const Mesh<2> mesh = cube<2>(0, 1, cells);
-  const Matrix body = sparse(stiffness<2, 2>(mesh, Model<2>{}));
-  std::vector<double> sideways, floor;
-  for (const Point<2>& x : mesh.points) {
-    sideways.insert(sideways.end(), {0.1, -1});
-    floor.insert(floor.end(), {-infinity, x[1] == 0 ? 0.0 : -infinity});
-  }
-  const std::vector<double> up(static_cast<std::size_t>(n), 1), lower(up.size(), 0);
-  EXPECT_FALSE(Motions<1>(block_matrix<1>(SparseRows(membrane))).complete());
+  const Matrix scalar = scaled_by_waves(sparse(stiffness<3, 1>(cube<3>(0, 1, 17), Model<1>{})));
+  const std::vector<double> up(static_cast<std::size_t>(scalar.rows()), 1), lower(up.size(), 0);
+  const PushedAside<2> body(105);
+  EXPECT_FALSE(Motions<1>(block_matrix<1>(SparseRows(scalar))).complete());
+  EXPECT_FALSE(Motions<2>(block_matrix<2>(SparseRows(body.A))).complete());
   for (const char* method : {"monotone", "tnnmg", "pgs", "pdas"}) {
     SolverOptions options;
     options.method = method;
     options.max_iterations = 50;
-    EXPECT_EQ(BlackBox(membrane, 1, options).solve(up, lower).summary.outcome, Outcome::unbounded) << name(options);
-    EXPECT_EQ(BlackBox(body, 2, options).solve(sideways, floor).summary.outcome, Outcome::unbounded) << name(options);
+    EXPECT_EQ(BlackBox(scalar, 1, options).solve(up, lower).summary.outcome, Outcome::unbounded) << name(options);
+    EXPECT_EQ(BlackBox(body.A, 2, options).solve(body.load, body.floor).summary.outcome, Outcome::unbounded)
+        << name(options);
+  }
+}
+
+// A (4, 1/8, 1/4) is zero, and the load does 4e-6 work along it.
+TEST(Motions, StiffSpringsDoNotHideThem) {
+  Matrix A(3, 3);
+  A.insert(0, 0) = 32;
+  A.insert(1, 1) = 32770;
+  A.insert(2, 2) = 0.5;
+  A.insert(0, 1) = A.insert(1, 0) = -1024;
+  A.insert(1, 2) = A.insert(2, 1) = -1;
+  const Eigen::Vector3d motion(4, 0.125, 0.25);
+  ASSERT_EQ((A * motion).norm(), 0);
+  const std::vector<double> lower{-infinity, 0, -infinity};
+  for (const double more : {1e-6, 0.0, -1e-6}) {
+    const std::vector<double> load{4 + more, -1, -63.5};
+    const Outcome outcome = BlackBox(A, 1).solve(load, lower).summary.outcome;
+    if (more > 0)
+      EXPECT_EQ(outcome, Outcome::unbounded);
+    else
+      EXPECT_EQ(outcome, Outcome::converged) << more;
   }
 }
 

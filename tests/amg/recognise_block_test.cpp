@@ -51,6 +51,25 @@ TEST(RecognisedBlock, IsOneForDenseAndBandedMatrices) {
   }
 }
 
+TEST(RecognisedBlock, IsOneForFullMatricesOfAnySize) {
+  for (int n = 1; n <= 24; ++n) {
+    Eigen::MatrixXd full = -Eigen::MatrixXd::Ones(n, n);
+    full.diagonal().setConstant(std::max(1, n - 1));  // two rows: those of a spring
+    const Matrix A = full.sparseView();
+    EXPECT_EQ(recognised_block(A), 1) << n;
+    for (const int bodies : {2, 3, 12}) EXPECT_EQ(recognised_block(copies(bodies, A)), 1) << bodies << " of " << n;
+  }
+}
+
+TEST(RecognisedBlock, IsOneForFewScalarsThatLookLikeBlocksByChance) {
+  Matrix pairs(4, 4);  // of each pair, both are tied to those of the other one, but not to each other
+  for (int i = 0; i < 4; ++i) {
+    pairs.insert(i, i) = 2;
+    for (const int j : {(i + 2) % 4, 3 - i}) pairs.insert(i, j) = -1;
+  }
+  EXPECT_EQ(recognised_block(pairs), 1);
+}
+
 TEST(RecognisedBlock, IsOneForTwoProblemsWithoutCouplingAndComponentsOneAfterTheOther) {
   const Matrix A = laplacian(8);
   const auto n = static_cast<int>(A.rows());

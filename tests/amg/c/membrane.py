@@ -10,7 +10,8 @@ library.signorini_destroy.argtypes = [c_void_p]
 
 class Summary(Structure):  # signorini_summary
     _fields_ = [("iterations", c_int), ("levels", c_int), ("residual", c_double), ("algebraic_error", c_double),
-                ("energy", c_double), ("rate", c_double)]
+                ("energy", c_double), ("rate", c_double), ("rounding_error", c_double),
+                ("limited_by_rounding", c_int32)]
 
 
 def call(function, *arguments):

@@ -21,11 +21,17 @@ readelf -d "$library" | grep -q 'SONAME.*\[libsignorini_c\.so\.1\]'
 # shellcheck disable=SC2046
 cc "$here/outside/membrane.c" -o "$scratch/membrane" $(pkg-config --cflags --libs signorini_c) -Wl,-rpath,"$libraries"
 "$scratch/membrane" >"$scratch/from_c"
-python3 "$here/membrane.py" "$library" >"$scratch/from_python"
+PYTHONMALLOC=debug python3 "$here/membrane.py" "$library" >"$scratch/from_python"
 diff "$scratch/from_c" "$scratch/from_python"
 test "$(grep -c carries "$scratch/from_c")" = 3
-python3 - "$here/membrane.py" "$source/docs/black_box.md" <<'EOF'
+python3 - "$here/membrane.py" "$source/docs/black_box.md" "$source/amg/signorini.h" <<'EOF'
+import re
 import sys
-example, page = (open(name).read() for name in sys.argv[1:])
+example, page, header = (open(name).read() for name in sys.argv[1:])
+struct = re.search(r"typedef struct \{([^}]*)\} signorini_summary;", re.sub(r"/\*.*?\*/", "", header, flags=re.S)).group(1)
+declared = re.findall(r"(\w+)\s*[,;]", struct)
+shown = re.findall(r'\("(\w+)", c_\w+\)', example)
+if declared != shown:
+    sys.exit(f"Summary in membrane.py has {shown}, signorini_summary {declared}")
 sys.exit(0 if example in page else "docs/black_box.md does not show membrane.py as it is tested")
 EOF
