@@ -48,6 +48,13 @@ void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
   }
 }
 
+/// Where a constructor failed: a fault of the plugin is told with its file.
+std::string blamed(const Status& status, const Scene::Obstacle& scene, const Registry& registry) {
+  if (status.code != static_cast<int>(Exit::plugin)) return scene.source.table;
+  return fmt::format("{}: {}: the constructor of '{}' failed", scene.source.table,
+                     registry.entry("obstacle", scene.type).file, scene.type);
+}
+
 /// The obstacle with the settings it holds on to.
 template <int B>
 ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry, double t) {
@@ -64,15 +71,16 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
                                    scene.options, scene.core_keys(), shape, t);
   Status status;
   std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
-  if (!status.ok()) throw_failure(status, origin);
+  check_asked(*settings, origin);  // first: what it then complains about may be due to it
+  if (!status.ok()) throw_failure(status, blamed(status, scene, registry));
   if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
   constexpr int most_directions = sizeof(ObstacleDescriptor::direction) / sizeof(ObstacleDescriptor::Direction);
   if (const int found = obstacle->descriptor().directions; found < 0 || found > most_directions)
     throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' describes {} directions, expected 0 to {}", origin,
                                           scene.type, found, most_directions));
-  check_asked(*settings);
+  check_asked(*settings, origin);
   std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
-  return {std::move(shared), scene.on, origin, std::move(shape)};
+  return {std::move(shared), scene.on, origin, std::move(shape), std::move(settings)};
 }
 
 template <int B>

@@ -59,7 +59,7 @@ constexpr const char* list_exit_status = R"(Exit status:
   0    listed, with the plugins that were rejected
   1    wrong usage
   2    standard output cannot be written
-  5    a plugin failed while it was loaded)";
+  5    SIGNORINI_PLUGIN_PATH is wrong, or a plugin ended the program)";
 
 struct Arguments {
   SolveArguments solve;

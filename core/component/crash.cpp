@@ -68,7 +68,7 @@ const char* name_of(int signal) {
     case SIGFPE:
       return "the plugin made a forbidden operation with integers (SIGFPE)";
     case SIGILL:
-      return "the plugin has an instruction that this processor does not know (SIGILL)";
+      return "the plugin met an illegal instruction: a trap, an abort, or code for another processor (SIGILL)";
     default:
       return "the plugin gave up (SIGABRT)";
   }
@@ -95,6 +95,11 @@ std::terminate_handler before = nullptr;
   std::abort();
 }
 
+// exit() runs on the stack of its caller: that of a plugin would pass for success.
+void on_exit_of_plugin() {
+  if (const Library* plugin = plugin_on_stack()) end_for(*plugin, "the plugin ended the program by exit()");
+}
+
 }  // namespace
 
 void name_plugins_that_crash() {
@@ -111,6 +116,8 @@ void name_plugins_that_crash() {
   action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
   sigemptyset(&action.sa_mask);
   for (std::size_t k = 0; k < std::size(caught); ++k) sigaction(caught[k], &action, &earlier[k]);
+  std::atexit(on_exit_of_plugin);
+  std::at_quick_exit(on_exit_of_plugin);
   before = std::set_terminate(on_terminate);
 }
 

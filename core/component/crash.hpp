@@ -3,9 +3,9 @@
 
 namespace signorini {
 
-/// From now on a fault or an exception that nothing catches while code of a plugin runs, or code that a plugin called,
-/// ends the program with Exit::plugin and a message that names the plugin's file. It is told by the stack, so that
-/// calls of plugins cost nothing more. Without a plugin on the stack the program ends as it would have.
+/// From now on a fault, an exception that nothing catches or a call of exit while code of a plugin runs, or code that a
+/// plugin called, ends the program with Exit::plugin and a message that names the plugin's file. It is told by the
+/// stack, so that calls of plugins cost nothing more. Without a plugin on the stack the program ends as it would have.
 void name_plugins_that_crash();
 
 /// The library of a plugin, as it was loaded.

@@ -5,9 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <set>
 
 #include "core/base/error.hpp"
@@ -15,6 +13,7 @@
 #include "core/component/elf.hpp"
 #include "core/component/handshake.hpp"
 #include "core/component/staging.hpp"
+#include "core/component/trial.hpp"
 
 namespace signorini {
 namespace {
@@ -51,24 +50,8 @@ std::vector<fs::path> folders_of_environment() {
   return folders;
 }
 
-// An exception that passes through dlopen leaves it broken: one that leaves a static constructor ends the program, but
-// it shall say why.
-class StaticConstructors {
- public:
-  explicit StaticConstructors(const fs::path& file) : before_(std::set_terminate(&die)) { loading_ = file; }
-  ~StaticConstructors() { std::set_terminate(before_); }
-
- private:
-  [[noreturn]] static void die() {
-    std::fprintf(stderr, "%s: an exception left its static constructors\n", loading_.c_str());
-    std::_Exit(static_cast<int>(Exit::plugin));
-  }
-
-  static inline fs::path loading_;
-  std::terminate_handler before_;
-};
-
-// Called through a pointer, for dlopen is declared not to throw and a compiler then may leave out what noexcept
+// An exception that passes through dlopen leaves it broken: one that leaves a static constructor ends the program. It
+// is called through a pointer, for dlopen is declared not to throw and a compiler then may leave out what noexcept
 // promises.
 void* dlopen_or_die(const char* file) noexcept {
   void* (*volatile function)(const char*, int) = &dlopen;
@@ -76,7 +59,6 @@ void* dlopen_or_die(const char* file) noexcept {
 }
 
 void* open(const fs::path& file) {
-  const StaticConstructors guard(file);
   if (void* library = dlopen_or_die(file.c_str())) return library;
   const char* reason = dlerror();
   std::string text = reason ? reason : "it cannot be loaded";
@@ -89,6 +71,32 @@ const sdk::Plugin& handshake(void* library, const fs::path& file) {
   if (!plugin) reject(file, "it exports no symbol 'signorini_plugin', so it is no signorini plugin");
   if (const std::string reason = incompatibilities(*plugin); !reason.empty()) reject(file, reason);
   return *plugin;
+}
+
+void add_all_of(const fs::path& file, Registry& registry) {
+  const sdk::Plugin& plugin = handshake(open(file), file);
+  remember_plugin(file, &plugin);
+  StagingRegistrar staging;
+  Status status;
+  plugin.register_all(staging, status);
+  if (!status.ok()) reject(file, fmt::format("its registration failed: {}", status.message));
+  try {
+    staging.commit(registry, file.string(), plugin.version, is_optimised(plugin));
+  } catch (const Error& error) {
+    reject(file, fmt::format("its registration failed: {}", error.what()));
+  }
+}
+
+// Static constructors and damaged files can end the program in ways that nothing in it can hold.
+void reject_fatal(const fs::path& file) {
+  const std::string end = fatal_end([&] {
+    Registry registry;
+    add_all_of(file, registry);
+  });
+  if (!end.empty())
+    reject(file, fmt::format("loading it leads to {}: the file is damaged, or its static constructors or its "
+                             "registration have a fault; build or copy it again",
+                             end));
 }
 
 }  // namespace
@@ -106,17 +114,8 @@ void PluginLoader::load(const fs::path& name) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) reject(file, "there is no such file");
   if (const std::string missing = missing_of_elf(file); !missing.empty()) reject(file, missing);
-  const sdk::Plugin& plugin = handshake(open(file), file);
-  remember_plugin(file, &plugin);
-  StagingRegistrar staging;
-  Status status;
-  plugin.register_all(staging, status);
-  if (!status.ok()) reject(file, fmt::format("its registration failed: {}", status.message));
-  try {
-    staging.commit(registry_, file.string(), plugin.version, is_optimised(plugin));
-  } catch (const Error& error) {
-    reject(file, fmt::format("its registration failed: {}", error.what()));
-  }
+  reject_fatal(file);
+  add_all_of(file, registry_);
 }
 
 void PluginLoader::require(const std::string& id) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -84,6 +85,7 @@ class CompiledSettings final : public Settings {
     for (const OptionSpec& spec : specs) {
       const RawValue* raw = given.find(spec.name);
       Option& option = options_[spec.name];
+      option.type = spec.type;
       option.given = raw != nullptr;
       if (raw)
         option.value = typed(*raw, spec);
@@ -106,6 +108,7 @@ class CompiledSettings final : public Settings {
 
   bool has(const char* name) const noexcept override {
     const auto found = options_.find(name);
+    if (found == options_.end()) remember_wrong(name);
     return found != options_.end() && found->second.given;
   }
   bool flag(const char* name) const noexcept override { return get<bool>(name); }
@@ -135,20 +138,45 @@ class CompiledSettings final : public Settings {
 
  private:
   struct Option {
+    OptionType type = OptionType::text;
     bool given = false;
     Value value;
   };
 
+  template <class T>
+  static bool reads_as(OptionType type) noexcept {
+    switch (type) {
+      case OptionType::boolean:
+        return std::is_same_v<T, bool>;
+      case OptionType::integer:
+        return std::is_same_v<T, long>;
+      case OptionType::number:
+        return std::is_same_v<T, double>;
+      case OptionType::text:
+        return std::is_same_v<T, std::string>;
+      case OptionType::field:
+      case OptionType::vector:
+        return std::is_same_v<T, std::vector<Field>>;
+    }
+    return false;
+  }
+
   // An option without value or default reads as zero or empty. Names and types come from the component's own table, so
-  // anything else is a bug of the component, for check_asked().
+  // anything else is a bug of the component, for check_asked(), whether the user gave the option or not.
   template <class T>
   const T& get(const char* name) const noexcept {
     static const T nothing{};
     const auto found = options_.find(name);
-    if (found != options_.end() && std::holds_alternative<std::monostate>(found->second.value)) return nothing;
-    const T* value = found == options_.end() ? nullptr : std::get_if<T>(&found->second.value);
-    if (!value && !wrong_.exchange(true)) std::strncpy(wrong_name_, name, sizeof wrong_name_ - 1);
+    if (found == options_.end() || !reads_as<T>(found->second.type)) {
+      remember_wrong(name);
+      return nothing;
+    }
+    const T* value = std::get_if<T>(&found->second.value);
     return value ? *value : nothing;
+  }
+
+  void remember_wrong(const char* name) const noexcept {
+    if (!wrong_.exchange(true)) std::strncpy(wrong_name_, name, sizeof wrong_name_ - 1);
   }
 
   std::string component_;
@@ -168,9 +196,10 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
   return std::make_shared<CompiledSettings>(component, specs, given, std::move(shape), t);
 }
 
-void check_asked(const Settings& settings) {
+void check_asked(const Settings& settings, std::string_view origin) {
   const auto* compiled = dynamic_cast<const CompiledSettings*>(&settings);
-  if (const std::string wrong = compiled ? compiled->complaint() : ""; !wrong.empty()) throw Error(Exit::plugin, wrong);
+  if (const std::string wrong = compiled ? compiled->complaint() : ""; !wrong.empty())
+    throw Error(Exit::plugin, origin.empty() ? wrong : fmt::format("{}: {}", origin, wrong));
 }
 
 }  // namespace signorini

@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/scene/raw.hpp"
 #include "core/sdk/settings.hpp"
@@ -20,6 +21,7 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
 
 /// Throws Error(Exit::plugin) where a component asked these settings for an option that its table does not have, or for
 /// one as of another type, naming it.
-void check_asked(const Settings& settings);
+/// @param origin of the component, for the message
+void check_asked(const Settings& settings, std::string_view origin = {});
 
 }  // namespace signorini

@@ -7,6 +7,7 @@
 #include "core/algebra/local_coordinates.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
+#include "core/component/settings.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 
@@ -80,6 +81,7 @@ class Collector {
     std::fill(constraints_.begin(), constraints_.end(), LocalConstraint<B>{});
     Status status;
     term.obstacle->assemble(vertices_.data(), vertices_.size(), constraints_.data(), status);
+    if (term.settings) check_asked(*term.settings, term.origin);
     if (!status.ok()) throw_failure(status, term.origin);
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       check_directions(numbers_[i], constraints_[i].directions);

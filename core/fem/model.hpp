@@ -44,7 +44,9 @@ struct ObstacleTerm {
   std::optional<Selection> on;
   std::string origin;
   /// Of a rigid obstacle: bounds at a vertex are its distances to this shape.
-  std::shared_ptr<const DistanceFunction> shape;
+  std::shared_ptr<const DistanceFunction> shape = {};
+  /// Where it has any: they know what the obstacle wrongly asked of them.
+  std::shared_ptr<const Settings> settings = {};
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.

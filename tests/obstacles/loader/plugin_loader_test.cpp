@@ -1,6 +1,7 @@
 // The plugin loader against sound and broken shared libraries.
 #include "core/component/plugin_loader.hpp"
 
+#include <elf.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/component/crash.hpp"
@@ -125,11 +127,59 @@ TEST(PluginLoader, RejectsALibraryThatIsNoPlugin) {
 
 TEST(PluginLoader, RejectsAFileThatIsNoLibrary) { EXPECT_THAT(rejection("not_elf"), HasSubstr("file too short")); }
 
-TEST(PluginLoaderDeathTest, ALibraryThatThrowsWhileBeingLoadedIsNamedBeforeTheProgramEnds) {
+TEST(PluginLoader, LibrariesThatEndAProgramWhileBeingLoadedAreRejectedAndTheOthersListed) {
   Registry registry;
-  PluginLoader loader(registry, {fixtures / "fatal"});
-  EXPECT_EXIT(loader.require("throwing_library"), testing::ExitedWithCode(static_cast<int>(Exit::plugin)),
-              "libsignorini_obstacle_throwing_library.so: an exception left its static constructors");
+  PluginLoader loader(registry, {fixtures / "fatal", fixtures});
+  const auto rejected = loader.load_all();
+  const auto reason = [&](const std::string& id) -> std::string {
+    for (const auto& found : rejected)
+      if (found.file == fixtures / "fatal" / library(id)) return found.reason;
+    return "not rejected";
+  };
+  EXPECT_THAT(reason("throwing_library"), HasSubstr("an exception that nothing catches"));
+  EXPECT_THAT(reason("crashing_library"), HasSubstr("a crash (Segmentation fault)"));
+  EXPECT_THAT(reason("exiting_library"), HasSubstr("ended with status 0"));
+  EXPECT_TRUE(registry.has("obstacle", "good"));
+}
+
+// Overwrites an entry of the table that the loader of the system reads; returns whether there is one.
+bool damage(const fs::path& file, Elf64_Sxword tag, Elf64_Xword value) {
+  std::fstream io(file, std::ios::in | std::ios::out | std::ios::binary);
+  const auto read = [&](auto& item, std::uint64_t at) {
+    io.seekg(static_cast<std::streamoff>(at));
+    io.read(reinterpret_cast<char*>(&item), sizeof item);
+  };
+  Elf64_Ehdr head{};
+  read(head, 0);
+  for (unsigned k = 0; k < head.e_phnum; ++k) {
+    Elf64_Phdr segment{};
+    read(segment, head.e_phoff + k * sizeof segment);
+    if (segment.p_type != PT_DYNAMIC) continue;
+    for (std::uint64_t at = segment.p_offset; at < segment.p_offset + segment.p_filesz; at += sizeof(Elf64_Dyn)) {
+      Elf64_Dyn entry{};
+      read(entry, at);
+      if (entry.d_tag != tag) continue;
+      entry.d_un.d_val = value;
+      io.seekp(static_cast<std::streamoff>(at));
+      io.write(reinterpret_cast<const char*>(&entry), sizeof entry);
+      return io.good();
+    }
+  }
+  return false;
+}
+
+// The loader of the system crashes of the first and ends the program with status 127 for the second.
+TEST(PluginLoader, RejectsADamagedLibrary) {
+  for (const auto& [tag, value] : {std::pair{DT_SYMTAB, 1ull << 40}, std::pair{DT_RELACOUNT, 1ull << 40}}) {
+    const Folder folder;
+    folder.add("good", "good");
+    ASSERT_TRUE(damage(folder.path() / library("good"), tag, value));
+    Registry registry;
+    PluginLoader loader(registry, {folder.path()});
+    const auto rejected = loader.load_all();
+    ASSERT_EQ(rejected.size(), 1u) << tag;
+    EXPECT_THAT(rejected.front().reason, HasSubstr("the file is damaged")) << tag;
+  }
 }
 
 /// Assembles the obstacle of the fixture in that way.
@@ -156,6 +206,10 @@ TEST(PluginLoaderDeathTest, AVirtualFunctionThatThrowsOrCrashesEndsTheProgramNam
   EXPECT_EXIT(misbehave("segv"), failed, "misbehaving.so: the plugin reached outside its memory");
   EXPECT_EXIT(misbehave("divide"), failed, "misbehaving.so: the plugin made a forbidden operation");
   EXPECT_EXIT(misbehave("abort"), failed, "misbehaving.so: the plugin gave up");
+  EXPECT_EXIT(misbehave("trap"), failed, "misbehaving.so: the plugin met an illegal instruction");
+  EXPECT_EXIT(misbehave("exit"), failed, "misbehaving.so: the plugin ended the program");
+  EXPECT_EXIT(misbehave("quick_exit"), failed, "misbehaving.so: the plugin ended the program");
+  EXPECT_EXIT((name_plugins_that_crash(), std::exit(0)), testing::ExitedWithCode(0), "");
   EXPECT_EXIT((name_plugins_that_crash(), std::abort()), testing::KilledBySignal(SIGABRT), "");
   misbehave("behave");
 }
