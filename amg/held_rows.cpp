@@ -12,7 +12,7 @@ void HeldRows<B>::hold(DiscreteProblem<B>& problem, std::vector<Flags> fixed) {
   put_back(problem.A);
   vectors_.clear();
   value_.clear();
-  problem.fixed = std::move(fixed);
+  problem.fixed.swap(fixed);
   if (std::ranges::all_of(problem.fixed, [](Flags f) { return f == 0; })) return;
   const BlockMatrix<B>& A = problem.A;
   for (Index p = 0; p < A.size(); ++p) {
