@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/core/mesh/mesh_checks.hpp"
+#include "tests/support/folder.hpp"
 
 namespace signorini {
 namespace {
@@ -161,15 +162,8 @@ TEST(MatrixMarket, AVectorHasTheSizeThatIsExpected) {
             "b.mtx:4: the entry in row 3 stands twice");
 }
 
-class MatrixMarketFile : public testing::Test {
+class MatrixMarketFile : public test::Folder {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "signorini-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// Packed by gzip, in two members.
   std::filesystem::path packed(const std::string& text) const {
     const auto path = folder_ / "x.mtx.gz";
@@ -181,8 +175,6 @@ class MatrixMarketFile : public testing::Test {
     }
     return path;
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(MatrixMarketFile, MayBePacked) {
