@@ -225,18 +225,21 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
 // A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
 // are its solutions, and a step that is long enough ends in one.
 template <int D, int B>
-void LooseBody<D, B>::fall(std::vector<double>& x) const {
-  if (free_.cols() == 0 || !(work_.norm() > negligible * most_work_)) return;
-  std::vector<double> rigid = discretization_.problem.start;
-  for (std::vector<double>* from : {&x, &rigid}) {
-    make_admissible(discretization_.problem, *from);
-    let_fall(*from);
-  }
-  if (lowers(discretization_.problem, rigid, x)) x = std::move(rigid);
+std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
+  if (free_.cols() == 0 || !(work_.norm() > negligible * most_work_)) return {};
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  std::vector<double> rigid = problem.start, way(x.size());
+  make_admissible(problem, x);
+  make_admissible(problem, rigid);
+  let_fall(x);
+  add(let_fall(rigid), way);
+  if (lowers(problem, rigid, x)) x = std::move(rigid);
+  return way;
 }
 
+// The motion by which it moves x.
 template <int D, int B>
-void LooseBody<D, B>::let_fall(std::vector<double>& x) const {
+Eigen::VectorXd LooseBody<D, B>::let_fall(std::vector<double>& x) const {
   constexpr int steps = 60;
   std::vector<Slab> slabs;
   for (Room& room : rooms(x)) slabs.push_back({std::move(room.row), room.lower, room.upper});
@@ -249,6 +252,7 @@ void LooseBody<D, B>::let_fall(std::vector<double>& x) const {
   }
   move(free_ * way, x);
   touch(negligible * way.norm(), x);
+  return free_ * way;
 }
 
 // What rounding keeps off an obstacle that the body has come to.
@@ -264,9 +268,8 @@ void LooseBody<D, B>::touch(double rounding, std::vector<double>& x) const {
 }
 
 template <int D, int B>
-void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x) const {
+void LooseBody<D, B>::add(const Eigen::VectorXd& motion, std::vector<double>& x) const {
   const DiscreteProblem<B>& problem = discretization_.problem;
-  const Constraints<B>& c = problem.constraints;
   const double size = motion.norm();
   for (Index p = 0; p < mesh_.vertices(); ++p)
     for (int k = 0; k < B; ++k) {
@@ -274,6 +277,13 @@ void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x
       const double by = motions_.along(problem.frames, p, k) * motion;
       if (std::abs(by) > negligible * size) x[Offset{p} * B + k] += by;
     }
+}
+
+// As far as the bounds allow.
+template <int D, int B>
+void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x) const {
+  add(motion, x);
+  const Constraints<B>& c = discretization_.problem.constraints;
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       double& value = x[Offset{c.vector[slot]} * B + k];

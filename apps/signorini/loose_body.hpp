@@ -22,7 +22,8 @@ class LooseBody {
 
   /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where the
   /// loads take it. What is stiff comes to rest next to that, and iterations find it slowly.
-  void fall(std::vector<double>& x) const;
+  /// @return the way of the undeformed body there (local coordinates); empty: it stays where it is
+  std::vector<double> fall(std::vector<double>& x) const;
 
   /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
   /// least mean square. What the obstacles press on keeps its contact.
@@ -40,13 +41,14 @@ class LooseBody {
   };
 
   void add_work();
-  void let_fall(std::vector<double>& x) const;
+  Eigen::VectorXd let_fall(std::vector<double>& x) const;
   void touch(double rounding, std::vector<double>& x) const;
   std::vector<Room> rooms(const std::vector<double>& x) const;
   Eigen::MatrixXd pressed(const std::vector<double>& x) const;
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
   Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                const Eigen::MatrixXd& costless) const;
+  void add(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
 
   const Mesh<D>& mesh_;

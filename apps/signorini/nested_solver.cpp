@@ -9,6 +9,7 @@
 #include "amg/nested_start.hpp"
 #include "apps/signorini/interrupt.hpp"
 #include "apps/signorini/loose_body.hpp"
+#include "apps/signorini/moved_problem.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
 #include "core/mesh/stretch.hpp"
@@ -199,10 +200,11 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
 
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
-                                     Solution<B>& solution) {
+                                     const LooseBody<D, B>& body, Solution<B>& solution) {
   stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
+  MovedProblem<B> moved(solution.discretization.problem, body.fall(solution.x), solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem,
                                            std::span(prolongations_).first(algebraic_ + level - first_), solution.x,
@@ -210,6 +212,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
+  moved.back();
   solution.discretization.problem.galerkin = {};
   if (finest) galerkin_.clear();
   solution.summary.finest_level = static_cast<int>(level - first_);
@@ -224,10 +227,9 @@ template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
   const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
   body.require_minimum();
-  body.fall(solution.x);
   SolverOptions options = options_;
   if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
-  solve_level(model, hierarchy_.levels.size() - 1, options, solution);
+  solve_level(model, hierarchy_.levels.size() - 1, options, body, solution);
   if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
 }
 
@@ -239,8 +241,7 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
   try {
     const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
-    LooseBody<D, B>(hierarchy_.levels[level], model, solution.discretization).fall(solution.x);
-    solve_level(model, level, options, solution);
+    solve_level(model, level, options, {hierarchy_.levels[level], model, solution.discretization}, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
     return true;

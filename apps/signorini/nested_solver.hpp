@@ -16,6 +16,9 @@
 
 namespace signorini {
 
+template <int D, int B>
+class LooseBody;
+
 /// A problem on the finest level with its solution in local coordinates.
 template <int B>
 struct Solution {
@@ -64,7 +67,8 @@ class NestedSolver {
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
-  void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, Solution<B>& solution);
+  void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>& body,
+                   Solution<B>& solution);
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
   const MeshHierarchy<D>& hierarchy_;

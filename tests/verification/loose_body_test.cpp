@@ -291,6 +291,27 @@ TEST(LooseBody, LiftsOff) {
   expect_lifts_off<3>({0, 1, 2});
 }
 
+/// What a fall onto the plane has to do with the deformation there: nothing.
+template <int D>
+void expect_lands_alike(int refinements) {
+  const auto near = run<D, D>(lifted<D>(-1e-6, 0), {uniform(refinements)});
+  for (const double gap : {1.0, 1e3}) {
+    SCOPED_TRACE(fmt::format("{}D, gap {}", D, gap));
+    const auto far = run<D, D>(lifted<D>(-1e-6, gap), {uniform(refinements)});
+    EXPECT_EQ(far.summary().outcome, Outcome::converged);
+    EXPECT_LE(far.summary().iterations, near.summary().iterations + 1);
+    double off = 0;
+    for (Index p = 0; p < near.mesh().vertices(); ++p)
+      off = std::max(off, std::abs(far.u()[D * p + D - 1] + gap - near.u()[D * p + D - 1]));
+    EXPECT_LE(off, 1e-15 * gap + 1e-14);
+  }
+}
+
+TEST(LooseBody, LandsAlikeFromAnyHeight) {
+  expect_lands_alike<2>(2);
+  expect_lands_alike<3>(1);
+}
+
 template <int D>
 void expect_slips(const Motion<D>& motion, int refinements) {
   const Resting<D> block(motion, 2);

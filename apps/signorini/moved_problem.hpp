@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "core/solver/discrete_problem.hpp"
+
+namespace signorini {
+
+/// A problem as seen by a body that has moved rigidly: what is sought is what is left of its displacement. A stiff body
+/// falls far and deforms little. Rounding of the whole way would hide the forces that deform it, and a residual of the
+/// size of that rounding would be all that iterations can reach; what is left has only its own.
+template <int B>
+class MovedProblem {
+ public:
+  /// Takes `way` off the bounds and off x. Keeps references to both until back(), which is called once.
+  /// @param way a motion without energy of what is not prescribed, local coordinates; empty: none
+  MovedProblem(DiscreteProblem<B>& problem, std::vector<double> way, std::vector<double>& x);
+
+  /// The problem as it was, and x with the way added. What is at a bound stays there.
+  void back();
+
+ private:
+  DiscreteProblem<B>& problem_;
+  std::vector<double> way_;
+  std::vector<double>& x_;
+  std::vector<double> lower_, upper_;  // of the problem as it was
+  double prescribed_work_ = 0;
+};
+
+}  // namespace signorini
