@@ -6,6 +6,7 @@
 
 #include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
+#include "core/solver/rounding.hpp"
 
 namespace signorini {
 
@@ -66,6 +67,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   ++cycles_;
   sums = {};
   recombination_.begin();
+  amplification_ = recombination_.amplification();
   const CycleReport cycle = multigrid_.cycle(
       this->x_.data(),
       [this](Index first, Index last) {
@@ -151,15 +153,15 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
     return false;
   }
   if (recombination_.propose(this->x_before_, this->r_before_, this->x_, this->r_, this->sums_.gain) &&
-      take_combination())
+      take_combination(cycle))
     return true;
   recombination_.reset();
   return false;
 }
 
-// If it is admissible and has the lower energy.
+// If it is admissible and has the lower energy, by more than what rounding may make of extrapolated residuals.
 template <int B>
-bool MultigridIteration<B>::take_combination() {
+bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   x_trial_.resize(this->x_.size());
   r_trial_.resize(this->x_.size());
   Sums sums;
@@ -171,6 +173,7 @@ bool MultigridIteration<B>::take_combination() {
   });
   if (!admissible) return false;
   if (!(sums.gain >= this->sums_.gain)) return false;
+  if (!(sums.gain > noise * sums.moved * cycle.rounding * recombination_.amplification())) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);
   this->sums_ = sums;
@@ -187,18 +190,15 @@ void MultigridIteration<B>::add_gain() {
   estimate_.add(sums.gain, std::sqrt(std::max(sums.correction, 0.0)));
 }
 
-// The residuals are exact to rounding of the forces in them.
+// By the residuals of the last two iterates; that of the first one may be extrapolated.
 template <int B>
 double MultigridIteration<B>::rounding_of_gain() const {
   const DiscreteProblem<B>& problem = this->problem_;
-  double moved = 0, force = 0;
-  for (std::size_t i = 0; i < this->x_.size(); ++i) {
-    if (problem.fixed[i / B] >> (i % B) & 1u) continue;
-    moved += std::abs(this->x_[i] - this->x_before_[i]);
-    const double stiffness = problem.A.diagonal(static_cast<Index>(i / B))[i % B * (B + 1)];
-    force = std::max(force, std::abs(problem.b[i]) + stiffness * std::abs(this->x_[i]));
-  }
-  return 1e-13 * moved * force;
+  const double work = rounding_of_work<B>(problem.fixed, 0, problem.A.size(), [&](Index p, int k) {
+    return std::abs(problem.b[Offset{p} * B + k]) + terms_of_product(problem.A, this->x_.data(), p, k) +
+           terms_of_product(problem.A, this->x_before_.data(), p, k);
+  });
+  return this->sums_.moved * work * (1 + amplification_);
 }
 
 template class MultigridIteration<1>;

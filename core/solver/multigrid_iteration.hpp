@@ -27,7 +27,7 @@ class MultigridIteration final : public Iteration<B> {
   void compare_gains(bool free);
   bool leaves_to_active_sets() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
-  bool take_combination();
+  bool take_combination(const CycleReport& cycle);
   void add_gain();
   double rounding_of_gain() const;
 
@@ -39,6 +39,7 @@ class MultigridIteration final : public Iteration<B> {
   bool may_turn_;       // "auto" may make corrections without bounds
   bool rests_ = false;  // few phases changed in the last cycle
   bool bounds_pay_ = true;
+  double amplification_ = 0;                               // of rounding in the residual that the last cycle began with
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;

@@ -1,6 +1,7 @@
 #include "core/solver/recombination.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace signorini {
 
@@ -41,8 +42,13 @@ bool Recombination<B>::propose(const std::vector<double>& x_before, const std::v
     energy += d * Ad;
   }
   newest.energy = energy;
+  double noise = 1;  // of the residuals in Ap but for r_before
+  if (known_ > 0) noise += std::abs(beta1) * aged(1).noise;
+  if (known_ > 1) noise += std::abs(beta2) * aged(2).noise;
+  newest.noise = noise + carried_;
   step_ = force / energy;
   if (!(energy > 0) || !(0.5 * step_ * force >= cycle_gain)) return false;
+  carried_ = std::abs(1 - step_) * carried_ + std::abs(step_) * noise;
   known_ = std::min(known_ + 1, depth);
   return true;
 }

@@ -16,7 +16,10 @@ class Recombination {
   explicit Recombination(const Constraints<B>& constraints) : constraints_(constraints) {}
 
   /// Forgets all directions: the phases have changed.
-  void reset() { known_ = 0; }
+  void reset() {
+    known_ = 0;
+    carried_ = 0;
+  }
   /// A cycle begins.
   void begin() { along_ = {}; }
   /// Adds up what propose() needs of the step x - x_before at the vectors first <= p < last, while it is at hand.
@@ -26,6 +29,9 @@ class Recombination {
   /// not be so: the caller compares. What is not taken has to be forgotten by reset().
   bool propose(const std::vector<double>& x_before, const std::vector<double>& r_before, const std::vector<double>& x,
                const std::vector<double>& r, double cycle_gain);
+  /// What rounding does to the residual of that minimiser, as a multiple of what it does to one that is computed from
+  /// an iterate: differences of residuals are extrapolated, from one to the next. reset() ends that.
+  double amplification() const { return carried_; }
   /// Writes that minimiser and its residual, at the vectors first <= p < last. Returns whether it is within the bounds
   /// there.
   bool combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first, Index last,
@@ -36,6 +42,7 @@ class Recombination {
   struct Direction {
     std::vector<double> p, Ap;
     double energy = 0;  // p'Ap
+    double noise = 0;   // of Ap, in units of what rounding does to a residual
   };
 
   bool admissible(const std::vector<double>& x, Index first, Index last) const;
@@ -47,6 +54,7 @@ class Recombination {
   int known_ = 0, next_ = 0;
   std::array<double, depth> along_{};  // (x - x_before)'Ap of the directions known before the cycle
   double step_ = 0;
+  double carried_ = 0;  // noise of the residual that was combined last, in the same units
 };
 
 }  // namespace signorini

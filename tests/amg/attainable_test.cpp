@@ -76,6 +76,23 @@ TEST(Attainable, ErrorsOfIllConditionedChainsAreContained) {
   EXPECT_GT(limited, 30);
 }
 
+// Accelerated cycles extrapolate residuals, and what rounding does to them: that must not carry the iterate away.
+TEST(Attainable, EnergiesOfCyclesFallOnIllConditionedChains) {
+  Random random(92);
+  int steps = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Chain chain(random, 23, 45 + trial % 10);
+    const Summary s = BlackBox(chain.matrix()).solve(chain.load).summary;
+    for (std::size_t k = 1; k < s.history.size(); ++k) {
+      const IterationRecord &before = s.history[k - 1], &now = s.history[k];
+      if (before.stage != now.stage || !s.stages[now.stage].linear.empty()) continue;  // no cycles
+      EXPECT_LE(now.energy, before.energy + 1e-13 * std::abs(now.energy)) << "chain " << trial << ", step " << k;
+      ++steps;
+    }
+  }
+  EXPECT_GT(steps, 1000);
+}
+
 /// The solution of A x = b by refinement with residuals in extended precision, and its distance from x, relative, in
 /// the energy norm.
 double error_of(const Matrix& A, const std::vector<double>& b, const std::vector<double>& x) {
