@@ -14,6 +14,8 @@ namespace {
 
 // Part of the bound of rounding errors above which a gain counts: most of them cancel.
 constexpr double noise = 0.1;
+// How much of that bound there mostly is, times the square root of the number of forces: their errors add up at random.
+constexpr double typical = 0.01;
 
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
@@ -173,7 +175,8 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   });
   if (!admissible) return false;
   if (!(sums.gain >= this->sums_.gain)) return false;
-  if (!(sums.gain > noise * sums.moved * cycle.rounding * recombination_.amplification())) return false;
+  const double rounding = typical * cycle.rounding / std::sqrt(static_cast<double>(this->x_.size()));
+  if (!(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);
   this->sums_ = sums;

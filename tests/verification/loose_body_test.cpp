@@ -510,8 +510,8 @@ TEST(LooseBody, IsSymmetricWhereTheSceneIs) {
       off = std::max({off, std::abs(r.u()[2 * p] + r.u()[2 * q]), std::abs(r.u()[2 * p + 1] - r.u()[2 * q + 1])});
     }
     EXPECT_LE(off, 1e-8 * largest) << refinement << " refinements";
-    show("{} refinements: asymmetry {:.1e} of {:.2e}, {} undetermined\n", refinement, off, largest,
-         r.solution.undetermined.size());
+    show("{} refinements: {} cycles, asymmetry {:.1e} of {:.2e}, {} undetermined\n", refinement, r.summary().iterations,
+         off, largest, r.solution.undetermined.size());
   }
 }
 
