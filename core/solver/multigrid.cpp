@@ -182,7 +182,6 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     down.run(level.chunks, crew_);
     if (finest) update_phases(level, 0, level.vectors);
     if (!components_.coarse->solve(level) && lasting_ == 0) report_.bounded = false;
-    if (finest) report_.rounding = rounding_of_work(level);
     level.renewed.clear();
   } else {
     smoothers_[k]->add_passes(settings_.pre, Side::descend, down);

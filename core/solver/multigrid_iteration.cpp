@@ -175,8 +175,10 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   });
   if (!admissible) return false;
   if (!(sums.gain >= this->sums_.gain)) return false;
-  const double rounding = typical * cycle.rounding / std::sqrt(static_cast<double>(this->x_.size()));
-  if (!(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
+  const double bound = cycle.rounding > 0 ? cycle.rounding : rounding_of_work(multigrid_.finest());  // a single level
+  const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));
+  const bool falls_far = sums.gain > noise * std::abs(sums.products.bx);  // perhaps for ever, which is to be found out
+  if (!falls_far && !(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);
   this->sums_ = sums;
