@@ -1,6 +1,7 @@
 #include "amg/held_cholesky.hpp"
 
 #include <Eigen/OrderingMethods>
+#include <algorithm>
 
 namespace signorini {
 
@@ -100,6 +101,11 @@ typename BasicHeldCholesky<Real>::Vector BasicHeldCholesky<Real>::solve(const Ve
   for (Eigen::Index i = 0; i < n; ++i) x[i] /= pivot_[i];
   solve_transposed(x);
   return order_.inverse() * x;
+}
+
+template <class Real>
+Real BasicHeldCholesky<Real>::smallest_pivot() const {
+  return pivot_.empty() ? 1 : *std::min_element(pivot_.begin(), pivot_.end());  // 1 where held
 }
 
 // The rows of L below the pivot have no part in it; pivots that were replaced may have made them infinite.

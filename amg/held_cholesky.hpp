@@ -25,6 +25,8 @@ class BasicHeldCholesky {
   Eigen::Index size() const { return static_cast<Eigen::Index>(pivot_.size()); }
   /// Each spring stands for one motion without energy: that which it alone resists, solve() of its unit vector.
   const std::vector<Eigen::Index>& held() const { return held_; }
+  /// Of the components that are not held.
+  Real smallest_pivot() const;
   /// A direction d with d'Sd < 0, but for rounding: that of the first pivot that is clearly negative. Empty: there is
   /// none.
   Vector falling_direction() const;
