@@ -91,17 +91,23 @@ class ExtendedSets {
     return std::sqrt(std::max(squared, Real{0}));
   }
 
-  /// Whether A x is rounding in all rows that are free: then it may be A alone, as rounded, that held x.
-  bool is_motion() const {
+  /// Whether the way d from there has A d = 0 but for rounding in all rows that are free: then the rounding in A alone
+  /// may have led here.
+  bool came_by_motion(const std::vector<double>& from) const {
     const BlockMatrix<B>& A = problem_.A;
     for (Index p = 0; p < A.size(); ++p)
       for (int i = 0; i < B; ++i) {
         const Offset row = Offset{p} * B + i;
         if (prescribed(static_cast<std::size_t>(row)) || active_[row] != 0) continue;
-        double terms = 0;
+        Real sum = 0, terms = 0;
         for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-          for (int j = 0; j < B; ++j) terms += std::abs(A.at(k)[i * B + j] * x_[Offset{A.column[k]} * B + j].high);
-        if (std::abs(b_[row] - r_[row]) > rounding_of_rows * terms) return false;
+          for (int j = 0; j < B; ++j) {
+            const Offset column = Offset{A.column[k]} * B + j;
+            const Real term = A.at(k)[i * B + j] * (x_[column].value() - from[column]);
+            sum += term;
+            terms += std::abs(term);
+          }
+        if (std::abs(sum) > rounding_of_rows * terms) return false;
       }
     return true;
   }
@@ -305,7 +311,8 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
   if (most == 0) return;
   const double begin = seconds();
   ExtendedSets<B> sets(problem, held, b, options.tolerance, most);
-  if (!sets.solve(x) || (summary.outcome == Outcome::unbounded && sets.is_motion())) return;
+  if (!sets.solve(x) || sets.came_by_motion(x)) return;
+  if (summary.outcome == Outcome::unbounded && sets.came_by_motion(std::vector<double>(x.size(), 0.0))) return;
   const auto size = static_cast<double>(sets.size());
   const auto relative = [&](double error) { return error == 0 ? 0 : size > 0 ? error / size : 1; };
   const double before = relative(sets.error(x));
@@ -314,7 +321,10 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
     summary.history.back().algebraic_error = summary.algebraic_error;
     return;
   }
-  x = sets.rounded();
+  const std::vector<double> nearest = sets.rounded();
+  if (summary.converged() && relative(sets.error(nearest)) > std::max(options.tolerance, summary.algebraic_error))
+    return;
+  x = nearest;
   Summary more;
   more.algebraic_error = more.rounding_error = relative(sets.error(x));
   more.energy = energy(problem, x);

@@ -200,6 +200,29 @@ TEST(Refinement, ToleranceOfRounding) {
     for (const int n : {22, 68}) expect_honest(random, n, kind, options, false);
 }
 
+// A = M'M with fewer rows of M than columns: rounding gives its motions a little energy, along which nothing is mended.
+TEST(Refinement, UnderdeterminedLeastSquaresStaySolved) {
+  Random random(5);
+  for (int trial = 0; trial < 120; ++trial) {
+    const int n = 5 + random.below(60), rows = 1 + random.below(n - 1), decades = trial % 2 ? 3 : 0;
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < rows; ++i) {
+      const double size = std::pow(10, random.between(0, decades));
+      for (int j = 0; j < n; ++j)
+        if (random.chance(trial % 4 < 2 ? 1 : 0.2)) entries.emplace_back(i, j, size * random.between(-1, 1));
+    }
+    Matrix M(rows, n);
+    M.setFromTriplets(entries.begin(), entries.end());
+    Eigen::VectorXd data(rows);
+    for (double& value : data) value = random.between(-1, 1) * std::pow(10, random.between(0, decades));
+    const Eigen::VectorXd b = M.transpose() * data;
+    const std::vector<double> lower(trial % 3 ? static_cast<std::size_t>(n) : 0, 0.0);
+    const Summary s =
+        BlackBox(Matrix(M.transpose() * M), 1).solve(std::vector<double>(b.begin(), b.end()), lower).summary;
+    EXPECT_TRUE(s.converged()) << trial << ": " << s.reason;
+  }
+}
+
 // What rounding does not touch has no further stage.
 TEST(Refinement, WellConditionedProblemsStayAsTheyAre) {
   for (const int cells : {10, 18}) {
