@@ -16,6 +16,7 @@
 #include "amg/nested_start.hpp"
 #include "amg/recession.hpp"
 #include "amg/recognise_block.hpp"
+#include "amg/refinement.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -163,10 +164,10 @@ class BlackBox::BlockSolver final : public Solver {
     if (fall_.row)
       result = without_solution(*fall_.row, start);
     else if (!algebraic_settings(options_).only_twins)
-      result = solve(*levels_, start, monitor);
+      result = solve(*levels_, b, start, monitor);
     else
-      result = solve(galerkin_hierarchy<B>(problem_, levels_->prolongations, transfer(), {.only_twins = true}), start,
-                     monitor);
+      result = solve(galerkin_hierarchy<B>(problem_, levels_->prolongations, transfer(), {.only_twins = true}), b,
+                     start, monitor);
     result.summary.setup_seconds += ready - begin;
     held_.residual(problem_, result.x.data(), b.data(), result.multiplier.data());
     find_active(result, lower, upper);
@@ -229,7 +230,8 @@ class BlackBox::BlockSolver final : public Solver {
   }
 
   /// @param levels for the bounds of the problem
-  Result solve(const AlgebraicLevels<B>& levels, std::span<const double> start, const Monitor& monitor) {
+  Result solve(const AlgebraicLevels<B>& levels, std::span<const double> b, std::span<const double> start,
+               const Monitor& monitor) {
     problem_.galerkin = levels.matrices;
     Result result;
     std::vector<Stage> dropped;
@@ -244,6 +246,7 @@ class BlackBox::BlockSolver final : public Solver {
       go_on_without_motions(levels, result, monitor);
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
       recognise_unbounded(levels, result);
+    refine<B>(problem_, held_, b, options_, result.x, result.summary);
     add_multiplier(result);
     return result;
   }

@@ -1,16 +1,12 @@
 #include "amg/held_cholesky.hpp"
 
 #include <Eigen/OrderingMethods>
+#include <algorithm>
 
 namespace signorini {
 
-namespace {
-
-constexpr double no_pivot = 1e-11;  // where the diagonal is 1
-
-}  // namespace
-
-bool HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S, double most_operations) {
+template <class Real>
+bool BasicHeldCholesky<Real>::factorise(const Eigen::SparseMatrix<double>& S, double most_operations, Real no_pivot) {
   decltype(order_) inverse;
   Eigen::AMDOrdering<int>()(S.selfadjointView<Eigen::Lower>(), inverse);
   order_ = inverse.inverse();
@@ -27,7 +23,7 @@ bool HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S, double most_o
   const auto n = static_cast<int>(S.rows());
   pivot_.resize(static_cast<std::size_t>(n));
   std::vector<int> seen(static_cast<std::size_t>(n), -1);
-  std::vector<double> y(static_cast<std::size_t>(n), 0.0);
+  std::vector<Real> y(static_cast<std::size_t>(n), 0);
   for (int k = 0; k < n; ++k) {
     factorise_row(reordered, k, seen, y);
     if (pivot_[k] > no_pivot) continue;
@@ -40,7 +36,8 @@ bool HeldCholesky::factorise(const Eigen::SparseMatrix<double>& S, double most_o
 
 // The elimination tree and how many entries the columns of L have: row k of L has one in each column on the way from an
 // entry of S in that row up to k. Returns the multiplications that it takes to find them.
-double HeldCholesky::analyse(const Upper& S) {
+template <class Real>
+double BasicHeldCholesky<Real>::analyse(const Upper& S) {
   const auto n = static_cast<int>(S.rows());
   parent_.assign(static_cast<std::size_t>(n), -1);
   start_.assign(static_cast<std::size_t>(n) + 1, 0);
@@ -67,7 +64,8 @@ double HeldCholesky::analyse(const Upper& S) {
 
 // Row k of L from a triangular solve with the rows above it. Children in the tree come before their parents.
 // @param y zero, before and after
-void HeldCholesky::factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<double>& y) {
+template <class Real>
+void BasicHeldCholesky<Real>::factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<Real>& y) {
   pattern_.clear();
   seen[k] = k;
   pivot_[k] = 0;
@@ -85,7 +83,7 @@ void HeldCholesky::factorise_row(const Upper& S, int k, std::vector<int>& seen, 
   }
   for (auto column = pattern_.rbegin(); column != pattern_.rend(); ++column) {
     const int i = *column;
-    const double below = y[i], entry = below / pivot_[i];
+    const Real below = y[i], entry = below / pivot_[i];
     y[i] = 0;
     for (Eigen::Index m = start_[i]; m < end_[i]; ++m) y[row_[m]] -= value_[m] * below;
     pivot_[k] -= entry * below;
@@ -94,8 +92,9 @@ void HeldCholesky::factorise_row(const Upper& S, int k, std::vector<int>& seen, 
   }
 }
 
-Eigen::VectorXd HeldCholesky::solve(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd x = order_ * b;
+template <class Real>
+typename BasicHeldCholesky<Real>::Vector BasicHeldCholesky<Real>::solve(const Vector& b) const {
+  Vector x = order_ * b;
   const Eigen::Index n = size();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[row_[m]] -= value_[m] * x[i];
@@ -104,19 +103,29 @@ Eigen::VectorXd HeldCholesky::solve(const Eigen::VectorXd& b) const {
   return order_.inverse() * x;
 }
 
+template <class Real>
+Real BasicHeldCholesky<Real>::smallest_pivot() const {
+  return pivot_.empty() ? 1 : *std::min_element(pivot_.begin(), pivot_.end());  // 1 where held
+}
+
 // The rows of L below the pivot have no part in it; pivots that were replaced may have made them infinite.
-Eigen::VectorXd HeldCholesky::falling_direction() const {
+template <class Real>
+typename BasicHeldCholesky<Real>::Vector BasicHeldCholesky<Real>::falling_direction() const {
   if (falling_ < 0) return {};
-  Eigen::VectorXd x = Eigen::VectorXd::Unit(size(), falling_);
+  Vector x = Vector::Unit(size(), falling_);
   for (Eigen::Index i = falling_ - 1; i >= 0; --i)
     for (Eigen::Index m = start_[i]; m < end_[i] && row_[m] <= falling_; ++m) x[i] -= value_[m] * x[row_[m]];
   return order_.inverse() * x;
 }
 
 // x = L^-T x
-void HeldCholesky::solve_transposed(Eigen::VectorXd& x) const {
+template <class Real>
+void BasicHeldCholesky<Real>::solve_transposed(Vector& x) const {
   for (Eigen::Index i = size() - 1; i >= 0; --i)
     for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[i] -= value_[m] * x[row_[m]];
 }
+
+template class BasicHeldCholesky<double>;
+template class BasicHeldCholesky<long double>;
 
 }  // namespace signorini

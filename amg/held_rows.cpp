@@ -46,6 +46,21 @@ void HeldRows<B>::residual(const DiscreteProblem<B>& problem, const double* x, c
 }
 
 template <int B>
+void HeldRows<B>::residual(const DiscreteProblem<B>& problem, const TwoDoubles* x, const double* b,
+                           long double* r) const {
+  const BlockMatrix<B>& A = problem.A;
+  const double* value = value_.data();
+  for (const Index p : vectors_) {
+    TwoDoubles rest[B];
+    for (int i = 0; i < B; ++i) rest[i] = TwoDoubles(b[Offset{p} * B + i]);
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k, value += B * B)
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) rest[i].add_product(-value[i * B + j], x[Offset{A.column[k]} * B + j]);
+    for (int i = 0; i < B; ++i) r[Offset{p} * B + i] = rest[i].value();
+  }
+}
+
+template <int B>
 void HeldRows<B>::put_back(BlockMatrix<B>& A) const {
   const double* value = value_.data();
   for (const Index p : vectors_) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "amg/two_doubles.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -17,6 +18,8 @@ class HeldRows {
 
   /// r = A x - b with the matrix as it was before, on the rows that are held or coupled to those.
   void residual(const DiscreteProblem<B>& problem, const double* x, const double* b, double* r) const;
+  /// r = b - A x there, exactly but for the last rounding.
+  void residual(const DiscreteProblem<B>& problem, const TwoDoubles* x, const double* b, long double* r) const;
 
  private:
   void put_back(BlockMatrix<B>& A) const;

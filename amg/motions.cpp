@@ -27,6 +27,8 @@ constexpr std::size_t few_vectors = 4000;
 constexpr Offset few_entries = 300'000;
 constexpr Offset blocks_of_a_tree = 4;     // per vector
 constexpr std::size_t most_motions = 100;  // of one component
+constexpr int most_hidden = 10;            // of these, that no small pivot shows
+constexpr double suspicious = 1e-4;        // pivots, of a diagonal of one
 
 enum class Dominance { none, weak, strict };
 
@@ -162,9 +164,43 @@ class Motions<B>::Finder {
     const Eigen::VectorXd scale = Eigen::Map<const Eigen::VectorXd>(scales.data(), S.rows());
     HeldCholesky factor;
     if (!factor.factorise(S, affordable_operations(S.nonZeros()))) return false;
+    hold_hidden(S, factor);
     if (factor.falling_direction().size() > 0) refuse_if_indefinite(S, scale);
     if (factor.held().empty()) return true;
     return factor.held().size() <= most_motions && keep_motions(S, factor, scale);
+  }
+
+  // A motion that hardly moves the unknown of its pivot makes no small one: solutions show it.
+  static void hold_hidden(const Eigen::SparseMatrix<double>& S, HeldCholesky& factor) {
+    for (int k = 0; k < most_hidden && factor.smallest_pivot() < suspicious; ++k) {
+      Eigen::VectorXd d = neither_smooth_nor_rough(S.rows());
+      for (int step = 0; step < 2; ++step) d = factor.solve(d).normalized();
+      if (!is_motion(S, d)) return;
+      factor.factorise(S, infinity, factor.smallest_pivot());
+    }
+  }
+
+  // Row by row, too: weak springs may have little energy beside all of the motion's terms. (Not of systems: rotations
+  // have unknowns that hardly move.)
+  static bool is_motion(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& d) {
+    const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+    const double small = rounding_of_motions * std::sqrt(static_cast<double>(S.rows()));
+    if (!(Sd.norm() <= small && d.dot(Sd) <= rounding_of_squares)) return false;
+    if constexpr (B > 1) return true;
+    Eigen::VectorXd terms = d.cwiseAbs();
+    for (Eigen::Index column = 0; column < S.cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(S, column); entry; ++entry)
+        if (entry.row() != column) {
+          terms[entry.row()] += std::abs(entry.value() * d[column]);
+          terms[column] += std::abs(entry.value() * d[entry.row()]);
+        }
+    return (Sd.cwiseAbs().array() <= rounding_of_rows * terms.array() + negligible * small).all();
+  }
+
+  static Eigen::VectorXd neither_smooth_nor_rough(Eigen::Index size) {
+    Eigen::VectorXd v(size);
+    for (Eigen::Index k = 0; k < size; ++k) v[k] = std::cos(static_cast<double>(k * k));
+    return v;
   }
 
   // A pivot may be negative by rounding, but not after what rounding may do was added to the diagonal.
@@ -197,15 +233,13 @@ class Motions<B>::Finder {
   bool keep_motions(const Eigen::SparseMatrix<double>& S, const HeldCholesky& factor, const Eigen::VectorXd& scale) {
     const Eigen::Index n = S.rows();
     Eigen::MatrixXd value(n, static_cast<Eigen::Index>(factor.held().size()));
-    const double small = rounding_of_motions * std::sqrt(static_cast<double>(n));
     for (Eigen::Index k = 0; k < value.cols(); ++k) {
       Eigen::VectorXd d = factor.solve(Eigen::VectorXd::Unit(n, factor.held()[static_cast<std::size_t>(k)]));
       d.normalize();
-      Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
+      const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
       d -= factor.solve(Sd - d.dot(Sd) * d);  // the spring would answer what is along d by more of d
       d.normalize();
-      Sd = S.selfadjointView<Eigen::Lower>() * d;
-      if (!(Sd.norm() <= small && d.dot(Sd) <= rounding_of_squares)) return false;
+      if (!is_motion(S, d)) return false;
       value.col(k) = d;
     }
     if (value.cols() > 1) {
@@ -223,9 +257,7 @@ class Motions<B>::Finder {
   // By a few steps of the power method.
   static double norm_of_pseudoinverse(const HeldCholesky& factor, const Eigen::MatrixXd& motions) {
     constexpr int steps = 6;
-    Eigen::VectorXd v(motions.rows());
-    for (Eigen::Index k = 0; k < v.size(); ++k)
-      v[k] = std::cos(static_cast<double>(k * k));  // neither smooth nor rough
+    Eigen::VectorXd v = neither_smooth_nor_rough(motions.rows());
     double norm = 0;
     for (int step = 0; step < steps; ++step) {
       v -= motions * (motions.transpose() * v);

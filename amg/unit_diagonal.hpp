@@ -14,4 +14,9 @@ template <int B>
 Eigen::SparseMatrix<double> with_unit_diagonal(const BlockMatrix<B>& A, const std::vector<Flags>& mask,
                                                std::vector<double>& scale);
 
+/// The same without any rounding: s_i are the powers of two next to that, and the diagonal lies between 1/2 and 2.
+template <int B>
+Eigen::SparseMatrix<double> scaled_exactly(const BlockMatrix<B>& A, const std::vector<Flags>& mask,
+                                           std::vector<double>& scale);
+
 }  // namespace signorini

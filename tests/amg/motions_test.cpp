@@ -292,6 +292,34 @@ TEST(Motions, StiffSpringsDoNotHideThem) {
   }
 }
 
+// Trees of springs with stiffnesses over six decades, in random units: the unknown of the last pivot may hardly move.
+TEST(Motions, ThoseThatHardlyMoveSomeUnknownsAreFound) {
+  Random random(94);
+  for (int trial = 0; trial < 1500; ++trial) {
+    const auto n = static_cast<Index>(2 + random.below(60));
+    std::vector<double> unit, b;
+    std::vector<Eigen::Triplet<double>> entries;
+    int sum = 0;
+    for (Index i = 0; i < n; ++i) {
+      unit.push_back(std::ldexp(random.chance(0.5) ? 1 : -1, random.below(7) - 3));
+      const int load = i + 1 < n || sum != 0 ? random.below(19) - 9 : 1;
+      b.push_back(unit[i] * load);
+      sum += load;
+      if (i == 0) continue;
+      const Index j = random.chance(0.5) ? i - 1 : random.below(i);
+      const double stiffness = std::pow(10, random.between(-3, 3));
+      entries.emplace_back(i, i, stiffness * unit[i] * unit[i]);
+      entries.emplace_back(j, j, stiffness * unit[j] * unit[j]);
+      entries.emplace_back(i, j, -stiffness * unit[i] * unit[j]);
+      entries.emplace_back(j, i, -stiffness * unit[i] * unit[j]);
+    }
+    if (sum == 0) continue;
+    Matrix A(n, n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    EXPECT_TRUE(Motions<1>(block_matrix<1>(SparseRows(A))).fall(b, {}).row) << trial;
+  }
+}
+
 TEST(Motions, NearlySingularIsNotSingular) {
   for (const double spring : {1e-9, 1e-12}) {
     Matrix A = neumann_laplacian(6);
