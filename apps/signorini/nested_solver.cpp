@@ -353,6 +353,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solve_safely(model);
 }
 
+template std::size_t factorised_meshes(const MeshHierarchy<2>&, const Scene::Solver&, int);
+template std::size_t factorised_meshes(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);
 template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template class NestedSolver<2, 1>;
