@@ -20,6 +20,7 @@ constexpr int max_cg_iterations = 500;
 constexpr std::size_t max_motions = 20;  // without energy that are projected onto what the bounds allow
 constexpr double shift = 1e-6;           // of a diagonal of ones, where there are more
 constexpr int worn_out = 6;              // iterations above which a new factorisation pays
+constexpr int most_refinements = 12;     // at which it replaces the old one at once, where it holds everything
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double shortening = 0.25;      // of steps whose parts within the bounds raise the energy
 constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
@@ -29,7 +30,8 @@ constexpr int max_sweeps = 60;    // of Gauss-Seidel alone, there and back
 constexpr int cheap_sweeps = 12;  // that cost less than a factorisation
 constexpr double enough_by_sweeps = 0.1 * enough;  // the same of one sweep there and back
 template <int B>
-constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations
+constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations, unless
+constexpr double per_entry = 100;                    // it takes at most so many multiplications for each one of A
 
 template <int B>
 double decrease(const Level<B>& level, const std::vector<double>& before) {
@@ -171,30 +173,44 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
   r_.resize(static_cast<std::size_t>(level.vectors) * B);
   residual<B>(*level.A, level.x, level.b, r_.data());
   apply_mask<B>(mask_, r_);
-  const CgResult cg = level.vectors <= max_direct<B> ? solve_directly(level) : solve_iteratively(level);
+  const CgResult cg = too_dear_ ? solve_iteratively(level) : solve_directly(level);
   return !(cg.singular && falls_forever(level)) && move(level, cg.singular);
 }
 
-// With a factorisation from other phases directions of little energy are hardly told from such without any: there and
-// where it is worn out it is made anew.
+// Where the factorisation met a pivot on every component that is free now, none of their motions is without energy,
+// however little rounding would let it have: the steps are taken as they are. With a factorisation from other phases
+// directions of little energy are hardly told from such without any: there and where it is worn out it is made anew.
 template <int B>
 CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
   const Precondition precondition_masked = [&](const std::vector<double>& r, std::vector<double>& z) {
     precondition(level, r, z);
     apply_mask<B>(mask_, z);
   };
-  CgLimits limits{.reduction = 1e-8, .iterations = max_cg_iterations, .rounding = rounding_of_work(level)};
-  if (!worn_) {
-    limits.without_energy = suspicious;
+  const auto attempt = [&](double without_energy) {
+    const bool definite = holds_everything();
+    const CgLimits limits{.reduction = 1e-8,
+                          .iterations = definite ? most_refinements : max_cg_iterations,
+                          .rounding = definite ? 0 : rounding_of_work(level),
+                          .without_energy = without_energy,
+                          .definite = definite};
     const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
     worn_ = cg.iterations > worn_out;
-    if (!cg.singular) return cg;
-    limits.without_energy = no_energy;
+    return cg;
+  };
+  if (!worn_) {
+    const CgResult cg = attempt(suspicious);
+    if (!cg.singular && (cg.converged || cg.iterations != most_refinements)) return cg;
   }
-  factorise(level, mask_);
-  const CgResult cg = masked_cg<B>(*level.A, mask_, precondition_masked, limits, rest_ = r_, d_);
-  worn_ = cg.iterations > worn_out;
-  return cg;
+  if (!factorise(level, mask_)) return solve_iteratively(level);
+  return attempt(no_energy);
+}
+
+template <int B>
+bool CoarseNewton<B>::holds_everything() const {
+  for (std::size_t p = 0; p < mask_.size(); ++p)
+    for (int k = 0; k < B; ++k)
+      if (!(mask_[p] >> k & 1u) && scale_[p * B + k] == 0) return false;
+  return factor_.held().empty();
 }
 
 template <int B>
@@ -276,12 +292,14 @@ bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
 
 // Where motions without energy are many, a shift keeps steps out of them: the bounds cut off least of the shortest one.
 template <int B>
-void CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>& mask) {
+bool CoarseNewton<B>::factorise(const Level<B>& level, const std::vector<Flags>& mask) {
   Eigen::SparseMatrix<double> S = with_unit_diagonal(*level.A, mask, scale_);
-  factor_.factorise(S);
-  if (factor_.held().size() <= max_motions) return;
+  const double most =
+      level.vectors <= max_direct<B> ? infinity : per_entry * static_cast<double>(level.A->value.size());
+  too_dear_ = !factor_.factorise(S, most);
+  if (too_dear_ || factor_.held().size() <= max_motions) return !too_dear_;
   for (Eigen::Index i = 0; i < S.rows(); ++i) S.coeffRef(i, i) += shift;
-  factor_.factorise(S);
+  return factor_.factorise(S);
 }
 
 template <int B>

@@ -18,8 +18,9 @@ class CoarseNewton final : public CoarseSolver<B> {
  private:
   bool newton_step(const Level<B>& level);
   CgResult solve_directly(const Level<B>& level);
+  bool holds_everything() const;
   CgResult solve_iteratively(const Level<B>& level);
-  void factorise(const Level<B>& level, const std::vector<Flags>& mask);
+  bool factorise(const Level<B>& level, const std::vector<Flags>& mask);
   Eigen::MatrixXd motions() const;
   bool falls_forever(const Level<B>& level) const;
   void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
@@ -29,6 +30,7 @@ class CoarseNewton final : public CoarseSolver<B> {
   std::vector<double> r_, rest_, d_, scale_;  // scale_: 1 / sqrt(diagonal), which makes the factorisation free of units
   HeldCholesky factor_;
   bool worn_ = true;
+  bool too_dear_ = false;  // to be factorised
 };
 
 /// Coarsest level by projected symmetric Gauss-Seidel alone.

@@ -2,14 +2,16 @@
 
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <span>
 
 namespace signorini {
 
 template <class Real>
 bool BasicHeldCholesky<Real>::factorise(const Eigen::SparseMatrix<double>& S, double most_operations, Real no_pivot) {
-  decltype(order_) inverse;
-  Eigen::AMDOrdering<int>()(S.selfadjointView<Eigen::Lower>(), inverse);
-  order_ = inverse.inverse();
+  if (!has_known_pattern(S)) {
+    Eigen::AMDOrdering<int>()(S.selfadjointView<Eigen::Lower>(), inverse_);
+    order_ = inverse_.inverse();
+  }
   Upper reordered(S.rows(), S.cols());
   reordered.selfadjointView<Eigen::Upper>() = S.selfadjointView<Eigen::Lower>().twistedBy(order_);
   held_.clear();
@@ -29,9 +31,20 @@ bool BasicHeldCholesky<Real>::factorise(const Eigen::SparseMatrix<double>& S, do
     if (pivot_[k] > no_pivot) continue;
     if (pivot_[k] < -no_pivot && falling_ < 0) falling_ = k;
     pivot_[k] = 1;
-    held_.push_back(inverse.indices()[k]);
+    held_.push_back(inverse_.indices()[k]);
   }
   return true;
+}
+
+// Whether it is that of the last matrix, whose order then serves again; if not, it is kept in mind.
+template <class Real>
+bool BasicHeldCholesky<Real>::has_known_pattern(const Eigen::SparseMatrix<double>& S) {
+  const std::span column(S.outerIndexPtr(), static_cast<std::size_t>(S.cols()) + 1);
+  const std::span row(S.innerIndexPtr(), static_cast<std::size_t>(S.nonZeros()));
+  if (std::ranges::equal(column, pattern_start_) && std::ranges::equal(row, pattern_row_)) return true;
+  pattern_start_.assign(column.begin(), column.end());
+  pattern_row_.assign(row.begin(), row.end());
+  return false;
 }
 
 // The elimination tree and how many entries the columns of L have: row k of L has one in each column on the way from an

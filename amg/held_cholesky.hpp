@@ -33,14 +33,16 @@ class BasicHeldCholesky {
 
  private:
   using Upper = Eigen::SparseMatrix<double>;  // of the reordered matrix, in columns
+  bool has_known_pattern(const Eigen::SparseMatrix<double>& S);
   double analyse(const Upper& S);
   void solve_transposed(Vector& x) const;
   void factorise_row(const Upper& S, int k, std::vector<int>& seen, std::vector<Real>& y);
 
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_;
-  std::vector<int> parent_;          // in the elimination tree
-  std::vector<Eigen::Index> start_;  // of the columns of L, without its diagonal of ones
-  std::vector<Eigen::Index> end_;    // of what is known of them
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_, inverse_;
+  std::vector<int> pattern_start_, pattern_row_;  // of the matrix that they were found for
+  std::vector<int> parent_;                       // in the elimination tree
+  std::vector<Eigen::Index> start_;               // of the columns of L, without its diagonal of ones
+  std::vector<Eigen::Index> end_;                 // of what is known of them
   std::vector<int> row_;
   std::vector<Real> value_, pivot_;
   std::vector<Eigen::Index> held_;

@@ -78,7 +78,8 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     product<B>(A, p.data(), Ap.data());
     apply_mask<B>(mask, Ap);
     const double pAp = dot(p, Ap);
-    const double pDp = diagonal_energy<B>(A, p);
+    if (limits.definite && !(pAp > 0)) return result;
+    const double pDp = limits.definite ? 0 : diagonal_energy<B>(A, p);
     if (limits.rounding > 0 && !(pAp > little_energy * pDp)) {
       const double of_step =
           rounding_of_work<B>(mask, 0, A.size(), [&](Index q, int k) { return terms_of_product(A, d.data(), q, k); });

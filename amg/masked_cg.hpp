@@ -21,6 +21,7 @@ struct CgLimits {
   int iterations = 1000;
   double rounding = 0;  ///< a bound for what it may do to work along directions with entries up to one; 0: all counts
   double without_energy = no_energy;  ///< part of p'Dp up to which a direction of descent counts as one without minimum
+  bool definite = false;  ///< known of A: all directions have energy, however little; ends where it is rounding
 };
 
 /// Preconditioner: z from r, both zero on masked components.

@@ -95,8 +95,9 @@ void check(const Scene& scene, const Registry& registry) {
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, model);
   const std::size_t first = first_mesh(hierarchy, scene.solver, B);
-  print_solver(scene.solver, coarsening_below(scene.solver, B, hierarchy.levels[first].vertices()), first == 0, B,
-               free_unknowns(hierarchy.finest(), model));
+  const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
+  const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
+  print_solver(scene.solver, below, first == 0, B, free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front()));
   print_warnings(model_warnings(scene, hierarchy.finest(), model));

@@ -12,6 +12,7 @@
 #include "apps/signorini/moved_problem.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
+#include "core/mesh/slender.hpp"
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/solve.hpp"
@@ -26,6 +27,15 @@ constexpr Index large_coarsest_mesh = 1000;
 /// half the cycles of nested meshes or less, in about the same time: their set-up costs more for elastic bodies.
 constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
 constexpr double many = 0.1;  // part of the cells so stretched
+
+/// Vertices across the coarsest mesh of an elastic body, and across all where cells are stretched, which then have no
+/// good coarser level, up to which a factorisation costs no more than some cycles. Other meshes have one: they are
+/// factorised up to two cells across (in space three), which bend badly as coarse levels.
+constexpr double cheap_across = 20;
+template <int D>
+constexpr double most_across = D == 2 ? 4 : 16;
+/// Layers of vertices over vertices across, from where on bending makes coarser levels poor ones.
+constexpr double slender = 16;
 
 /// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
 constexpr int patience_with_matrix = 40;
@@ -64,10 +74,25 @@ std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int blo
 }
 
 template <int D>
+std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
+  if (block == 1 || options.hierarchy != "auto" || options.coarse != "newton") return 0;
+  const bool stretched = is_stretched(hierarchy.levels.front(), block);
+  std::size_t count = 0;
+  for (const Mesh<D>& mesh : hierarchy.levels) {
+    const LayerShape shape = layer_shape(mesh);
+    const double most = stretched || count == 0 ? cheap_across : most_across<D>;
+    const bool factorised = shape.across <= most && (stretched || shape.along >= slender * shape.across);
+    if (!factorised) break;
+    ++count;
+  }
+  return stretched && count < hierarchy.levels.size() ? 0 : count;
+}
+
+template <int D>
 std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
   const std::size_t finest = hierarchy.levels.size() - 1;
   if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
-  if (!options.algebraic) return 0;
+  if (!options.algebraic || factorised_meshes(hierarchy, options, block) > 0) return 0;
   return is_stretched(hierarchy.levels.front(), block) ? finest : 0;
 }
 
@@ -77,6 +102,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
     : hierarchy_(hierarchy),
       options_(options),
       first_(first_mesh(hierarchy, options, B)),
+      factorised_(factorised_meshes(hierarchy, options, B)),
       registry_(registry),
       progress_(progress),
       times_(times),
@@ -98,6 +124,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   const Mesh<D>& mesh = hierarchy_.levels[level];
   progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
   Solution<B> solution{discretize<D, B>(mesh, model), {}, {}, {}};
+  solution.discretization.problem.cheap_to_factorise = level < factorised_;
   solution.x = solution.discretization.problem.start;
   times_.assemble += watch.elapsed();
   return solution;
@@ -107,6 +134,7 @@ template <int D, int B>
 void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   if (continued_) return;
   continued_ = true;
+  if (factorised_ > 0) return;
   const auto coarsening = coarsening_below(options_, B, coarsest.A.size());
   if (!coarsening) return;
   Stopwatch watch;
@@ -128,7 +156,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
 /// For a start on the finest mesh, which alone has to hold the whole problem.
 template <int D, int B>
 void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
-  if (!coarsening_below(options_, B, hierarchy_.levels[first_].vertices())) return;
+  if (factorised_ > 0 || !coarsening_below(options_, B, hierarchy_.levels[first_].vertices())) return;
   try {
     Solution<B> coarsest = discretize_level(model, first_);
     continue_algebraically(coarsest.discretization.problem);
@@ -139,13 +167,19 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
   galerkin_.clear();
 }
 
+template <int D, int B>
+std::span<const Prolongation> NestedSolver<D, B>::levels_below(std::size_t level) const {
+  const std::size_t count = algebraic_ + level - first_, coarsest = factorised_ > 0 ? factorised_ - 1 : 0;
+  return std::span(prolongations_).first(count).subspan(std::min(coarsest, count));
+}
+
 /// On nested meshes the matrix of the coarser one is the product that the solver would compute: it takes it over.
 template <int D, int B>
 void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
   Stopwatch watch;
-  const std::size_t below = algebraic_ + level - first_ - 1;
+  const std::size_t below = algebraic_ + level - first_ - 1, given = levels_below(level).size();
   DiscreteProblem<B>& shared = coarse.discretization.problem;
-  if (galerkin_.size() == below && is_galerkin(shared, prolongations_[below], problem)) {
+  if (given > 0 && galerkin_.size() + 1 == given && is_galerkin(shared, prolongations_[below], problem)) {
     galerkin_.push_back({std::move(shared.A), std::move(shared.fixed), false});
     problem.galerkin = galerkin_;
   } else {
@@ -206,9 +240,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   const bool finest = level + 1 == hierarchy_.levels.size();
   MovedProblem<B> moved(solution.discretization.problem, body.fall(solution.x), solution.x);
   try {
-    solution.summary = signorini::solve<B>(solution.discretization.problem,
-                                           std::span(prolongations_).first(algebraic_ + level - first_), solution.x,
-                                           options, registry_, monitor_);
+    solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
+                                           registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
@@ -321,6 +354,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solve_safely(model);
 }
 
+template std::size_t factorised_meshes(const MeshHierarchy<2>&, const Scene::Solver&, int);
+template std::size_t factorised_meshes(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);
 template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int);
 template class NestedSolver<2, 1>;

@@ -37,6 +37,12 @@ std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int blo
 template <int D>
 std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
 
+/// The number of meshes, coarsest first, that have no coarser level, because of bending, which those represent badly:
+/// of elastic bodies that are slender, or whose cells are stretched, as far as a factorisation costs no more than some
+/// cycles.
+template <int D>
+std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
+
 /// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
 /// only.
 template <int D, int B>
@@ -64,6 +70,7 @@ class NestedSolver {
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
   void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
+  std::span<const Prolongation> levels_below(std::size_t level) const;
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
@@ -73,7 +80,8 @@ class NestedSolver {
 
   const MeshHierarchy<D>& hierarchy_;
   Scene::Solver options_;
-  const std::size_t first_;  // the coarsest mesh that gives a level
+  const std::size_t first_;       // the coarsest mesh that gives a level, or a start
+  const std::size_t factorised_;  // the number of meshes that have no coarser level
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;

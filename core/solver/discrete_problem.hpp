@@ -96,6 +96,8 @@ struct DiscreteProblem {
   /// frames only for Rotate::all. Not owned.
   std::span<const GalerkinMatrix<B>> galerkin;
   std::vector<Segment<B>> segments;  ///< cover all vectors in ascending order; empty when there is no obstacle
+  /// Whether a factorisation of A costs no more than some cycles, so that A needs no coarser level.
+  bool cheap_to_factorise = false;
 };
 
 }  // namespace signorini

@@ -180,7 +180,10 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   if (before) down.add(before);
   if (k == 0) {
     down.run(level.chunks, crew_);
-    if (finest) update_phases(level, 0, level.vectors);
+    if (finest) {
+      update_phases(level, 0, level.vectors);
+      report_.rounding = rounding_of_work(level);
+    }
     if (!components_.coarse->solve(level) && lasting_ == 0) report_.bounded = false;
     level.renewed.clear();
   } else {

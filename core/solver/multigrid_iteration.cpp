@@ -26,6 +26,7 @@ bool sweeps_first(const DiscreteProblem<B>& problem, std::span<const Prolongatio
                   const SolverOptions& options) {
   const Index vectors = problem.A.size();
   const Index coarsest = prolongations.empty() ? vectors : prolongations.front().coarse;
+  if (problem.cheap_to_factorise) return false;
   return automatic::begins_with_sweeps(options, coarsest, vectors, problem.A.row[vectors]) &&
          !automatic::solvers_for_active_sets(B, Offset{vectors} * B, Offset{coarsest} * B).empty();
 }
