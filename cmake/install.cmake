@@ -30,7 +30,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/signoriniConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/signoriniConfigVersion.cmake
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
 install(DIRECTORY core ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
-  COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE)
+  COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE PATTERN cairo EXCLUDE)
 install(FILES amg/black_box.hpp amg/near_null_space.hpp amg/signorini.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
 
 configure_file(cmake/signorini_c.pc.in ${PROJECT_BINARY_DIR}/signorini_c.pc @ONLY)
@@ -39,7 +39,7 @@ install(FILES ${PROJECT_BINARY_DIR}/signorini_c.pc DESTINATION ${CMAKE_INSTALL_L
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
 
-install(TARGETS signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+install(TARGETS signorini_geometry signorini_pictures signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 if(TARGET signorini)
   file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")

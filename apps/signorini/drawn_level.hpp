@@ -43,10 +43,16 @@ bool coarsen(const MeshHierarchy<D>& hierarchy, Drawn<D>& drawn) {
   return true;
 }
 
+inline std::size_t triangle_count(const Mesh<2>& mesh) { return mesh.elements.size(); }
+inline std::size_t triangle_count(const Mesh<3>& mesh) { return mesh.boundary.size(); }
+
 /// The finest level on which `patches`, which stops once is_too_many() of them, are few enough to be drawn in a moment.
+/// @param all whether they are all triangles of the level, so that they need not be made to be counted
 template <int D, class Patches>
-std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, Patches patches) {
+std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, bool all, Patches patches) {
   Drawn<D> drawn = finest(shown.hierarchy);
+  while (all && triangle_count(*drawn.mesh) > most_patches && coarsen(shown.hierarchy, drawn)) {
+  }
   std::vector<Patch> result = patches(drawn);
   while (is_too_many(result) && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
   if (!is_too_many(result)) return result;

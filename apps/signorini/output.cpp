@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "apps/signorini/show.hpp"
+#include "core/base/error.hpp"
 #include "core/io/convergence.hpp"
 
 namespace signorini {
@@ -73,11 +74,6 @@ std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>
   return panels;
 }
 
-void finish(Gnuplot& gnuplot, const char* picture, std::vector<std::string>& warnings) {
-  const std::string problem = gnuplot.finish();
-  if (!problem.empty()) warnings.push_back(fmt::format("{} was not drawn: {}", picture, problem));
-}
-
 }  // namespace
 
 template <int D, int B>
@@ -119,15 +115,17 @@ bool is_result_file(const std::string& name) {
 }
 
 template <int D, int B>
-void Pictures::start(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report) {
-  draw_convergence(convergence_.emplace(), files_.stage("convergence.png"), report.last().summary.history);
-  const auto panels = result_panels<D, B>(shown(hierarchy, results), report.warnings);
-  if (!panels.empty()) draw_panels(result_.emplace(), files_.stage("result.png"), panels);
-}
-
-void Pictures::finish(Report& report) {
-  if (result_) signorini::finish(*result_, "result.png", report.warnings);
-  if (convergence_) signorini::finish(*convergence_, "convergence.png", report.warnings);
+void draw_pictures(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
+                   Report& report) {
+  try {
+    const Painter& draw = painter();
+    draw.convergence(files.stage("convergence.png"), report.last().summary.history);
+    const auto panels = result_panels<D, B>(shown(hierarchy, results), report.warnings);
+    if (!panels.empty()) draw.panels(files.stage("result.png"), panels);
+  } catch (const Error& error) {
+    if (error.status() != Exit::plugin) throw;
+    report.warnings.push_back(fmt::format("no pictures were drawn: {}", error.what()));
+  }
 }
 
 void write_tables(AtomicFiles& files, const Report& report) {
@@ -138,7 +136,7 @@ void write_tables(AtomicFiles& files, const Report& report) {
 }
 #define SIGNORINI_OUTPUT(D, B)                                                       \
   template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&); \
-  template void Pictures::start(const MeshHierarchy<D>&, const Results<D, B>&, Report&);
+  template void draw_pictures(AtomicFiles&, const MeshHierarchy<D>&, const Results<D, B>&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)

@@ -1,11 +1,9 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/signorini/results.hpp"
 #include "core/io/atomic_files.hpp"
-#include "core/io/picture.hpp"
 #include "core/io/vtu_writer.hpp"
 
 namespace signorini {
@@ -35,20 +33,9 @@ class SolutionFiles {
 /// Whether a run may write a file of this name; one that another run left is out of date.
 bool is_result_file(const std::string& name);
 
-/// The pictures, as far as they are wanted, drawn by other programs while this one goes on.
-class Pictures {
- public:
-  explicit Pictures(AtomicFiles& files) : files_(files) {}
-
-  /// What could not be drawn goes to `report.warnings`, here and in finish().
-  template <int D, int B>
-  void start(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report);
-  void finish(Report& report);
-
- private:
-  AtomicFiles& files_;
-  std::optional<Gnuplot> convergence_, result_;  // those that were started
-};
+/// Draws the convergence history and the result. What could not be drawn goes to `report.warnings`.
+template <int D, int B>
+void draw_pictures(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report);
 
 /// convergence.csv and phases.csv.
 void write_tables(AtomicFiles& files, const Report& report);

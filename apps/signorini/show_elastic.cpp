@@ -86,7 +86,7 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
   panel.title = factor == 1 ? "deformed body" : fmt::format("deformed body (displacements x {:g})", factor);
   panel.label = shown.label;
   panel.view = D == 2 ? View::flat : View::space;
-  panel.patches = few_patches(shown, notes, [&](const Drawn<D>& drawn) {
+  panel.patches = few_patches(shown, notes, true, [&](const Drawn<D>& drawn) {
     std::vector<Patch> patches;
     for (const auto& triangle : triangles(*drawn.mesh)) {
       if (is_too_many(patches)) break;
@@ -111,7 +111,7 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
 Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
   Panel panel{"contact pressure", "contact pressure", View::flat, {}, {}, {}};
   const auto axes = tangents(zone.normal);
-  panel.patches = few_patches(shown, notes, [&](const Drawn<3>& drawn) {
+  panel.patches = few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
     std::vector<Patch> patches;
     for (const auto& face : drawn.mesh->boundary) {
       if (is_too_many(patches)) break;

@@ -16,7 +16,7 @@ Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View
                    std::vector<std::string>& notes) {
   Panel panel;
   panel.view = view;
-  panel.patches = few_patches(shown, notes, [&](const Drawn<2>& drawn) {
+  panel.patches = few_patches(shown, notes, true, [&](const Drawn<2>& drawn) {
     std::vector<Patch> patches;
     for (const auto& element : drawn.mesh->elements) {
       if (is_too_many(patches)) break;
@@ -38,7 +38,7 @@ Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View
       std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
   const double at = 0.4999 * (*low)[1] + 0.5001 * (*high)[1];
   Panel panel;
-  panel.patches = few_patches(shown, notes, [&](const Drawn<3>& drawn) {
+  panel.patches = few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
     std::vector<double> values;
     for (const Index v : drawn.fine) values.push_back(value[v]);
     return slice(*drawn.mesh, values, at);

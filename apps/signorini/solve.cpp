@@ -118,7 +118,6 @@ class SolveRun {
     if (scene_.output.vtu) vtu_.add(hierarchy_.finest(), point_fields(hierarchy_.finest(), results_), report_.last().t);
   }
 
-  /// The solution of the last step is written while the pictures are drawn.
   void finish() {
     Stopwatch watch;
     progress_.phase("writing");
@@ -126,11 +125,9 @@ class SolveRun {
     for (auto& warning : chord_warnings<D, B>(scene_, hierarchy_, results_))
       report_.warnings.push_back(std::move(warning));
     if (scene_.output.convergence) write_tables(files_, report_);
-    Pictures pictures(files_);
-    if (scene_.output.pictures) pictures.start(hierarchy_, results_, report_);
+    if (scene_.output.pictures) draw_pictures(files_, hierarchy_, results_, report_);
     if (is_last_step()) write_solution();
     vtu_.finish();
-    pictures.finish(report_);
     report_.time.output += watch.elapsed();
   }
 

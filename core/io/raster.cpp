@@ -75,16 +75,6 @@ struct Camera {
   }
 };
 
-std::array<int, 3> colour(double value, const ColourRange& range) {
-  constexpr int last = static_cast<int>(palette.size()) - 1;
-  const double at = last * std::clamp((value - range.low) / (range.high - range.low), 0.0, 1.0);
-  const int below = std::min(static_cast<int>(at), last - 1);
-  std::array<int, 3> result;
-  for (int k = 0; k < 3; ++k)
-    result[k] = static_cast<int>(palette[below][k] + (at - below) * (palette[below + 1][k] - palette[below][k]) + 0.5);
-  return result;
-}
-
 class Canvas {
  public:
   Canvas(const Panel& panel, const ColourRange& range, int size)
@@ -112,8 +102,8 @@ class Canvas {
     const double area = twice_area(x[0], x[1], x[2]);
     if (!(std::abs(area) > 0)) return;
     const double brightness = camera_.brightness(corner[0], corner[1], corner[2]);
-    std::array<double, 3> height;
-    for (int c = 0; c < 3; ++c) height[c] = std::abs(area) / length(x[(c + 1) % 3], x[(c + 2) % 3]);
+    std::array<double, 3> height{};
+    for (int c = 0; c < 3 && edges_; ++c) height[c] = std::abs(area) / length(x[(c + 1) % 3], x[(c + 2) % 3]);
     const auto [left, right] = std::minmax({x[0][0], x[1][0], x[2][0]});
     const auto [bottom, top] = std::minmax({x[0][1], x[1][1], x[2][1]});
     for (int row = first(bottom); row <= last(top, raster_.height); ++row)
@@ -150,7 +140,8 @@ class Canvas {
     const std::size_t at = std::size_t(row) * raster_.width + column;
     if (!(depth > depth_[at]) || std::isnan(value)) return;
     depth_[at] = depth;
-    const auto shade = edges_ && nearest_edge < edge_width ? edge_colour : colour(value, range_);
+    const auto shade =
+        edges_ && nearest_edge < edge_width ? edge_colour : colour((value - range_.low) / (range_.high - range_.low));
     for (int k = 0; k < 3; ++k) raster_.rgb[3 * at + k] = static_cast<char>(static_cast<int>(brightness * shade[k]));
   }
 
@@ -164,6 +155,16 @@ class Canvas {
 };
 
 }  // namespace
+
+std::array<int, 3> colour(double part) {
+  constexpr int last = static_cast<int>(palette.size()) - 1;
+  const double at = last * std::clamp(part, 0.0, 1.0);
+  const int below = std::min(static_cast<int>(at), last - 1);
+  std::array<int, 3> result;
+  for (int k = 0; k < 3; ++k)
+    result[k] = static_cast<int>(palette[below][k] + (at - below) * (palette[below + 1][k] - palette[below][k]) + 0.5);
+  return result;
+}
 
 ColourRange colour_range(const std::vector<Patch>& patches) {
   ColourRange range{infinity, -infinity};

@@ -17,6 +17,10 @@ inline constexpr std::array<std::array<int, 3>, 9> palette{{{0x30, 0x12, 0x3b},
                                                             {0xd0, 0x2f, 0x05},
                                                             {0x7a, 0x04, 0x03}}};
 
+/// Interpolated.
+/// @param part 0 for the lowest values, 1 for the highest
+std::array<int, 3> colour(double part);
+
 /// The values at the ends of the palette.
 struct ColourRange {
   double low = 0, high = 1;

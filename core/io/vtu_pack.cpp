@@ -1,10 +1,11 @@
 #include "core/io/vtu_pack.hpp"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <vector>
 
@@ -16,26 +17,20 @@ constexpr std::size_t block_size = std::size_t{1} << 18, sample_size = block_siz
 /// Packs any number of blocks, one after the other.
 class Deflater {
  public:
-  explicit Deflater(int level) {
-    if (deflateInit(&stream_, level) != Z_OK) throw std::bad_alloc();
+  explicit Deflater(int level) : compressor_(libdeflate_alloc_compressor(level)) {
+    if (!compressor_) throw std::bad_alloc();
   }
-  ~Deflater() { deflateEnd(&stream_); }
-  Deflater(const Deflater&) = delete;
-  Deflater& operator=(const Deflater&) = delete;
 
   void pack(std::span<const char> bytes, std::string& out) {
-    deflateReset(&stream_);
-    out.resize(deflateBound(&stream_, bytes.size()));
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    stream_.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream_.avail_out = static_cast<uInt>(out.size());
-    deflate(&stream_, Z_FINISH);  // there is room for all
-    out.resize(stream_.total_out);
+    out.resize(libdeflate_zlib_compress_bound(compressor_.get(), bytes.size()));  // there is room for all
+    out.resize(libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), out.data(), out.size()));
   }
 
  private:
-  z_stream stream_{};
+  struct Free {
+    void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+  };
+  std::unique_ptr<libdeflate_compressor, Free> compressor_;
 };
 
 /// Blocks are taken as they come by the threads that pack them.
@@ -45,7 +40,7 @@ class Packing {
       : bytes_(bytes), worthwhile_(worthwhile), blocks_((bytes.size() + block_size - 1) / block_size) {}
 
   void work() {
-    Deflater fast(Z_BEST_SPEED), none(Z_NO_COMPRESSION);
+    Deflater fast(1), none(0);
     std::string sample;
     for (std::size_t k; (k = next_++) < blocks_.size();) {
       const auto block = bytes_.subspan(k * block_size, std::min(block_size, bytes_.size() - k * block_size));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/scene/examples.hpp"
 #include "core/scene/expression.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
@@ -84,38 +85,64 @@ std::string functions() {
   return text;
 }
 
-constexpr const char* introduction = R"(# Scenes
+constexpr const char* introduction = R"md(# Scenes
 
 <!-- Written by scene_reference(); a test compares. Do not edit. -->
 
-A scene is a TOML file. Unknown keys are errors. Lengths, moduli and forces are in any one consistent system of units.
-File names are relative to the scene's folder. Any key can be changed on the command line by its dotted path:
-`--set solver.tolerance=1e-6`, `--set fix.0.value.2=-0.05`.
+A scene is a TOML file that says what is solved: a body, what holds and loads it, and what it may not penetrate. The
+examples on this page, put together, are one. A shorter one stands in the [README](../README.md), a first walk through in
+the [tutorial](tutorial.md).
+
+- Lengths, moduli and forces are in any one consistent system of units.
+- File names are relative to the scene's folder.
+- Unknown keys are errors.
+- Any key can be changed on the command line by its dotted path, tables that may stand several times by their number:
+  `--set solver.tolerance=1e-6`, `--set fix.0.value.2=-0.05`.
 
 ## Expressions
 
-Where a number is expected, a text is an expression. Where the table below says *number or expression*, it may use `x`,
-`y`, `z` (position), `nx`, `ny`, `nz` (outer normal, on boundaries only) and `t` (step parameter, from 1/count to 1);
-elsewhere only numbers and `pi`. Functions are named and meant as in C (`log` is natural; `min` and `max` take two or
-more arguments; `sign` is -1, 0 or 1):
+Where a number is expected, a text is an expression:
+
+| written | means |
+| --- | --- |
+| `where = "z > 0.5 && x < 1"` | the faces whose vertices all lie there |
+| `value = [0, "-0.01*(1 + cos(pi*x))"]` | moved down by different amounts |
+| `young = "x < 1 ? 1 : 1000"` | two materials |
+| `value = ["-2*nx", "-2*ny", "-2*nz"]` | a load of 2 against the outer normal: a pressure |
+| `radius = "2*cos(pi/6)"` | a number, computed |
+
+| name | is | may be used where |
+| --- | --- | --- |
+| `x`, `y`, `z` | the position | the tables below say *number or expression* |
+| `nx`, `ny`, `nz` | the outer normal | the same, on boundaries only |
+| `t` | the step parameter, from 1/count to 1 | the same |
+| `pi` | the number | everywhere |
+
+Functions are named and meant as in C. `log` is natural; `min` and `max` take two or more arguments; `sign` is -1, 0 or 1:
 
 {}
 
-Operators bind as in C: `!` and signs, `* /`, `+ -`, `< > <= >=`, `== !=`, `&&`, `||`, `c ? a : b`. `^` is power; it binds
-more tightly than a sign and from the right: `-x^2` is `-(x^2)`, `2^3^2` is `2^9`. A value that is not finite where it is
-used is an error.
+Operators bind as in C: `!` and signs, `* /`, `+ -`, `< > <= >=`, `== !=`, `&&`, `||`, `c ? a : b`. `^` is power. It binds
+more tightly than a sign, and from the right: `-x^2` is `-(x^2)`, `2^3^2` is `2^9`.
+
+A value that is not finite where it is used is an error.
 
 ## Outside any table
 
-{})";
+{}{})md";
+
+std::string example_of(std::string_view table) {
+  return fmt::format("```toml\n{}\n```\n\n", table_text(table).example);
+}
 
 }  // namespace
 
 std::string scene_reference() {
-  std::string text = fmt::format(introduction, functions(), keys_table(top_keys()));
+  std::string text = fmt::format(introduction, functions(), example_of(""), keys_table(top_keys()));
   for (const TableSpec& table : table_specs()) {
     const std::string name = table.listed ? fmt::format("[[{}]]", table.name) : fmt::format("[{}]", table.name);
-    text += fmt::format("\n## `{}`\n\n{}\n\n{}", name, table.help, keys_table(table.keys));
+    text += fmt::format("\n## `{}`\n\n{}\n\n{}{}{}", name, table.help, example_of(table.name), keys_table(table.keys),
+                        table_text(table.name).details);
     if (std::string_view(table.name) == "body") text += shapes_section("Shapes of bodies", body_shapes());
     if (std::string_view(table.name) == "obstacle")
       text += shapes_section("Shapes of rigid obstacles", obstacle_shapes());

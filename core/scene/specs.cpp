@@ -190,31 +190,21 @@ constexpr KeySpec plugins[] = {
 
 constexpr KeySpec output[] = {
     {"vtu", boolean, "true", "", "",
-     "write the solution for ParaView, packed by zlib where it pays; `gap` is NaN where no obstacle can be reached"},
+     "write the solution for ParaView, packed where it pays; `gap` is NaN where no obstacle can be reached"},
     {"pictures", boolean, "true", "", "", "draw the convergence history and the result"},
     {"convergence", boolean, "true", "", "", "write the convergence table"},
 };
 
 constexpr TableSpec tables[] = {
     {"body", true, "The body to be deformed, or the domain of a scalar equation.", body},
-    {"fix", true, "A Dirichlet condition at the nodes of the faces picked by `on` or `where`.", fix},
-    {"load", true, "A force.", load},
-    {"obstacle", true,
-     "What the body may not penetrate. Every key not listed here belongs to the plugin. `on` and `where` may pick more "
-     "faces than come into contact: the contact area of a node, and its pressure, which is force over area, count only "
-     "those of the picked faces whose outer normal is within 60 degrees of the direction to the obstacle (at a tip "
-     "that is sharper than that, all)."
-     " Contact is linearised about the undeformed body: distance and normal of a node are those before it moves. After "
-     "the solve the nodes of the deformed boundary are compared with the true obstacle: the report has their "
-     "`largest_penetration`, and their `largest_opening` where contact is claimed, and a warning where one is over 1 % "
-     "of the displacements there. `force` is the whole force of the obstacle. How it divides between the obstacle and "
-     "a "
-     "fix that holds a node along the obstacle's normal is not determined: what presses there is counted as the "
-     "obstacle's, and `undetermined_nodes` counts such nodes.",
-     obstacle},
+    {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
+     fix},
+    {"load", true, "A force that pulls or pushes.", load},
+    {"obstacle", true, "What the body may not penetrate.", obstacle},
     {"solver", false, "How the algebraic problem is solved.", solver},
-    {"refine", false, "The mesh.", refine},
-    {"steps", false, "Quasi-static loading.", steps},
+    {"refine", false, "How the mesh is refined.", refine},
+    {"steps", false,
+     "Quasi-static loading: several solves, one after the other. Numbers may depend on the step by `t`.", steps},
     {"probe", true, "A point whose result is reported.", probe},
     {"plugins", false, "Where obstacle plugins are found.", plugins},
     {"output", false, "Which files are written beside the report.", output},

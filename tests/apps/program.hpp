@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,6 +31,7 @@ inline std::string read(const fs::path& file) {
 struct Ended {
   int status;
   std::string out, err;
+  long megabytes = 0;  ///< of memory, at most
 };
 
 /// Each test in a folder of its own, where the program runs.
@@ -54,11 +56,30 @@ class Program : public Folder {
     _exit(127);
   }
 
+  /// Waits until something holds of a running program. What ends before, or never comes to it, fails the test.
+  template <class Condition>
+  static void wait_until(pid_t child, const Condition& condition) {
+    while (!condition()) {
+      siginfo_t ended{};
+      waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+      if (ended.si_pid == child) return ADD_FAILURE() << "the program ended too soon", void();
+      usleep(1000);
+    }
+  }
+
+  /// Megabytes of memory that a program takes.
+  static long megabytes(pid_t child) {
+    long pages = 0, resident = 0;
+    std::ifstream("/proc/" + std::to_string(child) + "/statm") >> pages >> resident;
+    return resident * sysconf(_SC_PAGESIZE) / 1000000;
+  }
+
   Ended wait_for(pid_t child) const {
     int status = 0;
-    waitpid(child, &status, 0);
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read(folder_ / ".out"),
-            read(folder_ / ".err")};
+            read(folder_ / ".err"), usage.ru_maxrss / 1000};
   }
 
   Ended signorini(std::vector<std::string> arguments) const {

@@ -1,9 +1,7 @@
 // `signorini qp`: files in, files out, and what every way to fail says.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "core/io/matrix_market.hpp"
 #include "program.hpp"
@@ -343,9 +341,7 @@ TEST_F(Qp, InterruptEndsCleanlyAndLeavesNothing) {
   write_chain(n);
   write_constant("b.mtx", n, 1);
   const pid_t child = start("signorini", {"qp", "A.mtx", "b.mtx", "--method", "pgs", "--out", "a/x.mtx"});
-  for (int k = 0; k < 1000 && !fs::exists(folder_ / "a"); ++k)  // made just before the set-up
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  wait_until(child, [&] { return fs::exists(folder_ / "a"); });  // made just before the set-up
   kill(child, SIGINT);
   const Ended ended = wait_for(child);
   EXPECT_EQ(ended.status, 130) << ended.err;

@@ -275,14 +275,18 @@ TEST_F(Solve, WarnsWhereLinearElementsLock) {
   EXPECT_TRUE(report("p").at("warnings").empty());
 }
 
-TEST_F(Solve, WithoutGnuplotThereIsANoteInsteadOfPictures) {
+TEST_F(Solve, WithoutTheLibraryForPicturesThereIsANote) {
   write("membrane.toml", membrane);
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", folder_.c_str(), 1);
+  const fs::path libraries = fs::path(SIGNORINI_BINARY_DIR) / "lib";
+  fs::copy(libraries / "libsignorini_core.so", folder_ / "libsignorini_core.so");  // alone
+  setenv("LD_LIBRARY_PATH", folder_.c_str(), 1);
+  setenv("SIGNORINI_PLUGIN_PATH", (libraries / "signorini/plugins").c_str(), 1);
   const Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
-  setenv("PATH", path.c_str(), 1);
+  unsetenv("LD_LIBRARY_PATH");
+  unsetenv("SIGNORINI_PLUGIN_PATH");
   EXPECT_EQ(ended.status, 0);
-  EXPECT_THAT(ended.err, HasSubstr("gnuplot is not installed"));
+  EXPECT_THAT(ended.err, HasSubstr("no pictures were drawn"));
+  EXPECT_THAT(ended.err, HasSubstr("libsignorini_pictures.so"));
   EXPECT_THAT(written("o"), UnorderedElementsAre("report.json", "solution.vtu", "convergence.csv", "phases.csv"));
 }
 

@@ -68,9 +68,7 @@ class Listing {
     sets("AMGCL", amgcl(), lagged, Given::matrix);
 #endif
     sets("CHOLMOD", cholmod_solver, renewed, Given::matrix);
-#ifdef SIGNORINI_IPOPT
     add("IPOPT", Given::matrix, true, [this_instance = &instance_](double t) { return ipopt(*this_instance, t); });
-#endif
   }
 
   void add(std::string name, Given given, bool bounded, Solver solver) {

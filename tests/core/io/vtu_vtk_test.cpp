@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "core/io/mesh_file.hpp"
 #include "core/io/vtu_writer.hpp"
 #include "core/mesh/structured.hpp"
+#include "tests/support/folder.hpp"
 
 namespace signorini {
 namespace {
@@ -24,16 +24,8 @@ namespace fs = std::filesystem;
 using test::input_error_of;
 using testing::HasSubstr;
 
-class Vtk : public testing::Test {
+class Vtk : public test::Folder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("signorini_{}_{}",
-                                                      testing::UnitTest::GetInstance()->current_test_info()->name(),
-                                                      std::chrono::steady_clock::now().time_since_epoch().count());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Output of a script of this folder.
   static std::string run(const std::string& script, const fs::path& argument) {
     const std::string command =
@@ -47,8 +39,6 @@ class Vtk : public testing::Test {
   }
 
   static bool skipped() { return std::getenv("SIGNORINI_SKIP_VTK") != nullptr; }
-
-  fs::path folder_;
 };
 
 std::vector<double> numbers_after(const std::string& text, const std::string& start) {

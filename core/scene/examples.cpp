@@ -1,0 +1,102 @@
+#include "core/scene/examples.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace signorini {
+namespace {
+
+constexpr const char* selection = R"(
+- One of `on` and `where` picks the faces, in this table and the next ones. Both together are an error.
+- `where` is judged on the faces of the coarsest mesh. Finer ones inherit it. Where it cuts through faces of the coarsest
+  mesh a warning says how much area.
+)";
+
+constexpr const char* load_details = R"(
+- With `on` or `where` the load is a traction on these faces: a force per area. Without them it is a body force, per volume.
+- For scalar bodies it is a flux, or a source.
+)";
+
+constexpr const char* obstacle_details = R"(
+Every key not listed here belongs to the plugin; `signorini list obstacles` shows it. `scalar`, for instance, has `lower`
+and `upper`.
+
+**Which faces count.** `on` and `where` may pick more faces than come into contact. The contact area of a node, and its
+pressure, which is force over area, count only those of the picked faces whose outer normal is within 60 degrees of the
+direction to the obstacle. (At a tip that is sharper than that, all count.)
+
+**Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before it
+moves. After the solve the nodes of the deformed boundary are compared with the true obstacle:
+
+| key of the report | says |
+| --- | --- |
+| `largest_penetration` | how far a node is inside the obstacle |
+| `largest_opening` | how far one is off it though contact is claimed |
+
+A warning is given where one of them is over 1 % of the displacements there.
+
+**Forces.** `force` of the report is the whole force of the obstacle. How it divides between the obstacle and a fix that
+holds a node along the obstacle's normal is not determined. What presses there is counted as the obstacle's, and
+`undetermined_nodes` counts such nodes.
+)";
+
+constexpr TableText texts[] = {
+    {"", R"(title = "A block pressed on a ball")", ""},
+    {"body", R"([[body]]
+name = "block"
+shape = "box"
+from = [0, 0, 0]
+to = [2, 1, 1]
+cells = [8, 4, 4]
+young = 210000
+poisson = 0.3)",
+     ""},
+    {"fix", R"([[fix]]
+body = "block"
+on = "top"
+value = [0, 0, "-0.01*t"]          # moved down step by step; "free" leaves a component free)",
+     selection},
+    {"load", R"([[load]]
+body = "block"
+where = "x == 2"
+value = [-10, 0, 0]                # a pressure of 10 on the face at x = 2)",
+     load_details},
+    {"obstacle", R"([[obstacle]]
+type = "contact"
+body = "block"
+on = "bottom"
+shape = "sphere"
+center = [1, 0.5, -3]
+radius = 3)",
+     obstacle_details},
+    {"solver", R"([solver]
+tolerance = 1e-10)",
+     "\nNone of these has to be given. They are explained in [solver.md](solver.md).\n"},
+    {"refine", R"([refine]
+uniform = 1                        # halves all edges once)",
+     ""},
+    {"steps", R"([steps]
+count = 4                          # t is 0.25, 0.5, 0.75 and 1)",
+     ""},
+    {"probe", R"([[probe]]
+name = "middle of the bottom"
+body = "block"
+at = [1, 0.5, 0])",
+     ""},
+    {"plugins", R"([plugins]
+path = ["."]                       # the folder of the scene)",
+     ""},
+    {"output", R"([output]
+pictures = false)",
+     ""},
+};
+
+}  // namespace
+
+const TableText& table_text(std::string_view table) {
+  const auto* found = std::ranges::find(texts, table, &TableText::table);
+  assert(found != std::end(texts));
+  return *found;
+}
+
+}  // namespace signorini
