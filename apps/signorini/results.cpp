@@ -18,7 +18,9 @@ Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(mesh, model, solution.discretization, solution.x),
                     {},
+                    {},
                     {}};
+  out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
     out.deformed.push_back(deformed_contact(mesh, model, static_cast<Index>(k), out.contact, out.u));
   if constexpr (B == D) out.stress = nodal_stress(mesh, element_stress(mesh, model, out.u));
@@ -56,12 +58,34 @@ ContactReport contact_report(int obstacle, const ContactSummary<B>& contact,
           .largest_displacement = at.displacement};
 }
 
+template <int B>
+std::vector<ForceReport> force_reports(const std::vector<std::array<double, B>>& forces) {
+  std::vector<ForceReport> reports;
+  for (const auto& force : forces) reports.push_back({static_cast<int>(reports.size()), {force.begin(), force.end()}});
+  return reports;
+}
+
+template <int B>
+std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
+  std::vector<double> total(B);
+  for (const auto& force : forces)
+    for (int i = 0; i < B; ++i) total[i] += force[i];
+  return total;
+}
+
 }  // namespace
 
 template <int D, int B>
-StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
-                       const Summary& summary) {
-  StepReport report{t, summary, {}, {}, {}};
+StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+                       double t, const Summary& summary) {
+  StepReport report;
+  report.t = t;
+  report.summary = summary;
+  const Forces<B>& forces = results.forces;
+  report.applied = force_reports<B>(forces.applied);
+  report.reactions = force_reports<B>(forces.reactions);
+  report.balance = {
+      {scene.bodies.front().name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
   for (std::size_t k = 0; k < results.contact.obstacles.size(); ++k)
     report.contact.push_back(contact_report(static_cast<int>(k), results.contact.obstacles[k], results.deformed[k]));
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
@@ -127,7 +151,8 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
 
 #define SIGNORINI_RESULTS(D, B)                                                                                    \
   template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
-  template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&); \
+  template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double,    \
+                                  const Summary&);                                                                 \
   template Summary judge(const Mesh<D>&, const Model<B>&, const Solution<B>&, const std::vector<double>&, double); \
   template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
 SIGNORINI_RESULTS(2, 1)

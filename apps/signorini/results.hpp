@@ -5,6 +5,7 @@
 
 #include "apps/signorini/nested_solver.hpp"
 #include "core/fem/contact.hpp"
+#include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
 #include "core/fem/stress.hpp"
@@ -16,6 +17,7 @@ template <int D, int B>
 struct Results {
   std::vector<double> u;  ///< global coordinates, B per vertex
   ContactState<B> contact;
+  Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<Stress> stress;                            ///< per vertex; elasticity only
 };
@@ -35,8 +37,8 @@ template <int D>
 Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene);
 
 template <int D, int B>
-StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
-                       const Summary& summary);
+StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+                       double t, const Summary& summary);
 
 /// The summary of a solve. Where contacts that could not be made part of the problem are violated in its solution by
 /// more than `tolerance` times the largest displacement, it has not converged and says which.

@@ -95,7 +95,7 @@ class SolveRun {
     Stopwatch watch;
     const Mesh<D>& mesh = hierarchy_.finest();
     results_ = results<D, B>(mesh, model, solution);
-    report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
+    report_.steps.push_back(step_report<D, B>(scene_, mesh, probes_, results_, model.t,
                                               judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
     add_undetermined(model, solution.undetermined);
     if (!is_last_step()) write_solution();

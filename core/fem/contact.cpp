@@ -90,7 +90,8 @@ class NodeReader {
     ContactNode<B> node{bound.vertex, bound.obstacle, true, true, 0, 0, 0, {}, bound.direction};
     node.gap = std::min(value - bound.lower, bound.upper - value);
     for (double& d : node.direction) d *= sign;
-    push(node, sign * held.force(x_));
+    const PrescribedRows<B>& rows = discretization_.prescribed;
+    push(node, sign * rows.force(rows.at(bound.vertex), held.along.data(), x_));
     return node;
   }
 

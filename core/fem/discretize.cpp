@@ -13,8 +13,6 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;  // of terms that cancel
-
 template <int D, int B>
 class Discretizer {
  public:
@@ -33,12 +31,14 @@ class Discretizer {
     check_lengths(mesh, model);
     problem().A = stiffness(mesh, model);
     check_stiffness(mesh, model, problem().A);
-    problem().b = load_vector(mesh, model);
+    problem().b = load_vector<D, B>(mesh, model, &out_.applied);
     rotate(problem().A, problem().b, problem().frames);
+    for (const FixedDirections<B>& fixed : fixes_) out_.prescribed.add(problem().A, problem().b, fixed.vertex);
     if (B > 1)
       for (const Bound<B>& bound : held_) hold(bound);
     if (!fixes_.empty()) eliminate(problem());
     check_load(mesh, model, problem());
+    out_.fixes = std::move(fixes_);
   }
 
   Discretization<B> take() { return std::move(out_); }
@@ -141,21 +141,11 @@ class Discretizer {
       }
   }
 
-  // Keeps the part of the matrix that tells the force along a direction that is about to be eliminated.
   void hold(const Bound<B>& bound) {
-    HeldBound<B> held{bound, {}, {}, 0};
-    std::array<double, B> along = bound.direction;
+    HeldBound<B> held{bound, bound.direction};
     if (const double* N = problem().frames.dual_at(bound.vertex))
-      block::transposed_product<B>(N, bound.direction.data(), along.data());
-    const BlockMatrix<B>& A = problem().A;
-    for (Offset k = A.row[bound.vertex]; k < A.row[bound.vertex + 1]; ++k) {
-      double entry[B];
-      block::transposed_product<B>(A.at(k), along.data(), entry);
-      held.column.push_back(A.column[k]);
-      held.entry.insert(held.entry.end(), entry, entry + B);
-    }
-    for (int i = 0; i < B; ++i) held.load += along[i] * problem().b[Offset{bound.vertex} * B + i];
-    out_.held.push_back(std::move(held));
+      block::transposed_product<B>(N, bound.direction.data(), held.along.data());
+    out_.held.push_back(held);
   }
 
   Index ruling_obstacle(Index slot) const {
@@ -188,18 +178,6 @@ class Discretizer {
 template <int D, int B>
 Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model) {
   return Discretizer<D, B>(mesh, model).take();
-}
-
-template <int B>
-double HeldBound<B>::force(const std::vector<double>& x) const {
-  double sum = -load, size = std::fabs(load);
-  for (std::size_t k = 0; k < column.size(); ++k)
-    for (int i = 0; i < B; ++i) {
-      const double term = entry[k * B + i] * x[Offset{column[k]} * B + i];
-      sum += term;
-      size += std::fabs(term);
-    }
-  return std::fabs(sum) > rounding * size ? sum : 0;
 }
 
 template <int B>
@@ -236,7 +214,6 @@ template Discretization<1> discretize(const Mesh<3>&, const Model<1>&);
 template Discretization<2> discretize(const Mesh<2>&, const Model<2>&);
 template Discretization<3> discretize(const Mesh<3>&, const Model<3>&);
 #define SIGNORINI_INSTANTIATE(B)                                                          \
-  template struct HeldBound<B>;                                                           \
   template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
   template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
   template double violation(const Bound<B>&, const std::vector<double>&);

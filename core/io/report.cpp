@@ -53,6 +53,16 @@ Json probe(const ProbeReport& probe) {
   return result;
 }
 
+Json force(const char* key, const ForceReport& force) { return {{key, force.number}, {"force", force.force}}; }
+
+Json balance(const BalanceReport& balance) {
+  return {{"body", balance.body},
+          {"applied", balance.applied},
+          {"reactions", balance.reactions},
+          {"contact", balance.contact},
+          {"sum", balance.sum()}};
+}
+
 Json solver(const SolverOptions& options) {
   return {{"method", options.method},
           {"tolerance", options.tolerance},
@@ -113,6 +123,9 @@ void add_history(Json& json, const Summary& summary) {
 void add_results(Json& json, const StepReport& step) {
   json["contact"] = array(step.contact, contact);
   json["probes"] = array(step.probes, probe);
+  json["reactions"] = array(step.reactions, [](const ForceReport& reaction) { return force("fix", reaction); });
+  json["applied"] = array(step.applied, [](const ForceReport& load) { return force("load", load); });
+  json["balance"] = array(step.balance, balance);
   json["undetermined"] = step.undetermined;
 }
 
@@ -136,6 +149,13 @@ void finite_or_null(Json& json) {
     json = nullptr;
 }
 }  // namespace
+
+std::vector<double> BalanceReport::sum() const {
+  std::vector<double> sum(contact.size());
+  for (const std::vector<double>* part : {&applied, &reactions, &contact})
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (*part)[i];
+  return sum;
+}
 
 bool Report::converged() const {
   return !interrupted &&

@@ -23,6 +23,20 @@ struct ContactReport {
   double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
 };
 
+/// A total force on the body it acts on, one entry per unknown of a vertex.
+struct ForceReport {
+  int number = 0;  ///< of the scene's [[load]] or [[fix]], from 0
+  std::vector<double> force;
+};
+
+/// All that acts on one body: the totals of loads, fixes and obstacles. They sum to zero but for the algebraic error.
+struct BalanceReport {
+  std::string body;
+  std::vector<double> applied, reactions, contact;
+
+  std::vector<double> sum() const;
+};
+
 /// The solution at a point.
 struct ProbeReport {
   std::string name;
@@ -44,7 +58,9 @@ struct StepReport {
   Summary summary;
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
-  std::vector<std::string> undetermined;  ///< motions of the body that nothing decides
+  std::vector<ForceReport> applied, reactions;  ///< of each load, of each fix
+  std::vector<BalanceReport> balance;           ///< of each body
+  std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
 };
 
 /// Everything `report.json` says.
