@@ -17,6 +17,7 @@
 #include "apps/bench/variants.hpp"
 #include "apps/bench/warm.hpp"
 #include "core/base/heap.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 
 namespace signorini::bench {

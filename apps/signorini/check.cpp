@@ -4,15 +4,16 @@
 #include <set>
 
 #include "amg/registration.hpp"
-#include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/nested_solver.hpp"
-#include "apps/signorini/problem.hpp"
-#include "apps/signorini/results.hpp"
+#include "apps/signorini/console.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
+#include "driver/build_model.hpp"
+#include "driver/components.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/problem.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 namespace {
@@ -79,7 +80,7 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry) {
   std::vector<std::string> warnings;
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings);
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, Console(true));
   locate_probes(hierarchy.finest(), scene);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
   Model<B> model;

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/results.hpp"
 #include "core/io/atomic_files.hpp"
 #include "core/io/picture.hpp"
 #include "core/io/vtu_writer.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 

@@ -5,14 +5,16 @@
 #include <cstdio>
 
 #include "amg/registration.hpp"
-#include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/contact_warnings.hpp"
+#include "apps/signorini/console.hpp"
 #include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/nested_solver.hpp"
 #include "apps/signorini/output.hpp"
-#include "apps/signorini/problem.hpp"
+#include "core/base/stopwatch.hpp"
+#include "driver/build_model.hpp"
+#include "driver/components.hpp"
+#include "driver/contact_warnings.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/problem.hpp"
 
 namespace signorini {
 namespace {
@@ -45,7 +47,7 @@ class SolveRun {
     Stopwatch watch;
     progress_.phase("meshing");
     report_.dimension = D;
-    hierarchy_ = build_hierarchy<D>(scene_, B, &report_.warnings);
+    hierarchy_ = build_hierarchy<D>(scene_, B, &report_.warnings, progress_);
     probes_ = locate_probes(hierarchy_.finest(), scene_);
     for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
       report_.warnings.push_back(std::move(warning));
@@ -177,7 +179,7 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
 Exit solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
-  const Progress progress(arguments.quiet);
+  const Console progress(arguments.quiet);
   Report report;
   report.scene = arguments.scene.string();
   report.title = scene.title;

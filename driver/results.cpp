@@ -1,4 +1,4 @@
-#include "apps/signorini/results.hpp"
+#include "driver/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

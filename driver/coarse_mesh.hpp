@@ -4,6 +4,7 @@
 
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
+#include "driver/progress.hpp"
 
 namespace signorini {
 
@@ -14,6 +15,6 @@ int dimension_of(const Scene& scene);
 /// @param block unknowns per vertex, to refuse meshes that would not fit into memory
 /// @param warnings where there are any, what is odd about the mesh is added
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings);
+Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings, const Progress& progress);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "apps/signorini/build_model.hpp"
+#include "driver/build_model.hpp"
 
 #include <fmt/format.h>
 

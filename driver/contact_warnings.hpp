@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/results.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/nested_solver.hpp"
+#include "driver/nested_solver.hpp"
 #include "core/fem/contact.hpp"
 #include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"

@@ -1,4 +1,4 @@
-#include "apps/signorini/nested_solver.hpp"
+#include "driver/nested_solver.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
-#include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/loose_body.hpp"
+#include "driver/loose_body.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
@@ -81,7 +81,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       times_(times),
       monitor_([this](const IterationRecord& record) {
         progress_.cycle(record);
-        return !interrupted();
+        return !progress_.interrupted();
       }) {
   Stopwatch watch;
   if (first_ == 0) prolongations_ = prolongations(hierarchy);
@@ -92,7 +92,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::size_t level) {
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   Stopwatch watch;
   const Mesh<D>& mesh = hierarchy_.levels[level];
   progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
@@ -200,7 +200,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      Solution<B>& solution) {
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   const bool finest = level + 1 == hierarchy_.levels.size();
   try {
@@ -215,7 +215,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(model.origin, solution);
 }
 

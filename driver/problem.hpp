@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/signorini/coarse_mesh.hpp"
+#include "driver/coarse_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
@@ -35,6 +35,7 @@ void at_step(const Scene& scene, double t, const Work& work) {
 /// The scene's meshes, after making sure that a problem with B unknowns per vertex on them fits into memory.
 /// @param warnings where there are any, what is odd about the mesh of a file is added
 template <int D>
-MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr);
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr,
+                                 const Progress& progress = Progress());
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "apps/signorini/mesh_warnings.hpp"
+#include "driver/mesh_warnings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

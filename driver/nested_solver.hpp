@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/signorini/progress.hpp"
+#include "driver/progress.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/io/report.hpp"

@@ -1,4 +1,4 @@
-#include "apps/signorini/contact_warnings.hpp"
+#include "driver/contact_warnings.hpp"
 
 #include <fmt/format.h>
 
