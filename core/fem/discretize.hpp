@@ -36,6 +36,7 @@ struct Discretization {
   std::vector<HeldBound<B>> held;              ///< by ascending vertex; elasticity only
   std::vector<FixedDirections<B>> fixes;       ///< by ascending vertex
   PrescribedRows<B> prescribed;                ///< one for each of `fixes`
+  std::vector<double> load;                    ///< of all loads, in global coordinates; B per vertex
   std::vector<std::array<double, B>> applied;  ///< per load of the model: its total
 };
 
@@ -48,6 +49,21 @@ struct Discretization {
 /// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
 template <int D, int B>
 Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model);
+
+/// What of a discretization had to be assembled.
+struct Assembled {
+  bool stiffness = true, load = true;
+  bool turned = false;  ///< the matrix that was there has been turned to other frames
+
+  bool same_matrix() const { return !stiffness && !turned; }
+};
+
+/// Makes `last`, the discretization of another model on the same mesh, that of `model`. Prescribed values, constraints
+/// and frames are new; the stiffness matrix is assembled only where coefficients may differ, where other components are
+/// prescribed, or where a frame has changed that some are prescribed in; the load vector where loads may differ (see
+/// Field::same()). Errors as above; then nothing is left of `last`.
+template <int D, int B>
+Assembled renew(const Mesh<D>& mesh, const Model<B>& before, const Model<B>& model, Discretization<B>& last);
 
 /// Global coordinates of a vector field given in the local ones, and back; B per vector.
 template <int B>

@@ -15,13 +15,22 @@ struct PrescribedRows {
   std::vector<double> value;        ///< B * B per column, row-major
   std::vector<double> load;         ///< B per vertex: b there
 
-  /// Copies the next row, and the load that belongs to it.
-  void add(const BlockMatrix<B>& A, const std::vector<double>& b, Index p);
+  /// Copies the next row.
+  void add(const BlockMatrix<B>& A, Index p);
+  /// Takes over the loads at the vertices from a right-hand side without prescribed values.
+  void take_load(const std::vector<double>& b);
+  /// Other coordinates of the columns: value_pq <- value_pq Q_q.
+  void rotate_columns(const Frames<B>& frames);
   /// The number of a vertex's row, which exists.
   Index at(Index p) const;
   /// along . (A x - b) in row k: the force that acts on the body there, with `along` in local coordinates; 0 where the
   /// terms cancel but for rounding.
   double force(Index k, const double* along, const std::vector<double>& x) const;
 };
+
+/// Prescribed components whose elimination from the matrix is done take the values of problem.start: b, which is that
+/// of the loads alone before, and what the energy loses by them, as by eliminate().
+template <int B>
+void prescribe(DiscreteProblem<B>& problem, const PrescribedRows<B>& rows);
 
 }  // namespace signorini

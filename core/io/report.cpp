@@ -141,6 +141,13 @@ Json time(const Times& time) {
           {"solve", time.solve}, {"output", time.output},     {"total", time.total}};
 }
 
+Json assemblies(const Assemblies& count) {
+  return {{"stiffness", count.stiffness},
+          {"load", count.load},
+          {"constraints", count.constraints},
+          {"hierarchies", count.hierarchies}};
+}
+
 /// JSON knows no NaN and no infinity.
 void finite_or_null(Json& json) {
   if (json.is_structured())
@@ -182,6 +189,7 @@ Json to_json(const Report& report) {
   add_history(json, report.last().summary);
   json["hierarchy"] = report.hierarchy;
   json["time"] = time(report.time);
+  json["assemblies"] = assemblies(report.time.assemblies);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());
   if (report.steps.size() > 1 || report.interrupted) json["steps"] = array(report.steps, step);

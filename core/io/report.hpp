@@ -47,9 +47,17 @@ struct PluginReport {
   std::string id, file, version;
 };
 
-/// Seconds spent.
+/// How often something was computed, over all levels and steps.
+struct Assemblies {
+  int stiffness = 0, load = 0;
+  int constraints = 0;  ///< prescribed values, bounds and frames
+  int hierarchies = 0;  ///< choices of levels by the matrix
+};
+
+/// Seconds spent, and on what.
 struct Times {
   double mesh = 0, assemble = 0, setup = 0, solve = 0, output = 0, total = 0;
+  Assemblies assemblies;
 };
 
 /// One quasi-static step.
