@@ -5,8 +5,9 @@
 
 namespace signorini {
 
-/// The scene's boundary value problem at the step parameter t. The obstacle types it names must be registered.
+/// The boundary value problem of one body at the step parameter t: its fixes, loads and obstacles in the scene's order.
+/// The obstacle types it names must be registered.
 template <int B>
-Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t);
+Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t body = 0);
 
 }  // namespace signorini

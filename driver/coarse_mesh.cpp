@@ -43,7 +43,7 @@ struct Mesher {
   Mesh<D> operator()(const Scene::MeshFile& given) const {
     FileGroups groups;
     Mesh<D> mesh = read_mesh<D>(given.file, &groups);
-    refuse_lost_groups(scene, mesh, groups);
+    refuse_lost_groups(scene, body, mesh, groups);
     if (warnings)
       for (std::string& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
         warnings->push_back(std::move(warning));
@@ -85,12 +85,12 @@ int dimension_of(const Scene& scene) {
 }
 
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings, const Progress& progress) {
-  const Scene::Body& body = scene.bodies.front();
-  return std::visit(Mesher<D>{scene, body, block, warnings, progress}, body.shape);
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
+                      const Progress& progress) {
+  return std::visit(Mesher<D>{scene, scene.bodies[body], block, warnings, progress}, scene.bodies[body].shape);
 }
 
-template Mesh<2> coarsest_mesh(const Scene&, int, std::vector<std::string>*, const Progress&);
-template Mesh<3> coarsest_mesh(const Scene&, int, std::vector<std::string>*, const Progress&);
+template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
+template Mesh<3> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
 
 }  // namespace signorini

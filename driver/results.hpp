@@ -32,13 +32,14 @@ struct Probes {
   std::vector<Place<D>> places;
 };
 
-/// Error(Exit::input) for a probe outside the body.
+/// Those of a body; Error(Exit::input) for one outside it.
 template <int D>
-Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene);
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body = 0);
 
+/// What the user is told, with the scene's numbers of fixes, loads and obstacles.
 template <int D, int B>
 StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
-                       double t, const Summary& summary);
+                       double t, const Summary& summary, std::size_t body = 0);
 
 /// The summary of a solve. Where contacts that could not be made part of the problem are violated in its solution by
 /// more than `tolerance` times the largest displacement, it has not converged and says which.
@@ -49,11 +50,12 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
 
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
 template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh);
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t body = 0);
 
 /// Fixes that contradict each other, one sentence per pair, and expressions that cut through faces of the coarsest
 /// mesh.
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model);
+std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model,
+                                        std::size_t body = 0);
 
 }  // namespace signorini
