@@ -54,6 +54,12 @@ void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) cons
 }
 
 template <int D, int B>
+std::vector<Stress> BodyRun<D, B>::stress() const {
+  if constexpr (B == D) return nodal_stress(mesh(), element_stress(mesh(), model_, results_.u));
+  return {};
+}
+
+template <int D, int B>
 void BodyRun<D, B>::start_from(std::vector<double> u) {
   if (u.size() != mesh().points.size() * B)
     throw Error(Exit::usage, fmt::format("{}: a start of {} numbers, expected {}: {} for each of {} vertices",

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/component/registry.hpp"
+#include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
 #include "driver/nested_solver.hpp"
 #include "driver/progress.hpp"
@@ -34,6 +35,8 @@ class BodyRun {
   const Mesh<D>& mesh() const { return hierarchy_.finest(); }
   /// Of the last step.
   const Results<D, B>& results() const { return results_; }
+  /// Per vertex, computed when it is asked for; empty for a scalar body.
+  std::vector<Stress> stress() const;
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return solver_.by_matrix(); }
 

@@ -10,6 +10,7 @@
 #include "core/base/stopwatch.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
+#include "driver/merge.hpp"
 #include "driver/problem.hpp"
 
 namespace signorini {
@@ -72,7 +73,12 @@ const Report& Driver::solve(const std::function<void()>& done) {
 }
 
 StepReport Driver::solve_step(double t) {
-  return visit(0, [&](auto& run) { return run.solve(t, report_.warnings); });
+  std::vector<StepReport> reports;
+  for (std::size_t body = 0; body < bodies(); ++body) {
+    if (bodies() > 1) progress_.phase(fmt::format("body '{}'", scene_.bodies[body].name));
+    reports.push_back(visit(body, [&](auto& run) { return run.solve(t, report_.warnings); }));
+  }
+  return merged(scene_, std::move(reports));
 }
 
 void Driver::finish() {

@@ -32,8 +32,8 @@ class Driver {
   Driver(const Driver&) = delete;
   Driver& operator=(const Driver&) = delete;
 
-  /// May be changed between solves, but for bodies, [solver], [refine] and the plugins it needs, which are taken from
-  /// it once. Values are used as they are: read_scene() would have refused some.
+  /// May be changed between solves, but for the bodies' meshes, [solver], [refine] and the plugins it needs, which are
+  /// taken from it once. Values are used as they are: read_scene() would have refused some.
   Scene& scene() { return scene_; }
   const Scene& scene() const { return scene_; }
 

@@ -19,12 +19,10 @@ Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(mesh, model, solution.discretization, solution.x),
                     {},
-                    {},
                     {}};
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
     out.deformed.push_back(deformed_contact(mesh, model, static_cast<Index>(k), out.contact, out.u));
-  if constexpr (B == D) out.stress = nodal_stress(mesh, element_stress(mesh, model, out.u));
   return out;
 }
 
@@ -87,6 +85,7 @@ StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>&
   const Forces<B>& forces = results.forces;
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
+  report.bodies = {{body.name, summary}};
   report.balance = {
       {body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
   const std::vector<int> obstacles = numbers_of(scene.obstacles, body);

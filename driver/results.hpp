@@ -8,7 +8,6 @@
 #include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
-#include "core/fem/stress.hpp"
 
 namespace signorini {
 
@@ -19,7 +18,6 @@ struct Results {
   ContactState<B> contact;
   Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
-  std::vector<Stress> stress;                            ///< per vertex; elasticity only
 };
 
 template <int D, int B>

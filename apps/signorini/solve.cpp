@@ -8,7 +8,6 @@
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/output.hpp"
 #include "core/base/stopwatch.hpp"
-#include "driver/coarse_mesh.hpp"
 #include "driver/driver.hpp"
 
 namespace signorini {
@@ -19,12 +18,13 @@ class ResultFiles {
  public:
   /// Keeps references to both.
   ResultFiles(Driver& driver, AtomicFiles& files)
-      : driver_(driver), files_(files), vtu_(files, scene().steps.count, {worthwhile(), scene().solver.threads}) {}
+      : driver_(driver), files_(files), vtu_(files, scene().steps.count, scene().bodies.size()) {}
 
   /// After a step: the last one is written in finish().
   void add_step() {
     if (is_last_step()) return;
     const Stopwatch watch;
+    read_stresses();
     write_solution();
     driver_.report().time.output += watch.elapsed();
   }
@@ -33,10 +33,10 @@ class ResultFiles {
   void finish() {
     const Stopwatch watch;
     Report& report = driver_.report();
+    if (scene().output.pictures || is_last_step()) read_stresses();
     if (scene().output.convergence) write_tables(files_, report);
     Pictures pictures(files_);
-    if (scene().output.pictures)
-      driver_.visit(0, [&](const auto& run) { pictures.start(run.hierarchy(), run.results(), report); });
+    if (scene().output.pictures) draw(pictures);
     if (is_last_step()) write_solution();
     vtu_.finish();
     pictures.finish(report);
@@ -46,24 +46,39 @@ class ResultFiles {
  private:
   const Scene& scene() const { return driver_.scene(); }
 
-  /// Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
-  double worthwhile() const {
-    const bool elastic = scene().bodies.front().equation == Scene::Equation::elasticity;
-    return elastic && dimension_of(scene()) == 3 ? 0.6 : 0.25;
+  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count; }
+
+  void read_stresses() {
+    if (!scene().output.vtu && !scene().output.pictures) return;
+    stresses_.clear();
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      stresses_.push_back(driver_.visit(body, [](const auto& run) { return run.stress(); }));
   }
 
-  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count; }
+  void draw(Pictures& pictures) {
+    pictures.draw_convergence(driver_.report());
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      driver_.visit(body, [&](const auto& run) {
+        pictures.draw_result(run.hierarchy(), run.results(), stresses_[body], body_suffix(body, driver_.bodies()),
+                             driver_.report());
+      });
+  }
 
   void write_solution() {
     if (!scene().output.vtu) return;
-    driver_.visit(0, [&](const auto& run) {
-      vtu_.add(run.mesh(), point_fields(run.mesh(), run.results()), driver_.report().last().t);
-    });
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
+        // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
+        constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
+        vtu_.add(run.mesh(), point_fields(run.mesh(), run.results(), stresses_[body]), driver_.report().last().t, body,
+                 {worthwhile, scene().solver.threads});
+      });
   }
 
   Driver& driver_;
   AtomicFiles& files_;
   SolutionFiles vtu_;
+  std::vector<std::vector<Stress>> stresses_;  // of the last step, per body
 };
 
 /// The files that a scene reads.

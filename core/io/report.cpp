@@ -63,6 +63,26 @@ Json balance(const BalanceReport& balance) {
           {"sum", balance.sum()}};
 }
 
+Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
+
+bool limited_by_rounding(const Summary& summary) {
+  return summary.outcome == Outcome::rounding || summary.outcome == Outcome::inaccurate;
+}
+
+Json body(const BodyReport& body) {
+  const Summary& summary = body.summary;
+  return {{"name", body.name},
+          {"converged", summary.converged()},
+          {"unknowns", unknowns(summary)},
+          {"iterations", summary.iterations},
+          {"residual", summary.residual},
+          {"algebraic_error", summary.algebraic_error},
+          {"rate", summary.rate},
+          {"energy", summary.energy},
+          {"limited_by_rounding", limited_by_rounding(summary)},
+          {"reason", summary.reason}};
+}
+
 Json solver(const SolverOptions& options) {
   return {{"method", options.method},
           {"tolerance", options.tolerance},
@@ -88,8 +108,6 @@ Json levels(const Summary& summary) {
   return result;
 }
 
-Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
-
 Json stage(const Stage& stage) {
   return {{"method", stage.method},
           {"linear", stage.linear.empty() ? Json(nullptr) : Json(stage.linear)},
@@ -109,7 +127,7 @@ void add_summary(Json& json, const Summary& summary) {
   json["rate"] = summary.rate;
   json["energy"] = summary.energy;
   json["linear_phase_from"] = summary.linear_phase_from;
-  json["limited_by_rounding"] = summary.outcome == Outcome::rounding || summary.outcome == Outcome::inaccurate;
+  json["limited_by_rounding"] = limited_by_rounding(summary);
   json["rounding_error"] = summary.rounding_error;
   json["reason"] = summary.reason;
   json["stages"] = array(summary.stages, stage);
@@ -125,6 +143,7 @@ void add_results(Json& json, const StepReport& step) {
   json["probes"] = array(step.probes, probe);
   json["reactions"] = array(step.reactions, [](const ForceReport& reaction) { return force("fix", reaction); });
   json["applied"] = array(step.applied, [](const ForceReport& load) { return force("load", load); });
+  json["bodies"] = array(step.bodies, body);
   json["balance"] = array(step.balance, balance);
   json["undetermined"] = step.undetermined;
 }

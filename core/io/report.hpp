@@ -37,6 +37,12 @@ struct BalanceReport {
   std::vector<double> sum() const;
 };
 
+/// The solve of one body.
+struct BodyReport {
+  std::string name;
+  Summary summary;
+};
+
 /// The solution at a point.
 struct ProbeReport {
   std::string name;
@@ -68,6 +74,7 @@ struct StepReport {
   std::vector<ProbeReport> probes;
   std::vector<ForceReport> applied, reactions;  ///< of each load, of each fix
   std::vector<BalanceReport> balance;           ///< of each body
+  std::vector<BodyReport> bodies;               ///< `summary` is what they have in common, see merged()
   std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
 };
 

@@ -90,8 +90,8 @@ void expect_as_new(Driver& kept) {
   }
   EXPECT_LT(error, 1e-8 * size);
   const StepReport &last = kept.report().last(), &expected = fresh.report().last();
-  const auto expect_same = [](const std::vector<double>& found, const std::vector<double>& wanted, double size) {
-    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-7 * size);
+  const auto expect_same = [](const std::vector<double>& found, const std::vector<double>& wanted, double unit) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-7 * unit);
   };
   double force = 0;
   for (const double f : expected.contact[0].force) force = std::max(force, std::abs(f));
