@@ -8,6 +8,7 @@
 #include "apps/bench/linear.hpp"
 #include "apps/bench/matrices.hpp"
 #include "apps/bench/problems.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace signorini::bench {
 namespace {

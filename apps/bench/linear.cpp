@@ -6,9 +6,9 @@
 #include "amg/block_rows.hpp"
 #include "amg/hierarchy.hpp"
 #include "amg/registration.hpp"
-#include "apps/signorini/progress.hpp"
 #include "core/algebra/dot.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/solver/convergence.hpp"
 
 namespace signorini::bench {

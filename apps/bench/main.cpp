@@ -13,10 +13,12 @@
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
 #include "apps/bench/problems.hpp"
+#include "apps/bench/steps.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
 #include "apps/bench/warm.hpp"
 #include "core/base/heap.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 
 namespace signorini::bench {
@@ -183,12 +185,13 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false;
+       aggregates = false, warm = false, steps = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
   app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
   app.add_flag("--warm", warm, "only the cycles from a solution before, for matrices without meshes");
+  app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
@@ -202,11 +205,12 @@ int main(int argc, char** argv) {
     if (algebraic) signorini::bench::print_algebraic(quick);
     if (boundary) signorini::bench::print_boundary(quick);
     if (warm) signorini::bench::print_warm(quick);
+    if (steps) signorini::bench::print_steps(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
     if (choice) signorini::bench::print_choice(only);
-    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm)
+    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !steps)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "apps/bench/processor_time.hpp"
-#include "apps/signorini/build_model.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/nested_solver.hpp"
-#include "apps/signorini/problem.hpp"
 #include "core/fem/discretize.hpp"
+#include "driver/build_model.hpp"
+#include "driver/components.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/problem.hpp"
 
 namespace signorini::bench {
 
@@ -52,7 +52,7 @@ struct Solved {
 
 template <int D, int B>
 Solved solve_nonlinear(const Problem& problem, const MeshHierarchy<D>& hierarchy) {
-  const Progress quiet(true);
+  const Progress quiet;
   Solved result;
   NestedSolver<D, B> solver(hierarchy, problem.scene.solver, problem.registry, quiet, result.times);
   result.summary = solver.solve(build_model<B>(problem.scene, D, problem.registry, 1)).summary;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/signorini/progress.hpp"
+#include "core/base/stopwatch.hpp"
 
 namespace signorini::bench {
 

@@ -4,15 +4,17 @@
 #include <set>
 
 #include "amg/registration.hpp"
-#include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/nested_solver.hpp"
-#include "apps/signorini/problem.hpp"
-#include "apps/signorini/results.hpp"
+#include "apps/signorini/console.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/automatic.hpp"
 #include "core/solver/configuration.hpp"
+#include "driver/build_model.hpp"
+#include "driver/components.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/numbers.hpp"
+#include "driver/problem.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 namespace {
@@ -49,12 +51,13 @@ void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
 }
 
 template <int D, int B>
-void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& model) {
-  std::vector<std::set<Index>> candidates(scene.obstacles.size());
+void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
+  const std::vector<int> numbers = numbers_of(scene.obstacles, body);
+  std::vector<std::set<Index>> candidates(numbers.size());
   for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model)) candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
-    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", k, scene.obstacles[k].type,
-               candidates[k].size());
+    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
+               scene.obstacles[numbers[k]].type, candidates[k].size());
 }
 
 void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
@@ -77,15 +80,15 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
 }
 
 template <int D, int B>
-void check(const Scene& scene, const Registry& registry) {
+void check(const Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings);
-  locate_probes(hierarchy.finest(), scene);
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, Console(true), body);
+  locate_probes(hierarchy.finest(), scene, body);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
   Model<B> model;
   const auto discretize_at = [&](double t) {
     at_step(scene, t, [&] {
-      model = build_model<B>(scene, D, registry, t);
+      model = build_model<B>(scene, D, registry, t, body);
       discretize<D, B>(hierarchy.finest(), model);
     });
   };
@@ -93,14 +96,14 @@ void check(const Scene& scene, const Registry& registry) {
   discretize_at(1);
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
-  print_contacts(hierarchy.finest(), scene, model);
+  print_contacts(hierarchy.finest(), scene, scene.bodies[body], model);
   const std::size_t first = first_mesh(hierarchy, scene.solver, B);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
   print_solver(scene.solver, below, first == 0, B, free_unknowns(hierarchy.finest(), model));
   print_warnings(warnings);
-  print_warnings(scene_warnings(scene, hierarchy.levels.front()));
-  print_warnings(model_warnings(scene, hierarchy.finest(), model));
+  print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
+  print_warnings(model_warnings(scene, hierarchy.finest(), model, body));
 }
 }  // namespace
 
@@ -109,11 +112,15 @@ void check_command(const std::filesystem::path& file, const std::vector<std::str
   Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
-  const auto& body = scene.bodies.front();
-  fmt::print("{}: {}\ndimension: {}\nequation: {}\n", file.string(), scene.title, dimension_of(scene),
-             body.equation == Scene::Equation::diffusion ? "diffusion" : "elasticity");
+  fmt::print("{}: {}\ndimension: {}\n", file.string(), scene.title, dimension_of(scene));
   for (const auto& plugin : plugins) fmt::print("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
-  dispatch(scene, [&]<int D, int B>() { check<D, B>(scene, registry); });
+  for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
+    if (scene.bodies.size() > 1) fmt::print("body '{}'\n", scene.bodies[body].name);
+    fmt::print("equation: {}\n",
+               scene.bodies[body].equation == Scene::Equation::diffusion ? "diffusion" : "elasticity");
+    dispatch(
+        scene, [&]<int D, int B>() { check<D, B>(scene, registry, body); }, body);
+  }
 }
 
 }  // namespace signorini

@@ -5,9 +5,9 @@
 
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
-#include "apps/signorini/components.hpp"
 #include "core/component/plugin_loader.hpp"
 #include "core/scene/specs.hpp"
+#include "driver/components.hpp"
 
 namespace signorini {
 namespace {

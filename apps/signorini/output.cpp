@@ -45,7 +45,7 @@ ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices)
 }
 
 template <int D, int B>
-Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results) {
+Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, const std::vector<Stress>& stress) {
   const std::size_t vertices = hierarchy.finest().points.size();
   ContactFields contact = contact_fields(results.contact, vertices);
   Shown<D> out{hierarchy,
@@ -61,7 +61,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results) 
     out.value = results.u;
   } else {
     out.displacement = results.u;
-    out.value = equivalent(results.stress);
+    out.value = equivalent(stress);
     out.pressure = std::move(contact.pressure);
   }
   return out;
@@ -77,12 +77,13 @@ std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>
 }  // namespace
 
 template <int D, int B>
-std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results) {
+std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results,
+                                   const std::vector<Stress>& stress) {
   std::vector<VtuField> fields;
   fields.push_back({B == 1 ? "u" : "displacement", B, results.u});
   if constexpr (B > 1) {
-    fields.push_back({"stress", 9, full_tensors(results.stress)});
-    fields.push_back({"von_mises", 1, equivalent(results.stress)});
+    fields.push_back({"stress", 9, full_tensors(stress)});
+    fields.push_back({"von_mises", 1, equivalent(stress)});
   }
   if (results.contact.obstacles.empty()) return fields;
   ContactFields contact = contact_fields(results.contact, mesh.points.size());
@@ -93,39 +94,82 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
   return fields;
 }
 
+std::string body_suffix(std::size_t body, std::size_t bodies) { return bodies > 1 ? fmt::format("_body{}", body) : ""; }
+
 template <int D>
-void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t) {
-  const std::string name = steps_ == 1 ? "solution.vtu" : fmt::format("solution_{:03}.vtu", entries_.size() + 1);
-  write_vtu(files_.stage(name), mesh, fields, {}, packing_);
-  entries_.push_back({t, name});
+void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t, std::size_t body,
+                        const VtuPacking& packing) {
+  const std::string step = steps_ == 1 ? "" : fmt::format("_{:03}", entries_.size() / bodies_ + 1);
+  const std::string name = "solution" + body_suffix(body, bodies_) + step + ".vtu";
+  write_vtu(files_.stage(name), mesh, fields, {}, packing);
+  entries_.push_back({t, name, static_cast<int>(body)});
 }
 
 void SolutionFiles::finish() const {
-  if (!entries_.empty() && steps_ > 1) write_pvd(files_.stage("solution.pvd"), entries_);
+  if (!entries_.empty() && (steps_ > 1 || bodies_ > 1)) write_pvd(files_.stage("solution.pvd"), entries_);
 }
 
+namespace {
+
+/// Takes as many digits as there are from the front of a text; how many.
+std::size_t take_digits(std::string_view& text) {
+  const auto end = std::find_if_not(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  const auto count = static_cast<std::size_t>(end - text.begin());
+  text.remove_prefix(count);
+  return count;
+}
+
+/// Takes a text from the front of another one that begins with it.
+bool take(std::string_view& text, std::string_view start) {
+  if (!text.starts_with(start)) return false;
+  text.remove_prefix(start.size());
+  return true;
+}
+
+}  // namespace
+
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 7> fixed = {
-      "report.json", "solution.vtu", "solution.pvd", "convergence.csv", "phases.csv", "convergence.png", "result.png"};
+  constexpr std::array<std::string_view, 5> fixed = {"report.json", "solution.pvd", "convergence.csv", "phases.csv",
+                                                     "convergence.png"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
-  constexpr std::string_view start = "solution_", end = ".vtu";
-  if (!name.starts_with(start) || !name.ends_with(end) || name.size() < start.size() + 3 + end.size()) return false;
-  return std::all_of(name.begin() + start.size(), name.end() - end.size(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
+  std::string_view rest = name;
+  const bool solution = take(rest, "solution");
+  if (!solution && !take(rest, "result")) return false;
+  if (take(rest, "_body") && take_digits(rest) == 0) return false;
+  if (!solution) return rest == ".png";
+  if (take(rest, "_") && take_digits(rest) < 3) return false;
+  return rest == ".vtu";
+}
+
+namespace {
+
+/// Calls draw(painter), or says why there is none.
+template <class Draw>
+void paint(Report& report, const Draw& draw) {
+  try {
+    draw(painter());
+  } catch (const Error& error) {
+    if (error.status() != Exit::plugin) throw;
+    const std::string warning = fmt::format("no pictures were drawn: {}", error.what());
+    if (std::ranges::find(report.warnings, warning) == report.warnings.end()) report.warnings.push_back(warning);
+  }
+}
+
+}  // namespace
+
+void draw_convergence(AtomicFiles& files, Report& report) {
+  paint(report, [&](const Painter& draw) {
+    draw.convergence(files.stage("convergence.png"), report.last().summary.history);
+  });
 }
 
 template <int D, int B>
-void draw_pictures(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
-                   Report& report) {
-  try {
-    const Painter& draw = painter();
-    draw.convergence(files.stage("convergence.png"), report.last().summary.history);
-    const auto panels = result_panels<D, B>(shown(hierarchy, results), report.warnings);
-    if (!panels.empty()) draw.panels(files.stage("result.png"), panels);
-  } catch (const Error& error) {
-    if (error.status() != Exit::plugin) throw;
-    report.warnings.push_back(fmt::format("no pictures were drawn: {}", error.what()));
-  }
+void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
+                 const std::vector<Stress>& stress, const std::string& suffix, Report& report) {
+  paint(report, [&](const Painter& draw) {
+    const auto panels = result_panels<D, B>(shown(hierarchy, results, stress), report.warnings);
+    if (!panels.empty()) draw.panels(files.stage("result" + suffix + ".png"), panels);
+  });
 }
 
 void write_tables(AtomicFiles& files, const Report& report) {
@@ -134,15 +178,16 @@ void write_tables(AtomicFiles& files, const Report& report) {
   write_text(files.stage("convergence.csv"), convergence_csv(summaries));
   write_text(files.stage("phases.csv"), phases_csv(summaries));
 }
-#define SIGNORINI_OUTPUT(D, B)                                                       \
-  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&); \
-  template void draw_pictures(AtomicFiles&, const MeshHierarchy<D>&, const Results<D, B>&, Report&);
+#define SIGNORINI_OUTPUT(D, B)                                                                                       \
+  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&, const std::vector<Stress>&);     \
+  template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Results<D, B>&, const std::vector<Stress>&, \
+                            const std::string&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)
 SIGNORINI_OUTPUT(3, 3)
 
-template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, double);
-template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, double);
+template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, double, std::size_t, const VtuPacking&);
+template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, double, std::size_t, const VtuPacking&);
 
 }  // namespace signorini

@@ -2,40 +2,51 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/results.hpp"
+#include "core/fem/stress.hpp"
 #include "core/io/atomic_files.hpp"
 #include "core/io/vtu_writer.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 
 /// Values at the vertices as solution.vtu holds them. Contact quantities are there when there are obstacles; where none
 /// can be reached, or no unknown is free to, the gap is NaN and the others are zero.
+/// @param stress per vertex; of elastic bodies
 template <int D, int B>
-std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results);
+std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results,
+                                   const std::vector<Stress>& stress);
 
-/// Writes the meshes with the solution, step by step, and lists the steps for ParaView when there are several.
+/// "_body1" for the names of files, where there are several bodies; else nothing.
+std::string body_suffix(std::size_t body, std::size_t bodies);
+
+/// Writes the meshes with the solution, step by step and body by body, and lists all files for ParaView when there are
+/// several.
 class SolutionFiles {
  public:
-  SolutionFiles(AtomicFiles& files, int steps, const VtuPacking& packing)
-      : files_(files), steps_(steps), packing_(packing) {}
+  SolutionFiles(AtomicFiles& files, int steps, std::size_t bodies) : files_(files), steps_(steps), bodies_(bodies) {}
 
+  /// @param body number of the body, the last of each step being the last one
   template <int D>
-  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t);
+  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t, std::size_t body,
+           const VtuPacking& packing);
   void finish() const;
 
  private:
   AtomicFiles& files_;
   int steps_;
-  VtuPacking packing_;
+  std::size_t bodies_;
   std::vector<PvdEntry> entries_;
 };
 
 /// Whether a run may write a file of this name; one that another run left is out of date.
 bool is_result_file(const std::string& name);
 
-/// Draws the convergence history and the result. What could not be drawn goes to `report.warnings`.
+/// Draw the convergence history and the result. What could not be drawn goes to `report.warnings`.
+void draw_convergence(AtomicFiles& files, Report& report);
+/// @param suffix of the picture's name, see body_suffix()
 template <int D, int B>
-void draw_pictures(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, Report& report);
+void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
+                 const std::vector<Stress>& stress, const std::string& suffix, Report& report);
 
 /// convergence.csv and phases.csv.
 void write_tables(AtomicFiles& files, const Report& report);

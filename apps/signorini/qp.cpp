@@ -5,8 +5,9 @@
 #include "amg/black_box.hpp"
 #include "amg/recognise_block.hpp"
 #include "apps/signorini/commands.hpp"
+#include "apps/signorini/console.hpp"
 #include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/progress.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/io/matrix_market.hpp"
 #include "core/io/output_files.hpp"
 #include "core/io/report.hpp"
@@ -156,7 +157,7 @@ class QpRun {
 
   const QpArguments& arguments_;
   const SolverOptions options_;
-  const Progress progress_{false};
+  const Console progress_{false};
   Stopwatch watch_, lap_;
   struct {
     double read = 0, setup = 0, solve = 0, total = 0;  // seconds

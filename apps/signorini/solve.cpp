@@ -4,142 +4,78 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "amg/registration.hpp"
-#include "apps/signorini/build_model.hpp"
 #include "apps/signorini/commands.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/contact_warnings.hpp"
-#include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/nested_solver.hpp"
+#include "apps/signorini/console.hpp"
 #include "apps/signorini/output.hpp"
-#include "apps/signorini/problem.hpp"
+#include "core/base/stopwatch.hpp"
+#include "driver/driver.hpp"
 
 namespace signorini {
 namespace {
 
-/// One run of `signorini solve`: from the scene to the report, its files staged.
-template <int D, int B>
-class SolveRun {
+/// The files of one run of `signorini solve`, staged as the driver goes on.
+class ResultFiles {
  public:
-  SolveRun(const Scene& scene, const Registry& registry, const Progress& progress, AtomicFiles& files, Report& report)
-      : scene_(scene),
-        registry_(registry),
-        progress_(progress),
-        files_(files),
-        report_(report),
-        vtu_(files, scene.steps.count, {worthwhile, scene.solver.threads}) {}
+  /// Keeps references to both.
+  ResultFiles(Driver& driver, AtomicFiles& files)
+      : driver_(driver), files_(files), vtu_(files, scene().steps.count, scene().bodies.size()) {}
 
-  void run() {
-    prepare();
-    NestedSolver<D, B> solver(hierarchy_, scene_.solver, registry_, progress_, report_.time);
-    solve_steps(solver);
-    if (solver.by_matrix()) report_.hierarchy = "matrix";
-    finish();
-  }
-
- private:
-  /// Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
-  static constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
-
-  void prepare() {
-    Stopwatch watch;
-    progress_.phase("meshing");
-    report_.dimension = D;
-    hierarchy_ = build_hierarchy<D>(scene_, B, &report_.warnings);
-    probes_ = locate_probes(hierarchy_.finest(), scene_);
-    for (auto& warning : scene_warnings(scene_, hierarchy_.levels.front()))
-      report_.warnings.push_back(std::move(warning));
-    report_.time.mesh = watch.elapsed();
-  }
-
-  /// Steps that are finished are kept when the user asks to end.
-  void solve_steps(NestedSolver<D, B>& solver) {
-    const int count = scene_.steps.count;
-    try {
-      for (int step = 1; step <= count; ++step) {
-        const double t = static_cast<double>(step) / count;
-        at_step(scene_, t, [&] { solve_step(solver, step, t); });
-      }
-      stop_if_interrupted();
-    } catch (const Error& error) {
-      if (error.status() != Exit::interrupted || count == 1 || report_.steps.empty()) throw;
-      report_.interrupted = true;
-    }
-  }
-
-  void solve_step(NestedSolver<D, B>& solver, int step, double t) {
-    if (scene_.steps.count > 1) progress_.phase(fmt::format("step {} of {}", step, scene_.steps.count));
-    const Model<B> model = build_model<B>(scene_, D, registry_, t);
-    if (step == 1)
-      for (auto& warning : model_warnings(scene_, hierarchy_.finest(), model))
-        report_.warnings.push_back(std::move(warning));
-    if (step == 1)
-      for (auto& warning : start_warnings(hierarchy_.levels.front(), model))
-        report_.warnings.push_back(std::move(warning));
-    add_results(model, solve_model(solver, step, model));
-  }
-
-  /// Where there is no solution, perhaps the body was meant to be on the other side.
-  Solution<B> solve_model(NestedSolver<D, B>& solver, int step, const Model<B>& model) {
-    try {
-      return step == 1 ? solver.solve(model) : solver.solve_after(model, results_.u);
-    } catch (const Error& error) {
-      if (error.status() != Exit::no_solution) throw;
-      const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
-      if (reasons.empty()) throw;
-      throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
-    }
-  }
-
-  void add_results(const Model<B>& model, const Solution<B>& solution) {
-    Stopwatch watch;
-    const Mesh<D>& mesh = hierarchy_.finest();
-    results_ = results<D, B>(mesh, model, solution);
-    report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
-                                              judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
-    add_undetermined(model, solution.undetermined);
-    if (!is_last_step()) write_solution();
-    report_.time.output += watch.elapsed();
-  }
-
-  void add_undetermined(const Model<B>& model, const std::vector<std::string>& motions) {
-    report_.steps.back().undetermined = motions;
-    if (motions.empty()) return;
-    std::string warning = fmt::format(
-        "{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves least along them",
-        model.origin, fmt::join(motions, "; "));
-    if (std::ranges::find(report_.warnings, warning) == report_.warnings.end())
-      report_.warnings.push_back(std::move(warning));
-  }
-
-  bool is_last_step() const { return static_cast<int>(report_.steps.size()) == scene_.steps.count; }
-
-  void write_solution() {
-    if (scene_.output.vtu) vtu_.add(hierarchy_.finest(), point_fields(hierarchy_.finest(), results_), report_.last().t);
+  /// After a step: the last one is written in finish().
+  void add_step() {
+    if (is_last_step()) return;
+    const Stopwatch watch;
+    read_stresses();
+    write_solution();
+    driver_.report().time.output += watch.elapsed();
   }
 
   void finish() {
-    Stopwatch watch;
-    progress_.phase("writing");
-    for (auto& warning : contact_warnings(scene_, report_)) report_.warnings.push_back(std::move(warning));
-    for (auto& warning : chord_warnings<D, B>(scene_, hierarchy_, results_))
-      report_.warnings.push_back(std::move(warning));
-    if (scene_.output.convergence) write_tables(files_, report_);
-    if (scene_.output.pictures) draw_pictures(files_, hierarchy_, results_, report_);
+    const Stopwatch watch;
+    Report& report = driver_.report();
+    if (scene().output.pictures || is_last_step()) read_stresses();
+    if (scene().output.convergence) write_tables(files_, report);
+    if (scene().output.pictures) draw();
     if (is_last_step()) write_solution();
     vtu_.finish();
-    report_.time.output += watch.elapsed();
+    report.time.output += watch.elapsed();
   }
 
-  const Scene& scene_;
-  const Registry& registry_;
-  const Progress& progress_;
+ private:
+  const Scene& scene() const { return driver_.scene(); }
+
+  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count; }
+
+  void read_stresses() {
+    if (!scene().output.vtu && !scene().output.pictures) return;
+    stresses_.clear();
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      stresses_.push_back(driver_.visit(body, [](const auto& run) { return run.stress(); }));
+  }
+
+  void draw() {
+    draw_convergence(files_, driver_.report());
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      driver_.visit(body, [&](const auto& run) {
+        draw_result(files_, run.hierarchy(), run.results(), stresses_[body], body_suffix(body, driver_.bodies()),
+                    driver_.report());
+      });
+  }
+
+  void write_solution() {
+    if (!scene().output.vtu) return;
+    for (std::size_t body = 0; body < driver_.bodies(); ++body)
+      driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
+        // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
+        constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
+        vtu_.add(run.mesh(), point_fields(run.mesh(), run.results(), stresses_[body]), driver_.report().last().t, body,
+                 {worthwhile, scene().solver.threads});
+      });
+  }
+
+  Driver& driver_;
   AtomicFiles& files_;
-  Report& report_;
   SolutionFiles vtu_;
-  MeshHierarchy<D> hierarchy_;
-  Probes<D> probes_;
-  Results<D, B> results_;
+  std::vector<std::vector<Stress>> stresses_;  // of the last step, per body
 };
 
 /// The files that a scene reads.
@@ -174,20 +110,19 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
 Exit solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
-  const Progress progress(arguments.quiet);
-  Report report;
-  report.scene = arguments.scene.string();
-  report.title = scene.title;
-  Registry registry = solver_components();
-  check_components(scene, registry);
-  report.plugins = load_plugins(scene, registry);
+  const Console progress(arguments.quiet);
+  Driver driver(scene, progress);
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
                     inputs(scene));
-  dispatch(scene, [&]<int D, int B>() { SolveRun<D, B>(scene, registry, progress, files, report).run(); });
+  ResultFiles results(driver, files);
+  driver.solve([&] { results.add_step(); });
+  progress.phase("writing");
+  results.finish();
+  Report& report = driver.report();
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  if (scene.steps.count == 1) stop_if_interrupted();
+  if (scene.steps.count == 1) progress.stop_if_interrupted();
   const auto written = files.commit();
   if (report.interrupted)
     throw Error(Exit::interrupted, fmt::format("interrupted; {} of {} steps were finished and are written",

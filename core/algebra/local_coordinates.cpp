@@ -53,26 +53,6 @@ void erase_fixed(double* M, Flags row, Flags column) {
       if ((row >> i | column >> j) & 1) M[i * B + j] = 0;
 }
 
-// Row p of A v for the prescribed values v is known: free components lose it, fixed ones get their values.
-template <int B>
-void prescribe(DiscreteProblem<B>& problem, Index p, const double* Av) {
-  const double* v = problem.start.data() + Offset{p} * B;
-  double* b = problem.b.data() + Offset{p} * B;
-  problem.coupled.push_back(p);
-  for (int i = 0; i < B; ++i) {
-    const bool fixed = problem.fixed[p] >> i & 1;
-    problem.coupling.push_back(fixed ? 0 : Av[i]);
-    if (!fixed) {
-      b[i] -= Av[i];
-      continue;
-    }
-    problem.prescribed_energy += Av[i] * v[i];
-    problem.prescribed_work += b[i] * v[i];
-    b[i] = v[i];
-    problem.A.at(problem.A.row[p])[i * B + i] = 1;
-  }
-}
-
 template <int B>
 void eliminate_row(DiscreteProblem<B>& problem, Index p) {
   BlockMatrix<B>& A = problem.A;
@@ -132,7 +112,7 @@ double separation(const double* directions, int count) {
 }
 
 template <int B>
-void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames) {
+void rotate(BlockMatrix<B>& A, const Frames<B>& frames) {
   if (frames.slot.empty()) return;
   for (Index p = 0; p < A.size(); ++p) {
     const double* Qp = frames.at(p);
@@ -147,9 +127,36 @@ void rotate(BlockMatrix<B>& A, std::vector<double>& b, const Frames<B>& frames) 
         std::copy_n(M, B * B, A.at(k));
       }
     }
-    if (!Qp) continue;
-    block::transposed_product<B>(Qp, b.data() + Offset{p} * B, M);
-    std::copy_n(M, B, b.data() + Offset{p} * B);
+  }
+}
+
+template <int B>
+void rotate(std::vector<double>& b, const Frames<B>& frames) {
+  for (Index p = 0; p < static_cast<Index>(frames.slot.size()); ++p)
+    if (const double* Q = frames.at(p)) {
+      double f[B];
+      block::transposed_product<B>(Q, b.data() + Offset{p} * B, f);
+      std::copy_n(f, B, b.data() + Offset{p} * B);
+    }
+}
+
+// Row p of A v for the prescribed values v is known: free components lose it, fixed ones get their values.
+template <int B>
+void prescribe(DiscreteProblem<B>& problem, Index p, const double* Av) {
+  const double* v = problem.start.data() + Offset{p} * B;
+  double* b = problem.b.data() + Offset{p} * B;
+  problem.coupled.push_back(p);
+  for (int i = 0; i < B; ++i) {
+    const bool fixed = problem.fixed[p] >> i & 1;
+    problem.coupling.push_back(fixed ? 0 : Av[i]);
+    if (!fixed) {
+      b[i] -= Av[i];
+      continue;
+    }
+    problem.prescribed_energy += Av[i] * v[i];
+    problem.prescribed_work += b[i] * v[i];
+    b[i] = v[i];
+    problem.A.at(problem.A.row[p])[i * B + i] = 1;
   }
 }
 
@@ -166,7 +173,9 @@ void eliminate(DiscreteProblem<B>& problem, std::span<const Index> vectors) {
 #define SIGNORINI_INSTANTIATE(B)                                                          \
   template void local_basis<B>(const double*, int, const double*, int, double*, double*); \
   template double separation<B>(const double*, int);                                      \
-  template void rotate(BlockMatrix<B>&, std::vector<double>&, const Frames<B>&);          \
+  template void rotate(BlockMatrix<B>&, const Frames<B>&);                                \
+  template void rotate(std::vector<double>&, const Frames<B>&);                           \
+  template void prescribe(DiscreteProblem<B>&, Index, const double*);                     \
   template void eliminate(DiscreteProblem<B>&);                                           \
   template void eliminate(DiscreteProblem<B>&, std::span<const Index>);
 SIGNORINI_INSTANTIATE(1)

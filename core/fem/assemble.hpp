@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "core/algebra/block_matrix.hpp"
@@ -15,7 +16,9 @@ BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model);
 
 /// Load vector, B per vertex: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
 /// exact for quartic fields. An Error(Exit::input) names the origin of a selection without faces.
+/// @param totals where there are any, becomes the integral of each load
 template <int D, int B>
-std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model);
+std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model,
+                                std::vector<std::array<double, B>>* totals = nullptr);
 
 }  // namespace signorini

@@ -54,9 +54,7 @@ template <int B>
 class NodeReader {
  public:
   NodeReader(const Discretization<B>& discretization, const std::vector<double>& x)
-      : problem_(discretization.problem), discretization_(discretization), x_(x), r_(x.size()) {
-    residual(problem_.A, x.data(), problem_.b.data(), r_.data());
-    for (double& r : r_) r = -r;
+      : problem_(discretization.problem), discretization_(discretization), x_(x) {
     for (const double v : x) size_ = std::max(size_, std::fabs(v));
   }
 
@@ -70,7 +68,7 @@ class NodeReader {
     const Offset at = Offset{slot} * B + k;
     const Index p = problem_.constraints.vector[slot];
     const double lower = problem_.constraints.lower[at], upper = problem_.constraints.upper[at];
-    const double x = x_[Offset{p} * B + k], r = r_[Offset{p} * B + k];
+    const double x = x_[Offset{p} * B + k], r = residual(p, k);
     const bool at_lower = touches(x - lower, lower), at_upper = touches(upper - x, upper);
     const bool below = discretization_.upper_obstacle[at] < 0 || nearer_to_lower(at, x, r, at_lower, at_upper);
     const Index obstacle = (below ? discretization_.lower_obstacle : discretization_.upper_obstacle)[at];
@@ -90,11 +88,19 @@ class NodeReader {
     ContactNode<B> node{bound.vertex, bound.obstacle, true, true, 0, 0, 0, {}, bound.direction};
     node.gap = std::min(value - bound.lower, bound.upper - value);
     for (double& d : node.direction) d *= sign;
-    push(node, sign * held.force(x_));
+    const PrescribedRows<B>& rows = discretization_.prescribed;
+    push(node, sign * rows.force(rows.at(bound.vertex), held.along.data(), x_));
     return node;
   }
 
  private:
+  // A x - b, of the component alone.
+  double residual(Index p, int k) const {
+    double Ax[B];
+    row_product(problem_.A, p, x_.data(), Ax);
+    return Ax[k] - problem_.b[Offset{p} * B + k];
+  }
+
   // Where both bounds are touched the force tells which of them pushes.
   bool nearer_to_lower(Offset at, double x, double r, bool at_lower, bool at_upper) const {
     if (discretization_.lower_obstacle[at] < 0) return false;
@@ -137,7 +143,6 @@ class NodeReader {
   const DiscreteProblem<B>& problem_;
   const Discretization<B>& discretization_;
   const std::vector<double>& x_;
-  std::vector<double> r_;
   double size_ = 0;
 };
 

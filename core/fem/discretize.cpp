@@ -2,24 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/algebra/local_coordinates.hpp"
 #include "core/algebra/products.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/magnitude.hpp"
+#include "core/fem/same.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;  // of terms that cancel
+// T with v_old = T v_new of the vectors whose frame is another one; nothing where some of them have prescribed
+// components.
+template <int B>
+std::optional<Frames<B>> change(const Frames<B>& old, const Frames<B>& now, const std::vector<Flags>& fixed) {
+  static const std::array<double, B* B> identity = [] {
+    std::array<double, B * B> I{};
+    for (int i = 0; i < B; ++i) I[i * (B + 1)] = 1;
+    return I;
+  }();
+  Frames<B> turned;
+  if (old.slot.empty() && now.slot.empty()) return turned;
+  for (Index p = 0; p < static_cast<Index>(fixed.size()); ++p) {
+    const double *from = old.at(p), *to = now.at(p);
+    if (!from && !to) continue;
+    if (from && to && std::equal(from, from + B * B, to)) continue;
+    if (fixed[p]) return {};
+    double T[B * B];
+    const double* N = from ? old.dual_at(p) : identity.data();
+    block::transposed_multiply<B>(N, to ? to : identity.data(), T);
+    turned.add(fixed.size(), p, T, identity.data());
+  }
+  return turned;
+}
 
 template <int D, int B>
 class Discretizer {
  public:
   Discretizer(const Mesh<D>& mesh, const Model<B>& model)
-      : model_(model),
+      : mesh_(mesh),
+        model_(model),
         fixes_(collect_fixes(mesh, model)),
         bounds_(collect_bounds(mesh, model)),
         combiner_(mesh, model, bounds_, fixes_) {
@@ -30,22 +55,70 @@ class Discretizer {
     reserve(bounds_.size());
     localise();
     add_segments();
-    check_lengths(mesh, model);
-    problem().A = stiffness(mesh, model);
-    check_stiffness(mesh, model, problem().A);
-    problem().b = load_vector(mesh, model);
-    rotate(problem().A, problem().b, problem().frames);
+    out_.fixes = std::move(fixes_);
     if (B > 1)
       for (const Bound<B>& bound : held_) hold(bound);
-    if (!fixes_.empty()) eliminate(problem());
-    check_load(mesh, model, problem());
   }
 
-  Discretization<B> take() { return std::move(out_); }
+  Discretization<B> discretize() {
+    check_lengths(mesh_, model_);
+    assemble_stiffness();
+    assemble_load();
+    place_load();
+    if (!out_.fixes.empty()) eliminate(problem());
+    check_load(mesh_, model_, problem());
+    return std::move(out_);
+  }
+
+  Discretization<B> renew(Discretization<B> last, const Model<B>& before, Assembled& assembled) {
+    assembled.load = !same_loads(before, model_);
+    assembled.stiffness = !same_stiffness(before, model_) || !take_stiffness(last, assembled.turned);
+    if (assembled.stiffness) assemble_stiffness();
+    if (assembled.load) {
+      assemble_load();
+    } else {
+      out_.load = std::move(last.load);
+      out_.applied = std::move(last.applied);
+    }
+    place_load();
+    if (assembled.stiffness && !out_.fixes.empty()) eliminate(problem());
+    if (!assembled.stiffness) prescribe(problem(), out_.prescribed);
+    if (assembled.stiffness || assembled.load) check_load(mesh_, model_, problem());
+    return std::move(out_);
+  }
 
  private:
   DiscreteProblem<B>& problem() { return out_.problem; }
   Constraints<B>& constraints() { return out_.problem.constraints; }
+
+  void assemble_stiffness() {
+    problem().A = stiffness(mesh_, model_);
+    check_stiffness(mesh_, model_, problem().A);
+    rotate(problem().A, problem().frames);
+    for (const FixedDirections<B>& fixed : out_.fixes) out_.prescribed.add(problem().A, fixed.vertex);
+  }
+
+  /// Takes over the matrix, turned to the frames of now; false where it is that of other prescribed components.
+  bool take_stiffness(Discretization<B>& last, bool& turn) {
+    const DiscreteProblem<B>& old = last.problem;
+    if (old.fixed != problem().fixed) return false;
+    const std::optional<Frames<B>> turned = change(old.frames, problem().frames, problem().fixed);
+    if (!turned) return false;
+    problem().A = std::move(last.problem.A);
+    out_.prescribed = std::move(last.prescribed);
+    turn = !turned->slot.empty();
+    rotate(problem().A, *turned);
+    out_.prescribed.rotate_columns(*turned);
+    return true;
+  }
+
+  void assemble_load() { out_.load = load_vector<D, B>(mesh_, model_, &out_.applied); }
+
+  void place_load() {
+    problem().b = out_.load;
+    rotate(problem().b, problem().frames);
+    out_.prescribed.take_load(problem().b);
+  }
 
   void reserve(std::size_t slots) {
     constraints().vector.reserve(slots);
@@ -141,21 +214,11 @@ class Discretizer {
       }
   }
 
-  // Keeps the part of the matrix that tells the force along a direction that is about to be eliminated.
   void hold(const Bound<B>& bound) {
-    HeldBound<B> held{bound, {}, {}, 0};
-    std::array<double, B> along = bound.direction;
+    HeldBound<B> held{bound, bound.direction};
     if (const double* N = problem().frames.dual_at(bound.vertex))
-      block::transposed_product<B>(N, bound.direction.data(), along.data());
-    const BlockMatrix<B>& A = problem().A;
-    for (Offset k = A.row[bound.vertex]; k < A.row[bound.vertex + 1]; ++k) {
-      double entry[B];
-      block::transposed_product<B>(A.at(k), along.data(), entry);
-      held.column.push_back(A.column[k]);
-      held.entry.insert(held.entry.end(), entry, entry + B);
-    }
-    for (int i = 0; i < B; ++i) held.load += along[i] * problem().b[Offset{bound.vertex} * B + i];
-    out_.held.push_back(std::move(held));
+      block::transposed_product<B>(N, bound.direction.data(), held.along.data());
+    out_.held.push_back(held);
   }
 
   Index ruling_obstacle(Index slot) const {
@@ -176,6 +239,7 @@ class Discretizer {
     }
   }
 
+  const Mesh<D>& mesh_;
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
@@ -187,19 +251,14 @@ class Discretizer {
 
 template <int D, int B>
 Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model) {
-  return Discretizer<D, B>(mesh, model).take();
+  return Discretizer<D, B>(mesh, model).discretize();
 }
 
-template <int B>
-double HeldBound<B>::force(const std::vector<double>& x) const {
-  double sum = -load, size = std::fabs(load);
-  for (std::size_t k = 0; k < column.size(); ++k)
-    for (int i = 0; i < B; ++i) {
-      const double term = entry[k * B + i] * x[Offset{column[k]} * B + i];
-      sum += term;
-      size += std::fabs(term);
-    }
-  return std::fabs(sum) > rounding * size ? sum : 0;
+template <int D, int B>
+Assembled renew(const Mesh<D>& mesh, const Model<B>& before, const Model<B>& model, Discretization<B>& last) {
+  Assembled assembled;
+  last = Discretizer<D, B>(mesh, model).renew(std::move(last), before, assembled);
+  return assembled;
 }
 
 template <int B>
@@ -231,12 +290,15 @@ double violation(const Bound<B>& bound, const std::vector<double>& u) {
   return std::max(bound.lower - value, value - bound.upper);
 }
 
-template Discretization<1> discretize(const Mesh<2>&, const Model<1>&);
-template Discretization<1> discretize(const Mesh<3>&, const Model<1>&);
-template Discretization<2> discretize(const Mesh<2>&, const Model<2>&);
-template Discretization<3> discretize(const Mesh<3>&, const Model<3>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                       \
+  template Discretization<B> discretize(const Mesh<D>&, const Model<B>&); \
+  template Assembled renew(const Mesh<D>&, const Model<B>&, const Model<B>&, Discretization<B>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 #define SIGNORINI_INSTANTIATE(B)                                                          \
-  template struct HeldBound<B>;                                                           \
   template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
   template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
   template double violation(const Bound<B>&, const std::vector<double>&);

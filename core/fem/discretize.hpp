@@ -1,5 +1,6 @@
 #pragma once
 #include "core/fem/bounds.hpp"
+#include "core/fem/prescribed_rows.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -18,12 +19,7 @@ struct ReducedBound {
 template <int B>
 struct HeldBound {
   Bound<B> bound;
-  std::vector<Index> column;  ///< of the vertex's row of the matrix
-  std::vector<double> entry;  ///< B per column: direction . A, before elimination
-  double load;                ///< direction . b
-
-  /// direction . (A x - b), x in local coordinates; 0 where the terms cancel but for rounding.
-  double force(const std::vector<double>& x) const;
+  std::array<double, B> along;  ///< its direction in local coordinates: the force along it is that of `prescribed`
 };
 
 /// A model on a mesh, ready to be solved, and what is needed to interpret its solution.
@@ -36,8 +32,12 @@ struct Discretization {
   /// Bounds that are not part of the problem, see BoundCombiner. The caller checks after the solve that they hold, see
   /// violation().
   std::vector<Bound<B>> dropped;
-  std::vector<ReducedBound<B>> reduced;  ///< by ascending `at`
-  std::vector<HeldBound<B>> held;        ///< by ascending vertex; elasticity only
+  std::vector<ReducedBound<B>> reduced;        ///< by ascending `at`
+  std::vector<HeldBound<B>> held;              ///< by ascending vertex; elasticity only
+  std::vector<FixedDirections<B>> fixes;       ///< by ascending vertex
+  PrescribedRows<B> prescribed;                ///< one for each of `fixes`
+  std::vector<double> load;                    ///< of all loads, in global coordinates; B per vertex
+  std::vector<std::array<double, B>> applied;  ///< per load of the model: its total
 };
 
 /// Linear elements for a model. Vectors are numbered as the vertices.
@@ -49,6 +49,21 @@ struct Discretization {
 /// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
 template <int D, int B>
 Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model);
+
+/// What of a discretization had to be assembled.
+struct Assembled {
+  bool stiffness = true, load = true;
+  bool turned = false;  ///< the matrix that was there has been turned to other frames
+
+  bool same_matrix() const { return !stiffness && !turned; }
+};
+
+/// Makes `last`, the discretization of another model on the same mesh, that of `model`. Prescribed values, constraints
+/// and frames are new; the stiffness matrix is assembled only where coefficients may differ, where other components are
+/// prescribed, or where a frame has changed that some are prescribed in; the load vector where loads may differ (see
+/// Field::same()). Errors as above; then nothing is left of `last`.
+template <int D, int B>
+Assembled renew(const Mesh<D>& mesh, const Model<B>& before, const Model<B>& model, Discretization<B>& last);
 
 /// Global coordinates of a vector field given in the local ones, and back; B per vector.
 template <int B>

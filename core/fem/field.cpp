@@ -20,6 +20,11 @@ double Field::operator()(const Site& site) const {
   return value;
 }
 
+bool Field::same(double t, const Field& other, double t_other) const {
+  if (!function_ || !other.function_) return !function_ && !other.function_ && constant_ == other.constant_;
+  return !text_.empty() && text_ == other.text_ && (t == t_other || !(uses_t_ || other.uses_t_));
+}
+
 std::optional<double> Field::constant() const { return function_ ? std::nullopt : std::optional<double>(constant_); }
 
 std::string Field::text() const { return function_ ? text_ : fmt::format("{}", constant_); }

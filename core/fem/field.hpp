@@ -17,9 +17,16 @@ struct Site {
 class Field {
  public:
   Field(double constant = 0) : constant_(constant) {}  // NOLINT: a number is a field
+  /// @param text names the function: fields of one text have the same values
   /// @param uses_normal whether the value depends on Site::n
-  Field(std::function<double(const Site&)> function, std::string text, std::string origin, bool uses_normal = false)
-      : function_(std::move(function)), text_(std::move(text)), origin_(std::move(origin)), uses_normal_(uses_normal) {}
+  /// @param uses_t whether it may depend on Site::t
+  Field(std::function<double(const Site&)> function, std::string text, std::string origin, bool uses_normal = false,
+        bool uses_t = true)
+      : function_(std::move(function)),
+        text_(std::move(text)),
+        origin_(std::move(origin)),
+        uses_normal_(uses_normal),
+        uses_t_(uses_t) {}
 
   /// The value; Error(Exit::input) that names origin, text and position where it is not finite, or uses the normal
   /// where there is none.
@@ -29,12 +36,14 @@ class Field {
   /// As the user wrote it; a constant as a number.
   std::string text() const;
   const std::string& origin() const { return origin_; }
+  /// Whether the values at the step parameter t are surely those of another field at t_other.
+  bool same(double t, const Field& other, double t_other) const;
 
  private:
   std::function<double(const Site&)> function_;
   double constant_ = 0;
   std::string text_, origin_;
-  bool uses_normal_ = false;
+  bool uses_normal_ = false, uses_t_ = false;
 };
 
 }  // namespace signorini

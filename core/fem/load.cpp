@@ -20,14 +20,22 @@ std::array<double, B> value(const Load<B>& load, const Site& where) {
   return f;
 }
 
-// b += integral of the load times the hat functions over a simplex with K + 1 corners.
+/// What loads become: the integrals of their products with the hat functions, B per vertex, and of one load itself.
+template <int B>
+struct Loaded {
+  std::vector<double> b;
+  std::array<double, B> total{};
+};
+
+// Adds what a load does on a simplex with K + 1 corners.
 template <int D, int B, int K>
 void integrate(const Mesh<D>& mesh, const Load<B>& load, const std::array<Index, K + 1>& corners, double measure,
-               std::span<const QuadraturePoint<K>> rule, double t, const Point<D>& normal, std::vector<double>& b) {
+               std::span<const QuadraturePoint<K>> rule, double t, const Point<D>& normal, Loaded<B>& out) {
   for (const auto& [barycentric, weight] : rule) {
     const auto f = value(load, site<D>(combine<D>(mesh, corners, barycentric), t, normal));
     for (int a = 0; a <= K; ++a)
-      for (int i = 0; i < B; ++i) b[Offset{corners[a]} * B + i] += weight * measure * barycentric[a] * f[i];
+      for (int i = 0; i < B; ++i) out.b[Offset{corners[a]} * B + i] += weight * measure * barycentric[a] * f[i];
+    for (int i = 0; i < B; ++i) out.total[i] += weight * measure * f[i];
   }
 }
 
@@ -42,20 +50,20 @@ std::span<const QuadraturePoint<K>> midpoint_rule() {
 }
 
 template <int D, int B>
-void add_body_force(const Mesh<D>& mesh, const Load<B>& load, double t, std::vector<double>& b) {
+void add_body_force(const Mesh<D>& mesh, const Load<B>& load, double t, Loaded<B>& out) {
   const auto rule = is_constant(load) ? midpoint_rule<D>() : quadrature2<D>();
   for (const Simplex<D>& vertices : mesh.elements)
-    integrate<D, B, D>(mesh, load, vertices, linear_element(mesh, vertices).measure, rule, t, {}, b);
+    integrate<D, B, D>(mesh, load, vertices, linear_element(mesh, vertices).measure, rule, t, {}, out);
 }
 
 template <int D, int B>
-void add_traction(const Mesh<D>& mesh, const Load<B>& load, double t, std::vector<double>& b) {
+void add_traction(const Mesh<D>& mesh, const Load<B>& load, double t, Loaded<B>& out) {
   const auto rule = is_constant(load) ? midpoint_rule<D - 1>() : quadrature5<D - 1>();
   for (const Index f : select_faces(mesh, *load.on, t)) {
     const Face<D>& face = mesh.boundary[f];
     Point<D> normal = area_normal(mesh, face);
     const double measure = normalise(normal);
-    integrate<D, B, D - 1>(mesh, load, face.vertices, measure, rule, t, normal, b);
+    integrate<D, B, D - 1>(mesh, load, face.vertices, measure, rule, t, normal, out);
   }
 }
 
@@ -67,19 +75,27 @@ bool is_zero(const Load<B>& load) {
 }  // namespace
 
 template <int D, int B>
-std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model) {
-  std::vector<double> b(mesh.points.size() * B);
-  for (const Load<B>& load : model.loads)
+std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model,
+                                std::vector<std::array<double, B>>* totals) {
+  Loaded<B> out{std::vector<double>(mesh.points.size() * B)};
+  if (totals) totals->clear();
+  for (const Load<B>& load : model.loads) {
+    out.total = {};
     if (load.on)
-      add_traction(mesh, load, model.t, b);
+      add_traction(mesh, load, model.t, out);
     else if (!is_zero(load))
-      add_body_force(mesh, load, model.t, b);
-  return b;
+      add_body_force(mesh, load, model.t, out);
+    if (totals) totals->push_back(out.total);
+  }
+  return std::move(out.b);
 }
 
-template std::vector<double> load_vector(const Mesh<2>&, const Model<1>&);
-template std::vector<double> load_vector(const Mesh<3>&, const Model<1>&);
-template std::vector<double> load_vector(const Mesh<2>&, const Model<2>&);
-template std::vector<double> load_vector(const Mesh<3>&, const Model<3>&);
+#define SIGNORINI_INSTANTIATE(D, B) \
+  template std::vector<double> load_vector<D, B>(const Mesh<D>&, const Model<B>&, std::vector<std::array<double, B>>*);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

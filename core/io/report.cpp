@@ -53,6 +53,36 @@ Json probe(const ProbeReport& probe) {
   return result;
 }
 
+Json force(const char* key, const ForceReport& force) { return {{key, force.number}, {"force", force.force}}; }
+
+Json balance(const BalanceReport& balance) {
+  return {{"body", balance.body},
+          {"applied", balance.applied},
+          {"reactions", balance.reactions},
+          {"contact", balance.contact},
+          {"sum", balance.sum()}};
+}
+
+Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
+
+bool limited_by_rounding(const Summary& summary) {
+  return summary.outcome == Outcome::rounding || summary.outcome == Outcome::inaccurate;
+}
+
+Json body(const BodyReport& body) {
+  const Summary& summary = body.summary;
+  return {{"name", body.name},
+          {"converged", summary.converged()},
+          {"unknowns", unknowns(summary)},
+          {"iterations", summary.iterations},
+          {"residual", summary.residual},
+          {"algebraic_error", summary.algebraic_error},
+          {"rate", summary.rate},
+          {"energy", summary.energy},
+          {"limited_by_rounding", limited_by_rounding(summary)},
+          {"reason", summary.reason}};
+}
+
 Json solver(const SolverOptions& options) {
   return {{"method", options.method},
           {"tolerance", options.tolerance},
@@ -78,8 +108,6 @@ Json levels(const Summary& summary) {
   return result;
 }
 
-Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
-
 Json stage(const Stage& stage) {
   return {{"method", stage.method},
           {"linear", stage.linear.empty() ? Json(nullptr) : Json(stage.linear)},
@@ -99,7 +127,7 @@ void add_summary(Json& json, const Summary& summary) {
   json["rate"] = summary.rate;
   json["energy"] = summary.energy;
   json["linear_phase_from"] = summary.linear_phase_from;
-  json["limited_by_rounding"] = summary.outcome == Outcome::rounding || summary.outcome == Outcome::inaccurate;
+  json["limited_by_rounding"] = limited_by_rounding(summary);
   json["rounding_error"] = summary.rounding_error;
   json["reason"] = summary.reason;
   json["stages"] = array(summary.stages, stage);
@@ -113,6 +141,10 @@ void add_history(Json& json, const Summary& summary) {
 void add_results(Json& json, const StepReport& step) {
   json["contact"] = array(step.contact, contact);
   json["probes"] = array(step.probes, probe);
+  json["reactions"] = array(step.reactions, [](const ForceReport& reaction) { return force("fix", reaction); });
+  json["applied"] = array(step.applied, [](const ForceReport& load) { return force("load", load); });
+  json["bodies"] = array(step.bodies, body);
+  json["balance"] = array(step.balance, balance);
   json["undetermined"] = step.undetermined;
 }
 
@@ -128,6 +160,13 @@ Json time(const Times& time) {
           {"solve", time.solve}, {"output", time.output},     {"total", time.total}};
 }
 
+Json assemblies(const Assemblies& count) {
+  return {{"stiffness", count.stiffness},
+          {"load", count.load},
+          {"constraints", count.constraints},
+          {"hierarchies", count.hierarchies}};
+}
+
 /// JSON knows no NaN and no infinity.
 void finite_or_null(Json& json) {
   if (json.is_structured())
@@ -136,6 +175,13 @@ void finite_or_null(Json& json) {
     json = nullptr;
 }
 }  // namespace
+
+std::vector<double> BalanceReport::sum() const {
+  std::vector<double> sum(contact.size());
+  for (const std::vector<double>* part : {&applied, &reactions, &contact})
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (*part)[i];
+  return sum;
+}
 
 bool Report::converged() const {
   return !interrupted &&
@@ -162,6 +208,7 @@ Json to_json(const Report& report) {
   add_history(json, report.last().summary);
   json["hierarchy"] = report.hierarchy;
   json["time"] = time(report.time);
+  json["assemblies"] = assemblies(report.time.assemblies);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());
   if (report.steps.size() > 1 || report.interrupted) json["steps"] = array(report.steps, step);

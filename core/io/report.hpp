@@ -23,6 +23,26 @@ struct ContactReport {
   double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
 };
 
+/// A total force on the body it acts on, one entry per unknown of a vertex.
+struct ForceReport {
+  int number = 0;  ///< of the scene's [[load]] or [[fix]], from 0
+  std::vector<double> force;
+};
+
+/// All that acts on one body: the totals of loads, fixes and obstacles. They sum to zero but for the algebraic error.
+struct BalanceReport {
+  std::string body;
+  std::vector<double> applied, reactions, contact;
+
+  std::vector<double> sum() const;
+};
+
+/// The solve of one body.
+struct BodyReport {
+  std::string name;
+  Summary summary;
+};
+
 /// The solution at a point.
 struct ProbeReport {
   std::string name;
@@ -33,9 +53,17 @@ struct PluginReport {
   std::string id, file, version;
 };
 
-/// Seconds spent.
+/// How often something was computed, over all levels and steps.
+struct Assemblies {
+  int stiffness = 0, load = 0;
+  int constraints = 0;  ///< prescribed values, bounds and frames
+  int hierarchies = 0;  ///< choices of levels by the matrix
+};
+
+/// Seconds spent, and on what.
 struct Times {
   double mesh = 0, assemble = 0, setup = 0, solve = 0, output = 0, total = 0;
+  Assemblies assemblies;
 };
 
 /// One quasi-static step.
@@ -44,7 +72,10 @@ struct StepReport {
   Summary summary;
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
-  std::vector<std::string> undetermined;  ///< motions of the body that nothing decides
+  std::vector<ForceReport> applied, reactions;  ///< of each load, of each fix
+  std::vector<BalanceReport> balance;           ///< of each body
+  std::vector<BodyReport> bodies;               ///< `summary` is what they have in common, see merged()
+  std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
 };
 
 /// Everything `report.json` says.

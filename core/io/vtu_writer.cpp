@@ -163,7 +163,8 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
   write_file(path, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (const PvdEntry& entry : entries)
-      out << fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time, escaped(entry.file));
+      out << fmt::format("<DataSet timestep=\"{}\" part=\"{}\" file=\"{}\"/>\n", entry.time, entry.part,
+                         escaped(entry.file));
     out << "</Collection>\n</VTKFile>\n";
   });
 }

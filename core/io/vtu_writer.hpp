@@ -27,10 +27,12 @@ template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
                const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {});
 
-/// One entry of a collection: a file, relative to the folder of the collection, and the time it belongs to.
+/// One entry of a collection: a file, relative to the folder of the collection, the time it belongs to, and its number
+/// among those of that time.
 struct PvdEntry {
   double time;
   std::string file;
+  int part = 0;
 };
 
 /// Writes a ParaView collection, likewise.

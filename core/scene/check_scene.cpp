@@ -52,6 +52,25 @@ void check_obstacles(const Scene& scene) {
       input_error(obstacle.source.table, "neither 'on' nor 'where' is given, expected one of them");
 }
 
+template <class Table>
+bool any_of(const std::vector<Table>& tables, const Scene::Body& body) {
+  return std::any_of(tables.begin(), tables.end(), [&](const Table& table) { return table.body == body.name; });
+}
+
+void check_held(const Scene& scene, const std::string& place) {
+  for (const Scene::Body& body : scene.bodies)
+    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body))
+      input_error(scene.bodies.size() == 1 ? place : body.source.table,
+                  "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
+}
+
+void check_common_dimension(const Scene& scene) {
+  for (const Scene::Body& body : scene.bodies)
+    if (const int found = dimension_of(body); found != 0 && found != scene.dimension)
+      input_error(body.source.of("shape"), fmt::format("a body with {} dimensions, expected {} as the bodies before it",
+                                                       found, scene.dimension));
+}
+
 void expect_length(std::size_t found, std::size_t expected, const std::string& place, std::string_view what) {
   if (found != expected)
     input_error(place, fmt::format("expected {} {}{}, found {}", expected, what, expected == 1 ? "" : "s", found));
@@ -115,16 +134,14 @@ void check_scene(const Scene& scene, const std::string& place) {
   if (scene.bodies.empty()) input_error(place, "there is no [[body]]");
   check_unique(scene.bodies);
   check_unique(scene.probes);
-  if (scene.bodies.size() > 1)
-    input_error(scene.bodies[1].source.table, "a second [[body]] is not available in this version");
   check_bodies(scene, scene.fixes);
   check_bodies(scene, scene.loads);
   check_bodies(scene, scene.obstacles);
   check_bodies(scene, scene.probes);
   check_fixes(scene);
   check_obstacles(scene);
-  if (scene.fixes.empty() && scene.obstacles.empty())
-    input_error(place, "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
+  check_held(scene, place);
+  check_common_dimension(scene);
   if (scene.dimension != 0) check_dimension(scene, scene.dimension);
 }
 

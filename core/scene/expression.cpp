@@ -205,7 +205,8 @@ Field compile_expression(const std::string& text, const std::string& origin) {
   const std::shared_ptr<Compiled> compiled = compile(scanned.text, text, origin);
   if (!scanned.has_variables)
     if (const double value = (*compiled)(Site{}); std::isfinite(value)) return value;
-  return Field([compiled](const Site& site) { return (*compiled)(site); }, text, origin, scanned.has_normal);
+  return Field([compiled](const Site& site) { return (*compiled)(site); }, text, origin, scanned.has_normal,
+               scanned.has_t);
 }
 
 }  // namespace signorini

@@ -7,6 +7,7 @@ struct ScannedExpression {
   std::string text;  ///< as long as the original: one line, chains of prefix operators such as `- -x` or `!-x` reduced
   bool has_variables = false;
   bool has_normal = false;  ///< nx, ny or nz
+  bool has_t = false;
 };
 
 /// Checks an expression completely (characters, length, numbers, names, numbers of arguments, brackets, order of values

@@ -113,7 +113,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   scene.bodies = read_all(document, "body", folder, read_body);
   scene.fixes = read_all(document, "fix", folder, read_fix);
   scene.loads = read_all(document, "load", folder, read_load);
-  if (!scene.bodies.empty()) scene.dimension = dimension_of(scene.bodies.front());
+  for (const Scene::Body& body : scene.bodies)
+    if (scene.dimension == 0) scene.dimension = dimension_of(body);
   scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);
   scene.probes = read_all(document, "probe", folder, read_probe);
   read_settings(document, folder, scene);

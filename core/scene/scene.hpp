@@ -140,7 +140,7 @@ struct Scene {
   std::filesystem::path file;  ///< as the user named it
   std::string name;            ///< the file's name without folder and ending
   std::string title;
-  int dimension = 0;  ///< 2 or 3 by the body's shape; 0 when only the mesh file tells
+  int dimension = 0;  ///< 2 or 3 by the bodies' shapes; 0 when only mesh files tell
   std::vector<Body> bodies;
   std::vector<Fix> fixes;
   std::vector<Load> loads;

@@ -196,7 +196,10 @@ constexpr KeySpec output[] = {
 };
 
 constexpr TableSpec tables[] = {
-    {"body", true, "The body to be deformed, or the domain of a scalar equation.", body},
+    {"body", true,
+     "The body to be deformed, or the domain of a scalar equation. There may be several: they are solved one after the "
+     "other, are not coupled, and have one report.",
+     body},
     {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
      fix},
     {"load", true, "A force that pulls or pushes.", load},

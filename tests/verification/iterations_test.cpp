@@ -105,7 +105,7 @@ TEST(Iterations, StepsTakeNoMoreCyclesThanFreshSolves) {
       const Scene scene = read_scene(shipped_scenes / "disk_in_bed_steps.toml", settings);
       Registry registry = solver_components();
       load_plugins(scene, registry);
-      const Progress quiet(true);
+      const Progress quiet;
       Times times;
       const auto meshes = build_hierarchy<2>(scene, 2);
       NestedSolver<2, 2> steps(meshes, scene.solver, registry, quiet, times);

@@ -288,7 +288,7 @@ void judge_one(std::uint64_t seed, Tally& tally) {
   Registry registry = solver_components();
   load_plugins(scene, registry);
   Times times;
-  const Progress quiet(true);
+  const Progress quiet;
   const MeshHierarchy<D> meshes = build_hierarchy<D>(scene, D);
   const double by = unheld<D>(body, meshes.finest());
   if (by > 1e-12 && by < 1e-9) return void(++tally.near);

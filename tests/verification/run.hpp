@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "amg/registration.hpp"
-#include "apps/signorini/build_model.hpp"
-#include "apps/signorini/components.hpp"
-#include "apps/signorini/nested_solver.hpp"
-#include "apps/signorini/problem.hpp"
-#include "apps/signorini/results.hpp"
+#include "driver/build_model.hpp"
+#include "driver/components.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/problem.hpp"
+#include "driver/results.hpp"
 
 /// Scenes solved as `signorini solve` does it, with all that a test wants to look at.
 namespace signorini::test {
@@ -40,7 +40,7 @@ template <int D, int B>
 Run<D, B> run(const Scene& scene) {
   Registry registry = solver_components();
   load_plugins(scene, registry);
-  const Progress quiet(true);
+  const Progress quiet;
   Times times;
   Run<D, B> out{build_hierarchy<D>(scene, B), build_model<B>(scene, D, registry, 1), {}, {}};
   NestedSolver<D, B> solver(out.meshes, scene.solver, registry, quiet, times);

@@ -12,6 +12,7 @@
 #include "apps/bench/processor_time.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/convergence.hpp"
 

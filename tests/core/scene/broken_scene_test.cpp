@@ -219,7 +219,7 @@ TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
   EXPECT_EQ(test::outcome([] { test::parse(membrane, {"refine.adaptive=false"}); }).message, "");
 }
 
-TEST(BrokenScene, ASecondBodyIsNotAvailable) {
+TEST(BrokenScene, ASecondBodyThatNothingHolds) {
   const std::string second = R"([[body]]
 name = "table"
 shape = "rectangle"
@@ -230,7 +230,8 @@ equation = "diffusion"
 )";
   const test::Outcome result = test::outcome([&] { test::parse(membrane + second); });
   EXPECT_EQ(result.status, Exit::input);
-  EXPECT_THAT(result.message, HasSubstr("scene.toml:18: body.1: a second [[body]] is not available in this version"));
+  EXPECT_THAT(result.message,
+              HasSubstr("scene.toml:18: body.1: there is neither [[fix]] nor [[obstacle]]: nothing holds the body"));
 }
 
 // A list of a list of a truth value is what no key of a scene is.

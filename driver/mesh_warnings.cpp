@@ -1,4 +1,4 @@
-#include "apps/signorini/mesh_warnings.hpp"
+#include "driver/mesh_warnings.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/mesh/joints.hpp"
+#include "driver/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -39,13 +40,13 @@ void add_joints(const Mesh<D>& mesh, const std::string& place, std::vector<std::
 }
 
 /// Of the scene's fixes, loads and obstacles.
-std::vector<Selection> selections(const Scene& scene) {
+std::vector<Selection> selections(const Scene& scene, const Scene::Body& body) {
   std::vector<Selection> all;
-  for (const auto& fix : scene.fixes) all.push_back(fix.on);
-  for (const auto& load : scene.loads)
-    if (load.on) all.push_back(*load.on);
-  for (const auto& obstacle : scene.obstacles)
-    if (obstacle.on) all.push_back(*obstacle.on);
+  for (const int k : numbers_of(scene.fixes, body)) all.push_back(scene.fixes[k].on);
+  for (const int k : numbers_of(scene.loads, body))
+    if (scene.loads[k].on) all.push_back(*scene.loads[k].on);
+  for (const int k : numbers_of(scene.obstacles, body))
+    if (scene.obstacles[k].on) all.push_back(*scene.obstacles[k].on);
   return all;
 }
 
@@ -64,10 +65,10 @@ std::vector<std::string> mesh_warnings(const Mesh<D>& mesh, const FileGroups& gr
 }
 
 template <int D>
-void refuse_lost_groups(const Scene& scene, const Mesh<D>& mesh, const FileGroups& groups) {
+void refuse_lost_groups(const Scene& scene, const Scene::Body& body, const Mesh<D>& mesh, const FileGroups& groups) {
   std::vector<std::string> parts{"boundary"};
   for (const Part& part : mesh.parts) parts.push_back(part.name);
-  for (const Selection& selection : selections(scene)) {
+  for (const Selection& selection : selections(scene, body)) {
     if (!selection.part || std::ranges::count(parts, *selection.part) > 0) continue;
     if (std::ranges::count(groups.of_elements, *selection.part) > 0)
       input_error(selection.origin,
@@ -85,7 +86,7 @@ void refuse_lost_groups(const Scene& scene, const Mesh<D>& mesh, const FileGroup
 
 #define SIGNORINI_INSTANTIATE(D)                                                                          \
   template std::vector<std::string> mesh_warnings(const Mesh<D>&, const FileGroups&, const std::string&); \
-  template void refuse_lost_groups(const Scene&, const Mesh<D>&, const FileGroups&);
+  template void refuse_lost_groups(const Scene&, const Scene::Body&, const Mesh<D>&, const FileGroups&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

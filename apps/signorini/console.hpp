@@ -5,22 +5,24 @@
 #include <vector>
 
 #include "apps/signorini/heartbeat.hpp"
-#include "core/solver/summary.hpp"
+#include "driver/progress.hpp"
 
 namespace signorini {
 
 /// Lines on standard error while long work goes on. On a terminal there is one for each phase and cycle; those of
 /// cycles take each other's place and go at the end: the table of results has them all. Where nothing is printed for
 /// some seconds, a line says what goes on; in files and pipes there are only these.
-class Progress {
+class Console final : public Progress {
  public:
-  explicit Progress(bool quiet);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit Console(bool quiet);
+  ~Console() override;
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
 
-  void phase(const std::string& what) const;
-  void cycle(const IterationRecord& record) const;
+  void phase(const std::string& what) const override;
+  void cycle(const IterationRecord& record) const override;
+  /// When the user asked to end.
+  bool interrupted() const override;
 
  private:
   void clear() const;
@@ -40,17 +42,6 @@ void print_of_written(const std::function<void()>& print);
 
 /// On standard error, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
-
-/// Seconds since its construction or the last lap().
-class Stopwatch {
- public:
-  Stopwatch();
-  double elapsed() const;
-  double lap();
-
- private:
-  double start_;
-};
 
 /// Largest memory the program has had so far, in 2^20 bytes.
 double peak_memory_mb();

@@ -1,4 +1,4 @@
-#include "apps/signorini/loose_body.hpp"
+#include "driver/loose_body.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/signorini/contact_warnings.hpp"
+#include "driver/contact_warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
 }
 
 template <int D, int B>
-std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<D>& hierarchy,
+std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy,
                                         const Results<D, B>& results) {
   std::vector<std::string> warnings;
   for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
@@ -94,7 +94,7 @@ std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<
           "where displacements are up to {:.3g}: refinement brings out the edges between them, and the largest "
           "pressure "
           "gets worse with it",
-          scene.obstacles[k].source.table, whose, sagitta, displacement));
+          model.obstacles[k].origin, whose, sagitta, displacement));
     };
     std::vector<bool> touching(hierarchy.finest().points.size());
     for (const ContactNode<B>& node : results.contact.nodes)
@@ -107,7 +107,7 @@ std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                        \
   template std::vector<std::string> start_warnings(const Mesh<D>&, const Model<B>&, bool); \
-  template std::vector<std::string> chord_warnings(const Scene&, const MeshHierarchy<D>&, const Results<D, B>&);
+  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Results<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

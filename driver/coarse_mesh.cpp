@@ -1,12 +1,11 @@
-#include "apps/signorini/coarse_mesh.hpp"
+#include "driver/coarse_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <type_traits>
 
-#include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/memory.hpp"
-#include "apps/signorini/mesh_warnings.hpp"
+#include "driver/memory.hpp"
+#include "driver/mesh_warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
@@ -18,9 +17,9 @@ namespace signorini {
 namespace {
 
 template <int D>
-geometry::Size<D> target_size(const Scene::Body& body) {
-  return [field = *body.size](const Point<D>& x) {
-    stop_if_interrupted();
+geometry::Size<D> target_size(const Scene::Body& body, const Progress& progress) {
+  return [field = *body.size, &progress](const Point<D>& x) {
+    progress.stop_if_interrupted();
     return field(site<D>(x, 1));
   };
 }
@@ -39,11 +38,12 @@ struct Mesher {
   const Scene::Body& body;
   int block;
   std::vector<std::string>* warnings;
+  const Progress& progress;
 
   Mesh<D> operator()(const Scene::MeshFile& given) const {
     FileGroups groups;
     Mesh<D> mesh = read_mesh<D>(given.file, &groups);
-    refuse_lost_groups(scene, mesh, groups);
+    refuse_lost_groups(scene, body, mesh, groups);
     if (warnings)
       for (std::string& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
         warnings->push_back(std::move(warning));
@@ -67,7 +67,7 @@ struct Mesher {
   template <class Shape>
   Mesh<D> free_mesh(const Shape& shape) const {
     try {
-      return geometry::engine().mesh(shape, target_size<D>(body));
+      return geometry::engine().mesh(shape, target_size<D>(body, progress));
     } catch (const geometry::ShapeError& error) {
       std::string more;
       if constexpr (std::is_same_v<Shape, geometry::Solid>) more = surface_complaint(shape.file);
@@ -85,12 +85,12 @@ int dimension_of(const Scene& scene) {
 }
 
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings) {
-  const Scene::Body& body = scene.bodies.front();
-  return std::visit(Mesher<D>{scene, body, block, warnings}, body.shape);
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
+                      const Progress& progress) {
+  return std::visit(Mesher<D>{scene, scene.bodies[body], block, warnings, progress}, scene.bodies[body].shape);
 }
 
-template Mesh<2> coarsest_mesh(const Scene&, int, std::vector<std::string>*);
-template Mesh<3> coarsest_mesh(const Scene&, int, std::vector<std::string>*);
+template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
+template Mesh<3> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "apps/signorini/progress.hpp"
+#include "apps/signorini/console.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "core/base/clock.hpp"
+#include "apps/signorini/interrupt.hpp"
 #include "core/base/proc.hpp"
 #include "core/io/convergence.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 constexpr double longest_silence = 5, longest_silence_of_logs = 10;
 }  // namespace
 
-Progress::Progress(bool quiet) {
+Console::Console(bool quiet) {
   if (quiet) return;
   terminal_ = isatty(STDERR_FILENO);
   const double longest = terminal_ ? longest_silence : longest_silence_of_logs;
@@ -29,17 +29,17 @@ Progress::Progress(bool quiet) {
   });
 }
 
-Progress::~Progress() {
+Console::~Console() {
   heartbeat_.reset();
   clear();
 }
 
-void Progress::clear() const {
+void Console::clear() const {
   if (open_) std::fputs("\r\x1b[K", stderr);
   open_ = false;
 }
 
-void Progress::phase(const std::string& what) const {
+void Console::phase(const std::string& what) const {
   if (!heartbeat_) return;
   if (!terminal_) return heartbeat_->begin(what);
   heartbeat_->begin(what, [&] {
@@ -48,7 +48,9 @@ void Progress::phase(const std::string& what) const {
   });
 }
 
-void Progress::cycle(const IterationRecord& record) const {
+bool Console::interrupted() const { return signorini::interrupted(); }
+
+void Console::cycle(const IterationRecord& record) const {
   if (!heartbeat_ || !terminal_) return;
   heartbeat_->speak([&] {
     clear();
@@ -98,16 +100,6 @@ void print_of_written(const std::function<void()>& print) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning);
-}
-
-Stopwatch::Stopwatch() : start_(seconds()) {}
-
-double Stopwatch::elapsed() const { return seconds() - start_; }
-
-double Stopwatch::lap() {
-  const double passed = elapsed();
-  start_ += passed;
-  return passed;
 }
 
 double peak_memory_mb() {

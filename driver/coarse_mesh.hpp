@@ -4,16 +4,18 @@
 
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
+#include "driver/progress.hpp"
 
 namespace signorini {
 
 /// 2 or 3; where only a mesh file tells it, the scene is checked against it.
 int dimension_of(const Scene& scene);
 
-/// The coarsest mesh of the scene's body: structured, meshed from its shape, or read from its file.
+/// The coarsest mesh of a body: structured, meshed from its shape, or read from its file.
 /// @param block unknowns per vertex, to refuse meshes that would not fit into memory
 /// @param warnings where there are any, what is odd about the mesh is added
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, int block, std::vector<std::string>* warnings);
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
+                      const Progress& progress);
 
 }  // namespace signorini

@@ -5,17 +5,17 @@
 #include <utility>
 #include <vector>
 
-#include "apps/signorini/coarse_mesh.hpp"
+#include "driver/coarse_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
 
 namespace signorini {
 
-/// Calls function.operator()<D, B>() with the scene's dimension and its number of unknowns per vertex.
+/// Calls function.operator()<D, B>() with the scene's dimension and a body's number of unknowns per vertex.
 template <class Function>
-decltype(auto) dispatch(const Scene& scene, Function&& function) {
-  const bool scalar = scene.bodies.front().equation == Scene::Equation::diffusion;
+decltype(auto) dispatch(const Scene& scene, Function&& function, std::size_t body = 0) {
+  const bool scalar = scene.bodies[body].equation == Scene::Equation::diffusion;
   if (dimension_of(scene) == 2)
     return scalar ? function.template operator()<2, 1>() : function.template operator()<2, 2>();
   return scalar ? function.template operator()<3, 1>() : function.template operator()<3, 3>();
@@ -32,9 +32,10 @@ void at_step(const Scene& scene, double t, const Work& work) {
   }
 }
 
-/// The scene's meshes, after making sure that a problem with B unknowns per vertex on them fits into memory.
+/// The meshes of a body, after making sure that a problem with B unknowns per vertex on them fits into memory.
 /// @param warnings where there are any, what is odd about the mesh of a file is added
 template <int D>
-MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr);
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr,
+                                 const Progress& progress = Progress(), std::size_t body = 0);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "apps/signorini/components.hpp"
+#include "driver/components.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "apps/signorini/build_model.hpp"
+#include "driver/build_model.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include "core/component/settings.hpp"
 #include "core/scene/rigid_shape.hpp"
 #include "core/scene/specs.hpp"
+#include "driver/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -99,18 +100,18 @@ Load<B> load(const Scene::Load& scene) {
 }  // namespace
 
 template <int B>
-Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t) {
-  const Scene::Body& body = scene.bodies.front();
+Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
   Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t, body.source.table};
-  for (const auto& entry : scene.fixes) model.fixes.push_back(fix<B>(entry));
-  for (const auto& entry : scene.loads) model.loads.push_back(load<B>(entry));
-  for (const auto& entry : scene.obstacles)
-    model.obstacles.push_back(create_obstacle<B>(entry, dimension, registry, t));
+  for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(scene.fixes[k]));
+  for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene.loads[k]));
+  for (const int k : numbers_of(scene.obstacles, body))
+    model.obstacles.push_back(create_obstacle<B>(scene.obstacles[k], dimension, registry, t));
   return model;
 }
 
-template Model<1> build_model(const Scene&, int, const Registry&, double);
-template Model<2> build_model(const Scene&, int, const Registry&, double);
-template Model<3> build_model(const Scene&, int, const Registry&, double);
+template Model<1> build_model(const Scene&, int, const Registry&, double, std::size_t);
+template Model<2> build_model(const Scene&, int, const Registry&, double, std::size_t);
+template Model<3> build_model(const Scene&, int, const Registry&, double, std::size_t);
 
 }  // namespace signorini

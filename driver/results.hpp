@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/nested_solver.hpp"
+#include "driver/nested_solver.hpp"
 #include "core/fem/contact.hpp"
+#include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
-#include "core/fem/stress.hpp"
 
 namespace signorini {
 
@@ -16,8 +16,8 @@ template <int D, int B>
 struct Results {
   std::vector<double> u;  ///< global coordinates, B per vertex
   ContactState<B> contact;
+  Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
-  std::vector<Stress> stress;                            ///< per vertex; elasticity only
 };
 
 template <int D, int B>
@@ -30,13 +30,14 @@ struct Probes {
   std::vector<Place<D>> places;
 };
 
-/// Error(Exit::input) for a probe outside the body.
+/// Those of a body; Error(Exit::input) for one outside it.
 template <int D>
-Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene);
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body = 0);
 
+/// What the user is told, with the scene's numbers of fixes, loads and obstacles.
 template <int D, int B>
-StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
-                       const Summary& summary);
+StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+                       double t, const Summary& summary, std::size_t body = 0);
 
 /// The summary of a solve. Where contacts that could not be made part of the problem are violated in its solution by
 /// more than `tolerance` times the largest displacement, it has not converged and says which.
@@ -47,11 +48,12 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
 
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
 template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh);
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t body = 0);
 
 /// Fixes that contradict each other, one sentence per pair, and expressions that cut through faces of the coarsest
 /// mesh.
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model);
+std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model,
+                                        std::size_t body = 0);
 
 }  // namespace signorini

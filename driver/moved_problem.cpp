@@ -1,4 +1,4 @@
-#include "apps/signorini/moved_problem.hpp"
+#include "driver/moved_problem.hpp"
 
 #include <algorithm>
 #include <numeric>

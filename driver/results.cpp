@@ -1,4 +1,4 @@
-#include "apps/signorini/results.hpp"
+#include "driver/results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +10,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "driver/numbers.hpp"
 
 namespace signorini {
 
@@ -19,16 +20,17 @@ Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution
                     contact_state(mesh, model, solution.discretization, solution.x),
                     {},
                     {}};
+  out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
     out.deformed.push_back(deformed_contact(mesh, model, static_cast<Index>(k), out.contact, out.u));
-  if constexpr (B == D) out.stress = nodal_stress(mesh, element_stress(mesh, model, out.u));
   return out;
 }
 
 template <int D>
-Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene) {
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body) {
   Probes<D> probes;
-  for (const auto& probe : scene.probes) {
+  for (const int number : numbers_of(scene.probes, scene.bodies[body])) {
+    const Scene::Probe& probe = scene.probes[number];
     Point<D> at;
     std::copy_n(probe.at.begin(), D, at.begin());
     probes.names.push_back(probe.name);
@@ -56,14 +58,39 @@ ContactReport contact_report(int obstacle, const ContactSummary<B>& contact,
           .largest_displacement = at.displacement};
 }
 
+template <int B>
+std::vector<ForceReport> force_reports(const std::vector<int>& numbers, const std::vector<std::array<double, B>>& forces) {
+  std::vector<ForceReport> reports;
+  for (std::size_t k = 0; k < forces.size(); ++k) reports.push_back({numbers[k], {forces[k].begin(), forces[k].end()}});
+  return reports;
+}
+
+template <int B>
+std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
+  std::vector<double> total(B);
+  for (const auto& force : forces)
+    for (int i = 0; i < B; ++i) total[i] += force[i];
+  return total;
+}
+
 }  // namespace
 
 template <int D, int B>
-StepReport step_report(const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results, double t,
-                       const Summary& summary) {
-  StepReport report{t, summary, {}, {}, {}};
+StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+                       double t, const Summary& summary, std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
+  StepReport report;
+  report.t = t;
+  report.summary = summary;
+  const Forces<B>& forces = results.forces;
+  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
+  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
+  report.bodies = {{body.name, summary}};
+  report.balance = {
+      {body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
+  const std::vector<int> obstacles = numbers_of(scene.obstacles, body);
   for (std::size_t k = 0; k < results.contact.obstacles.size(); ++k)
-    report.contact.push_back(contact_report(static_cast<int>(k), results.contact.obstacles[k], results.deformed[k]));
+    report.contact.push_back(contact_report(obstacles[k], results.contact.obstacles[k], results.deformed[k]));
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(mesh, probes.places[k], results.u);
     report.probes.push_back({probes.names[k], {value.begin(), value.end()}});
@@ -94,8 +121,8 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
 }
 
 template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh) {
-  const Scene::Body& body = scene.bodies.front();
+std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
   if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
   double poisson = body.poisson.constant().value_or(0);
   if (!body.poisson.constant())
@@ -110,11 +137,13 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh)
 }
 
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model) {
+std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model,
+                                        std::size_t body) {
   std::vector<std::string> warnings;
+  const std::vector<int> fixes = numbers_of(scene.fixes, scene.bodies[body]);
   for (const FixConflict& conflict : fix_conflicts(mesh, model))
     warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
-                                   scene.fixes[conflict.later].source.table, scene.fixes[conflict.earlier].source.table,
+                                   scene.fixes[fixes[conflict.later]].source.table, scene.fixes[fixes[conflict.earlier]].source.table,
                                    conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
   for (const CutSelection& cut : cut_selections(mesh, model))
     warnings.push_back(fmt::format(
@@ -127,17 +156,18 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
 
 #define SIGNORINI_RESULTS(D, B)                                                                                    \
   template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
-  template StepReport step_report(const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, const Summary&); \
+  template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double,    \
+                                  const Summary&, std::size_t);                                                    \
   template Summary judge(const Mesh<D>&, const Model<B>&, const Solution<B>&, const std::vector<double>&, double); \
-  template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&);
+  template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)
 SIGNORINI_RESULTS(2, 2)
 SIGNORINI_RESULTS(3, 3)
 
-template Probes<2> locate_probes(const Mesh<2>&, const Scene&);
-template Probes<3> locate_probes(const Mesh<3>&, const Scene&);
-template std::vector<std::string> scene_warnings(const Scene&, const Mesh<2>&);
-template std::vector<std::string> scene_warnings(const Scene&, const Mesh<3>&);
+template Probes<2> locate_probes(const Mesh<2>&, const Scene&, std::size_t);
+template Probes<3> locate_probes(const Mesh<3>&, const Scene&, std::size_t);
+template std::vector<std::string> scene_warnings(const Scene&, const Mesh<2>&, std::size_t);
+template std::vector<std::string> scene_warnings(const Scene&, const Mesh<3>&, std::size_t);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "apps/signorini/memory.hpp"
+#include "driver/memory.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,11 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "apps/signorini/progress.hpp"
+#include "driver/progress.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/io/report.hpp"
@@ -59,18 +61,37 @@ class NestedSolver {
   /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u.
   Solution<B> solve_after(const Model<B>& model, const std::vector<double>& u);
 
+  /// Gives back the problem of the last solve, whose matrix and load the next one takes over as far as they stay the
+  /// same; those of coarser levels are kept anyway. Without it the finest level's are assembled again.
+  void take_back(const Model<B>& model, Discretization<B> last);
+
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return first_ > 0 && !meshes_; }
 
  private:
+  /// The problem of a level after its solve: all but its matrix, which is among the products where it is a coarse one.
+  struct Kept {
+    Model<B> model;
+    Discretization<B> discretization;
+  };
+
   bool may_fall_back() const;
   Solution<B> solve_safely(const Model<B>& model);
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
   void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
+  std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
+  std::size_t number(std::size_t level) const { return algebraic_ + level - first_; }
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
   std::span<const Prolongation> levels_below(std::size_t level) const;
+  std::size_t levels_left_out(std::size_t level) const;
+  void keep(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  std::span<const GalerkinMatrix<B>> products_below(std::size_t level) const;
+  bool all_products(std::size_t count) const {
+    return std::find(is_product_.begin(), is_product_.begin() + count, false) == is_product_.begin() + count;
+  }
+  void forget_products();
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
@@ -88,7 +109,10 @@ class NestedSolver {
   const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
-  std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below that at work, as far as they are known
+  std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
+  std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
+  std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve
+  std::vector<std::optional<Kept>> kept_;    // per mesh
   bool continued_ = false;
   std::vector<Stage> dropped_;            // starts that coarser levels did not give
   std::unique_ptr<NestedSolver> meshes_;  // what goes on where levels by the matrix did not do

@@ -14,6 +14,6 @@ std::vector<std::string> mesh_warnings(const Mesh<D>& mesh, const FileGroups& gr
 
 /// Error(Exit::input) at the selection of the scene that names a group of elements, or one without boundary faces.
 template <int D>
-void refuse_lost_groups(const Scene& scene, const Mesh<D>& mesh, const FileGroups& groups);
+void refuse_lost_groups(const Scene& scene, const Scene::Body& body, const Mesh<D>& mesh, const FileGroups& groups);
 
 }  // namespace signorini

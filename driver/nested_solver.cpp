@@ -1,4 +1,4 @@
-#include "apps/signorini/nested_solver.hpp"
+#include "driver/nested_solver.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
-#include "apps/signorini/interrupt.hpp"
-#include "apps/signorini/loose_body.hpp"
-#include "apps/signorini/moved_problem.hpp"
+#include "driver/loose_body.hpp"
+#include "driver/moved_problem.hpp"
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 #include "core/mesh/slender.hpp"
 #include "core/mesh/stretch.hpp"
@@ -108,26 +108,80 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       times_(times),
       monitor_([this](const IterationRecord& record) {
         progress_.cycle(record);
-        return !interrupted();
+        return !progress_.interrupted();
       }) {
   Stopwatch watch;
   if (first_ == 0) prolongations_ = prolongations(hierarchy);
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
+  changed_.resize(hierarchy.levels.size());
+  kept_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::size_t level) {
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   Stopwatch watch;
   const Mesh<D>& mesh = hierarchy_.levels[level];
   progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
-  Solution<B> solution{discretize<D, B>(mesh, model), {}, {}, {}};
+  Solution<B> solution;
+  if (auto renewed = renew_level(model, level)) {
+    solution.discretization = std::move(*renewed);
+  } else {
+    changed_[level] = true;
+    solution.discretization = discretize<D, B>(mesh, model);
+    Assemblies& count = times_.assemblies;
+    ++count.stiffness, ++count.load, ++count.constraints;
+  }
+  if (level == first_ && changed_[level]) forget_products();
   solution.discretization.problem.cheap_to_factorise = level < factorised_;
   solution.x = solution.discretization.problem.start;
   times_.assemble += watch.elapsed();
   return solution;
+}
+
+/// From what the last solve left, if that is all there.
+template <int D, int B>
+std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>& model, std::size_t level) {
+  std::optional<Kept> kept = std::exchange(kept_[level], std::nullopt);
+  if (!kept) return {};
+  DiscreteProblem<B>& problem = kept->discretization.problem;
+  if (level + 1 < hierarchy_.levels.size()) {
+    if (number(level) >= galerkin_.size()) return {};
+    problem.A = std::move(galerkin_[number(level)].A);
+    problem.fixed = std::move(galerkin_[number(level)].off);
+  }
+  const Assembled assembled = renew(hierarchy_.levels[level], kept->model, model, kept->discretization);
+  changed_[level] = !assembled.same_matrix();
+  times_.assemblies.stiffness += assembled.stiffness;
+  times_.assemblies.load += assembled.load;
+  ++times_.assemblies.constraints;
+  return std::move(kept->discretization);
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::forget_products() {
+  is_product_.assign(galerkin_.size(), false);
+}
+
+/// All of them, or none.
+template <int D, int B>
+std::span<const GalerkinMatrix<B>> NestedSolver<D, B>::products_below(std::size_t level) const {
+  const std::size_t count = number(level);
+  if (galerkin_.size() < count || !all_products(count)) return {};
+  return std::span(galerkin_).first(count).subspan(levels_left_out(level));
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+  if (!coarse.x.empty()) kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::take_back(const Model<B>& model, Discretization<B> last) {
+  if (meshes_) return meshes_->take_back(model, std::move(last));
+  kept_.back().emplace(Kept{model, std::move(last)});
 }
 
 template <int D, int B>
@@ -149,7 +203,8 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
                         std::make_move_iterator(below.prolongations.end()));
   galerkin_ = std::move(below.matrices);
-  coarsest.galerkin = galerkin_;
+  is_product_.assign(galerkin_.size(), true);
+  ++times_.assemblies.hierarchies;
   times_.setup += watch.elapsed();
 }
 
@@ -164,27 +219,31 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
     if (error.status() == Exit::interrupted) throw;
     progress_.phase(fmt::format("no levels below the coarsest mesh: {}", error.what()));
   }
-  galerkin_.clear();
+  forget_products();
 }
 
 template <int D, int B>
 std::span<const Prolongation> NestedSolver<D, B>::levels_below(std::size_t level) const {
-  const std::size_t count = algebraic_ + level - first_, coarsest = factorised_ > 0 ? factorised_ - 1 : 0;
-  return std::span(prolongations_).first(count).subspan(std::min(coarsest, count));
+  return std::span(prolongations_).first(number(level)).subspan(levels_left_out(level));
+}
+
+/// The number of coarsest meshes that are no levels below this one.
+template <int D, int B>
+std::size_t NestedSolver<D, B>::levels_left_out(std::size_t level) const {
+  return std::min(factorised_ > 0 ? factorised_ - 1 : 0, number(level));
 }
 
 /// On nested meshes the matrix of the coarser one is the product that the solver would compute: it takes it over.
 template <int D, int B>
 void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
-  Stopwatch watch;
-  const std::size_t below = algebraic_ + level - first_ - 1, given = levels_below(level).size();
+  const Stopwatch watch;
+  const std::size_t below = number(level) - 1;
   DiscreteProblem<B>& shared = coarse.discretization.problem;
-  if (given > 0 && galerkin_.size() + 1 == given && is_galerkin(shared, prolongations_[below], problem)) {
-    galerkin_.push_back({std::move(shared.A), std::move(shared.fixed), false});
-    problem.galerkin = galerkin_;
-  } else {
-    galerkin_.clear();
-  }
+  galerkin_.resize(std::max(galerkin_.size(), below + 1));
+  is_product_.resize(galerkin_.size());
+  if (changed_[level - 1] || changed_[level])
+    is_product_[below] = all_products(below) && is_galerkin(shared, prolongations_[below], problem);
+  galerkin_[below] = {std::move(shared.A), std::move(shared.fixed), false};
   times_.setup += watch.elapsed();
 }
 
@@ -221,9 +280,11 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
         interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - first_ - 1], problem);
     if (!before_[level].empty()) start_from_before(level, coarse, solution);
     share_matrix(coarse, level, problem);
+    keep(model, level - 1, coarse);
   } else if (level == first_ && options_.start == "nested") {
     continue_algebraically(problem);
     Stopwatch watch;
+    problem.galerkin = products_below(level);
     solution.x =
         nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
     times_.solve += watch.elapsed();
@@ -235,9 +296,9 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      const LooseBody<D, B>& body, Solution<B>& solution) {
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
-  const bool finest = level + 1 == hierarchy_.levels.size();
+  solution.discretization.problem.galerkin = products_below(level);
   MovedProblem<B> moved(solution.discretization.problem, body.fall(solution.x), solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
@@ -247,11 +308,10 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   }
   moved.back();
   solution.discretization.problem.galerkin = {};
-  if (finest) galerkin_.clear();
   solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
-  stop_if_interrupted();
+  progress_.stop_if_interrupted();
   if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(model.origin, solution);
 }
 
@@ -293,7 +353,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   Solution<B> coarse;
   if (options_.start == "nested")
     for (std::size_t level = first_; level < finest; ++level)
-      if (!try_level(model, level, coarse)) coarse = {}, galerkin_.clear();
+      if (!try_level(model, level, coarse)) coarse = {}, forget_products();
   if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};

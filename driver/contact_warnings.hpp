@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/signorini/results.hpp"
+#include "driver/results.hpp"
 
 namespace signorini {
 
@@ -20,7 +20,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
 /// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined
 /// mesh: with a distance between both that counts beside the displacements there. One sentence per obstacle and kind.
 template <int D, int B>
-std::vector<std::string> chord_warnings(const Scene& scene, const MeshHierarchy<D>& hierarchy,
+std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy,
                                         const Results<D, B>& results);
 
 }  // namespace signorini

@@ -1,0 +1,112 @@
+#include "driver/body_run.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "driver/build_model.hpp"
+#include "driver/contact_warnings.hpp"
+#include "driver/problem.hpp"
+
+namespace signorini {
+namespace {
+
+void append(std::vector<std::string>& warnings, std::vector<std::string> more) {
+  std::move(more.begin(), more.end(), std::back_inserter(warnings));
+}
+
+}  // namespace
+
+template <int D, int B>
+BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress,
+                       Times& times, std::vector<std::string>& warnings)
+    : scene_(scene),
+      body_(body),
+      registry_(registry),
+      times_(times),
+      hierarchy_([&] {
+        const Stopwatch watch;
+        progress.phase("meshing");
+        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body);
+        times.mesh += watch.elapsed();
+        return hierarchy;
+      }()),
+      probes_(locate_probes(hierarchy_.finest(), scene, body)),
+      solver_(hierarchy_, scene.solver, registry, progress, times) {
+  append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
+}
+
+template <int D, int B>
+void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
+  const Model<B> now = model(t);
+  append(warnings, model_warnings(scene_, mesh(), now, body_));
+  append(warnings, start_warnings(hierarchy_.levels.front(), now));
+}
+
+template <int D, int B>
+void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) const {
+  append(warnings, chord_warnings<D, B>(model_, hierarchy_, results_));
+}
+
+template <int D, int B>
+std::vector<Stress> BodyRun<D, B>::stress() const {
+  if constexpr (B == D) return nodal_stress(mesh(), element_stress(mesh(), model_, results_.u));
+  return {};
+}
+
+template <int D, int B>
+void BodyRun<D, B>::start_from(std::vector<double> u) {
+  if (u.size() != mesh().points.size() * B)
+    throw Error(Exit::usage, fmt::format("{}: a start of {} numbers, expected {}: {} for each of {} vertices",
+                                         body().source.table, u.size(), mesh().points.size() * B, B,
+                                         mesh().points.size()));
+  if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
+    throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
+  results_.u = std::move(u);
+}
+
+/// Where there is no solution, perhaps the body was meant to be on the other side.
+template <int D, int B>
+Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
+  try {
+    return results_.u.empty() ? solver_.solve(model) : solver_.solve_after(model, results_.u);
+  } catch (const Error& error) {
+    if (error.status() != Exit::no_solution) throw;
+    const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
+    if (reasons.empty()) throw;
+    throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
+  }
+}
+
+template <int D, int B>
+StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
+  model_ = model(t);
+  Solution<B> solution = solve(model_);
+  const Stopwatch watch;
+  results_ = signorini::results<D, B>(mesh(), model_, solution);
+  StepReport report =
+      step_report<D, B>(scene_, mesh(), probes_, results_, t,
+                        judge<D, B>(mesh(), model_, solution, results_.u, scene_.solver.tolerance), body_);
+  report.undetermined = solution.undetermined;
+  if (!solution.undetermined.empty()) {
+    std::string warning = fmt::format(
+        "{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves least along them",
+        model_.origin, fmt::join(solution.undetermined, "; "));
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
+  }
+  times_.output += watch.elapsed();
+  solver_.take_back(model_, std::move(solution.discretization));
+  return report;
+}
+
+template class BodyRun<2, 1>;
+template class BodyRun<3, 1>;
+template class BodyRun<2, 2>;
+template class BodyRun<3, 3>;
+
+}  // namespace signorini

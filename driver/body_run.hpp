@@ -1,0 +1,58 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/component/registry.hpp"
+#include "core/fem/stress.hpp"
+#include "core/io/report.hpp"
+#include "driver/nested_solver.hpp"
+#include "driver/progress.hpp"
+#include "driver/results.hpp"
+
+namespace signorini {
+
+/// One body of a scene: its meshes, the solver that is kept for all steps, and the results of the last one.
+template <int D, int B>
+class BodyRun {
+ public:
+  /// Builds the meshes. Keeps references to all but the warnings, to which it adds what is odd about the meshes, and
+  /// adds to `times` what everything takes. Error(Exit::input) as read_scene() has them.
+  BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
+          std::vector<std::string>& warnings);
+
+  /// Solves the step at t, from the last solution where there is one, and says what came out. Errors: see NestedSolver.
+  StepReport solve(double t, std::vector<std::string>& warnings);
+  /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
+  /// has another length or is not finite.
+  void start_from(std::vector<double> u);
+  /// What is odd about the scene as it is at t, before it is solved.
+  void add_warnings(double t, std::vector<std::string>& warnings) const;
+  /// What is odd about the results.
+  void add_result_warnings(std::vector<std::string>& warnings) const;
+
+  const Scene::Body& body() const { return scene_.bodies[body_]; }
+  const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }
+  const Mesh<D>& mesh() const { return hierarchy_.finest(); }
+  /// Of the last step.
+  const Results<D, B>& results() const { return results_; }
+  /// Per vertex, computed when it is asked for; empty for a scalar body.
+  std::vector<Stress> stress() const;
+  /// Whether all levels below the finest mesh are chosen by its matrix.
+  bool by_matrix() const { return solver_.by_matrix(); }
+
+ private:
+  Model<B> model(double t) const { return build_model<B>(scene_, D, registry_, t, body_); }
+  Solution<B> solve(const Model<B>& model);
+
+  const Scene& scene_;
+  std::size_t body_;
+  const Registry& registry_;
+  Times& times_;
+  MeshHierarchy<D> hierarchy_;
+  Probes<D> probes_;
+  NestedSolver<D, B> solver_;
+  Model<B> model_;  // of the last step
+  Results<D, B> results_;
+};
+
+}  // namespace signorini

@@ -1,0 +1,84 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/component/registry.hpp"
+#include "core/io/report.hpp"
+#include "core/scene/scene.hpp"
+#include "driver/body_run.hpp"
+#include "driver/progress.hpp"
+
+namespace signorini {
+
+/// Solves a scene, and again when loads, fixes, obstacles or the start have changed:
+///
+///     Driver driver(read_scene("ball.toml"));
+///     double force = driver.solve().last().contact[0].force[2];
+///     driver.scene().loads[0].value[2] = -0.2;
+///     force = driver.solve().last().contact[0].force[2];
+///
+/// Meshes, levels and matrices are kept between steps and solves as far as they stay the same.
+/// Errors are Error, with the program's exit status and a message that names the place in the scene.
+class Driver {
+ public:
+  /// Loads the plugins that the scene names; Error(Exit::plugin) where one is missing.
+  /// @param progress is told how work goes on, and may end it; it outlives the driver
+  explicit Driver(Scene scene, const Progress& progress = waiting());
+  ~Driver();
+  Driver(const Driver&) = delete;
+  Driver& operator=(const Driver&) = delete;
+
+  /// May be changed between solves, but for the bodies' meshes, [solver], [refine] and the plugins it needs, which are
+  /// taken from it once. Values are used as they are: read_scene() would have refused some.
+  Scene& scene() { return scene_; }
+  const Scene& scene() const { return scene_; }
+
+  /// Solves all steps. The first one starts from the last solution where there is one. Where the work is ended after
+  /// the first of several steps, the report has those that were finished, marked as interrupted.
+  /// @param done is called after each step, when report() and bodies have its results
+  const Report& solve(const std::function<void()>& done = {});
+  /// The next solve starts from u: B per vertex of the body's finest mesh, see BodyRun.
+  void start_from(std::size_t body, std::vector<double> u);
+
+  /// Of the last solve.
+  const Report& report() const { return report_; }
+  Report& report() { return report_; }
+  /// Displacements, or values of a scalar body, at the vertices of its finest mesh, one vertex after the other.
+  const std::vector<double>& solution(std::size_t body = 0) const;
+  /// Coordinates of these vertices, likewise.
+  std::vector<double> points(std::size_t body = 0) const;
+
+  /// Calls visit(run) with the BodyRun<D, B> of a body; there is one once a solve has begun.
+  template <class Visit>
+  decltype(auto) visit(std::size_t body, Visit&& visit) const {
+    return std::visit([&](const auto& run) -> decltype(auto) { return visit(std::as_const(*run)); }, bodies_.at(body));
+  }
+  template <class Visit>
+  decltype(auto) visit(std::size_t body, Visit&& visit) {
+    return std::visit([&](auto& run) -> decltype(auto) { return visit(*run); }, bodies_.at(body));
+  }
+  std::size_t bodies() const { return bodies_.size(); }
+
+ private:
+  template <int D, int B>
+  using Run = std::unique_ptr<BodyRun<D, B>>;
+  using AnyRun = std::variant<Run<2, 1>, Run<3, 1>, Run<2, 2>, Run<3, 3>>;
+
+  static const Progress& waiting();
+  void build_bodies();
+  StepReport solve_step(double t);
+  void finish();
+
+  Scene scene_;
+  const Progress& progress_;
+  Registry registry_;
+  std::vector<std::string> mesh_warnings_;
+  Report report_;
+  std::vector<AnyRun> bodies_;
+};
+
+}  // namespace signorini

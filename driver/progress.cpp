@@ -1,0 +1,17 @@
+#include "driver/progress.hpp"
+
+#include "core/base/error.hpp"
+
+namespace signorini {
+
+void Progress::phase(const std::string&) const {}
+
+void Progress::cycle(const IterationRecord&) const {}
+
+bool Progress::interrupted() const { return false; }
+
+void Progress::stop_if_interrupted() const {
+  if (interrupted()) throw Error(Exit::interrupted, "interrupted; nothing was written");
+}
+
+}  // namespace signorini

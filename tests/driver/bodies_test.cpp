@@ -1,0 +1,228 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "driver/driver.hpp"
+
+// Bodies that are not coupled, in one scene: each has the results that it has alone, under the scene's numbers.
+
+namespace signorini::test {
+namespace {
+
+/// The tables of a body, with those of others between them.
+struct Part {
+  std::string body, fix, load, obstacle, probe;
+};
+
+const Part block{R"(
+[[body]]
+name = "block"
+shape = "box"
+from = [0, 0, 0]
+to = [1, 1, 1]
+cells = [2, 2, 2]
+young = 1
+poisson = 0.3
+)",
+                 R"(
+[[fix]]
+body = "block"
+on = "top"
+value = [0, 0, -0.01]
+)",
+                 R"(
+[[load]]
+body = "block"
+on = "right"
+value = [0.02, 0, "0.01 * t"]
+)",
+                 R"(
+[[obstacle]]
+type = "contact"
+body = "block"
+on = "bottom"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+)",
+                 R"(
+[[probe]]
+name = "corner"
+body = "block"
+at = [1, 1, 0]
+)"};
+
+const Part film{R"(
+[[body]]
+name = "film"
+shape = "box"
+from = [2, 0, 0]
+to = [3, 1, 1]
+cells = [11, 10, 12]
+equation = "diffusion"
+diffusion = 2
+)",
+                R"(
+[[fix]]
+body = "film"
+on = "boundary"
+value = 0
+)",
+                R"(
+[[load]]
+body = "film"
+value = "-20 * t"
+)",
+                R"(
+[[obstacle]]
+type = "scalar"
+body = "film"
+lower = -0.2
+)",
+                R"(
+[[probe]]
+name = "middle"
+body = "film"
+at = [2.5, 0.5, 0.5]
+)"};
+
+const Part soft{R"(
+[[body]]
+name = "soft"
+shape = "box"
+from = [0, 2, 0]
+to = [2, 3, 1]
+cells = [4, 2, 2]
+young = 0.1
+poisson = 0.2
+)",
+                R"(
+[[fix]]
+body = "soft"
+on = "left"
+value = [0, 0, 0]
+)",
+                R"(
+[[load]]
+body = "soft"
+value = [0, 0, -0.001]
+)",
+                R"(
+[[obstacle]]
+type = "contact"
+body = "soft"
+on = "bottom"
+shape = "plane"
+point = [0, 0, -0.01]
+normal = [0, 0, 1]
+)",
+                R"(
+[[probe]]
+name = "end"
+body = "soft"
+at = [2, 2, 0]
+)"};
+
+const std::string settings = "[refine]\nuniform = 1\n[steps]\ncount = 2\n";
+
+Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml", "."); }
+
+/// The tables are interleaved: each kind in another order of the bodies.
+std::string together() {
+  return block.body + film.body + soft.body + soft.fix + block.fix + film.fix + film.load + soft.load + block.load +
+         soft.obstacle + film.obstacle + block.obstacle + film.probe + soft.probe + block.probe + settings;
+}
+
+std::string alone(const Part& part) { return part.body + part.fix + part.load + part.obstacle + part.probe + settings; }
+
+TEST(Bodies, have_the_results_that_each_has_alone) {
+  Driver all(scene_of(together()));
+  std::vector<StepReport> steps;
+  ASSERT_TRUE(all.solve().converged());
+  const Report& report = all.report();
+  ASSERT_EQ(all.bodies(), 3u);
+  ASSERT_EQ(report.steps.size(), 2u);
+  const struct {
+    const Part& part;
+    int fix, load, obstacle, probe;
+  } places[] = {{block, 1, 2, 2, 2}, {film, 2, 0, 1, 0}, {soft, 0, 1, 0, 1}};
+  Index unknowns = 0;
+  int iterations = 0;
+  double energy = 0;
+  for (std::size_t body = 0; body < 3; ++body) {
+    SCOPED_TRACE(all.scene().bodies[body].name);
+    const auto& [part, fix, load, obstacle, probe] = places[body];
+    Driver one(scene_of(alone(part)));
+    ASSERT_TRUE(one.solve().converged());
+    EXPECT_EQ(all.solution(body), one.solution());
+    for (std::size_t k = 0; k < 2; ++k) {
+      const StepReport &found = report.steps[k], &expected = one.report().steps[k];
+      EXPECT_EQ(found.reactions[fix].number, fix);
+      EXPECT_EQ(found.reactions[fix].force, expected.reactions[0].force);
+      EXPECT_EQ(found.applied[load].force, expected.applied[0].force);
+      EXPECT_EQ(found.contact[obstacle].obstacle, obstacle);
+      EXPECT_EQ(found.contact[obstacle].force, expected.contact[0].force);
+      EXPECT_GT(found.contact[obstacle].nodes, 0);
+      EXPECT_EQ(found.probes[probe].name, expected.probes[0].name);
+      EXPECT_EQ(found.probes[probe].value, expected.probes[0].value);
+      EXPECT_EQ(found.bodies[body].name, all.scene().bodies[body].name);
+      EXPECT_EQ(found.bodies[body].summary.residual, expected.summary.residual);
+      EXPECT_EQ(found.balance[body].sum(), expected.balance[0].sum());
+    }
+    const Summary& summary = one.report().last().summary;
+    unknowns += summary.level_unknowns.back();
+    iterations += summary.iterations;
+    energy += summary.energy;
+  }
+  const Summary& summary = report.last().summary;
+  EXPECT_EQ(summary.level_unknowns.back(), unknowns);
+  EXPECT_EQ(summary.iterations, iterations);
+  EXPECT_EQ(summary.history.size(), static_cast<std::size_t>(iterations));
+  EXPECT_EQ(summary.history.back().iteration, iterations);
+  EXPECT_DOUBLE_EQ(summary.energy, energy);
+  for (const IterationRecord& record : summary.history) EXPECT_EQ(record.levels.size(), summary.level_unknowns.size());
+  EXPECT_THAT(summary.reason, testing::AllOf(testing::HasSubstr("block: "), testing::HasSubstr("; soft: ")));
+}
+
+TEST(Bodies, one_that_does_not_converge_is_told_by_name) {
+  Scene scene = scene_of(together());
+  scene.solver.max_iterations = 2;
+  scene.solver.method = "monotone";
+  Driver driver(scene);
+  EXPECT_FALSE(driver.solve().converged());
+  const auto& bodies = driver.report().last().bodies;
+  EXPECT_TRUE(std::ranges::any_of(bodies, [](const BodyReport& body) { return !body.summary.converged(); }));
+}
+
+void expect_refused(const std::string& text, const std::string& message) {
+  try {
+    scene_of(text);
+    FAIL() << message;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::input);
+    EXPECT_THAT(error.what(), testing::HasSubstr(message));
+  }
+}
+
+TEST(Bodies, are_all_held_and_have_as_many_dimensions) {
+  expect_refused(block.body + block.fix + film.body, "body.1: there is neither [[fix]] nor [[obstacle]]");
+  expect_refused(block.body + block.fix + R"(
+[[body]]
+name = "flat"
+shape = "rectangle"
+from = [0, 0]
+to = [1, 1]
+cells = [2, 2]
+young = 1
+poisson = 0
+[[fix]]
+body = "flat"
+on = "left"
+value = [0, 0]
+)",
+                 "a body with 2 dimensions, expected 3 as the bodies before it");
+}
+
+}  // namespace
+}  // namespace signorini::test

@@ -1,0 +1,250 @@
+#include "driver/driver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini::test {
+namespace {
+
+const std::string elastic = R"(
+[[body]]
+name = "block"
+shape = "box"
+from = [0, 0, 0]
+to = [1, 1, 1]
+cells = [2, 2, 2]
+young = 1
+poisson = 0.3
+[[fix]]
+body = "block"
+on = "top"
+value = [0, 0, 0]
+[[fix]]
+body = "block"
+on = "left"
+frame = "normal"
+value = [0.001, "free", "free"]
+[[load]]
+body = "block"
+on = "right"
+value = [0, 0, -0.02]
+[[obstacle]]
+type = "contact"
+body = "block"
+where = "z < 0.001"
+shape = "sphere"
+center = [0.6, 0.5, -2.99]
+radius = 3
+[solver]
+tolerance = 1e-11
+[refine]
+uniform = 2
+)";
+
+const std::string scalar = R"(
+[[body]]
+name = "membrane"
+shape = "rectangle"
+from = [-1, -1]
+to = [1, 1]
+cells = [36, 36]
+equation = "diffusion"
+[[fix]]
+body = "membrane"
+on = "boundary"
+value = "0.1 * x"
+[[load]]
+body = "membrane"
+value = "-2 - x"
+[[obstacle]]
+type = "scalar"
+body = "membrane"
+lower = "-0.3 + 0.1 * x^2"
+[solver]
+tolerance = 1e-11
+[refine]
+uniform = 1
+)";
+
+Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_scene(text, "test.toml", ".", overrides);
+}
+
+template <class Shape>
+Shape& shape(Driver& driver) {
+  return std::get<Shape>(*driver.scene().obstacles[0].shape);
+}
+
+/// The driver's last results are those of a new driver, which has kept nothing.
+void expect_as_new(Driver& kept) {
+  Driver fresh(kept.scene());
+  ASSERT_TRUE(kept.report().converged());
+  ASSERT_TRUE(fresh.solve().converged());
+  const std::vector<double>&a = kept.solution(), &b = fresh.solution();
+  double size = 0, error = 0;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    size = std::max(size, std::abs(b[k]));
+    error = std::max(error, std::abs(a[k] - b[k]));
+  }
+  EXPECT_LT(error, 1e-8 * size);
+  const StepReport &last = kept.report().last(), &expected = fresh.report().last();
+  const auto expect_same = [](const std::vector<double>& found, const std::vector<double>& wanted, double unit) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 1e-7 * unit);
+  };
+  double force = 0;
+  for (const double f : expected.contact[0].force) force = std::max(force, std::abs(f));
+  EXPECT_GT(force, 0);
+  expect_same(last.contact[0].force, expected.contact[0].force, force);
+  for (std::size_t k = 0; k < expected.reactions.size(); ++k)
+    expect_same(last.reactions[k].force, expected.reactions[k].force, force);
+  for (std::size_t k = 0; k < expected.applied.size(); ++k) EXPECT_EQ(last.applied[k].force, expected.applied[k].force);
+  EXPECT_NEAR(last.summary.energy, expected.summary.energy, 1e-9 * std::abs(expected.summary.energy));
+}
+
+void expect_assembled(const Driver& driver, int stiffness, int load, int constraints) {
+  const Assemblies& count = driver.report().time.assemblies;
+  EXPECT_EQ(count.stiffness, stiffness);
+  EXPECT_EQ(count.load, load);
+  EXPECT_EQ(count.constraints, constraints);
+}
+
+constexpr int levels = 3;  // of the elastic scene
+
+TEST(Driver, computes_again_only_what_changed_of_an_elastic_body) {
+  Driver driver(scene_of(elastic));
+  ASSERT_TRUE(driver.solve().converged());
+  expect_assembled(driver, levels, levels, levels);
+  expect_as_new(driver);
+  {
+    SCOPED_TRACE("nothing");
+    const int before = driver.report().last().summary.iterations;
+    driver.solve();
+    expect_assembled(driver, 0, 0, levels);
+    EXPECT_LT(driver.report().last().summary.iterations, before);
+    expect_as_new(driver);
+  }
+  {
+    SCOPED_TRACE("load");
+    driver.scene().loads[0].value[2] = -0.05;
+    driver.solve();
+    expect_assembled(driver, 0, levels, levels);
+    expect_as_new(driver);
+  }
+  {
+    SCOPED_TRACE("prescribed value");
+    driver.scene().fixes[1].value[0] = -0.002;
+    driver.solve();
+    expect_assembled(driver, 0, 0, levels);
+    expect_as_new(driver);
+  }
+  {
+    SCOPED_TRACE("material");
+    driver.scene().bodies[0].young = 3;
+    driver.solve();
+    expect_assembled(driver, levels, 0, levels);
+    expect_as_new(driver);
+  }
+  {
+    SCOPED_TRACE("a sphere that moves turns frames, also where components are prescribed");
+    shape<Scene::SphereShape>(driver).center[0] = 0.4;
+    driver.solve();
+    expect_assembled(driver, levels, 0, levels);
+    expect_as_new(driver);
+  }
+  {
+    SCOPED_TRACE("other components prescribed");
+    driver.scene().fixes[1].value[1] = 0.001;
+    driver.solve();
+    expect_assembled(driver, levels, 0, levels);
+    expect_as_new(driver);
+  }
+}
+
+TEST(Driver, turns_the_matrix_where_no_component_is_prescribed) {
+  Scene scene = scene_of(elastic);
+  scene.fixes.pop_back();
+  Driver driver(scene);
+  driver.solve();
+  for (const double center : {0.5, 0.45, 0.4}) {
+    shape<Scene::SphereShape>(driver).center[0] = center;
+    driver.solve();
+    expect_assembled(driver, 0, 0, levels);
+    expect_as_new(driver);
+  }
+}
+
+// With levels chosen by the matrix below the coarsest mesh, and all of them.
+TEST(Driver, computes_again_only_what_changed_of_a_scalar_body) {
+  for (const std::string hierarchy : {"meshes", "matrix"}) {
+    SCOPED_TRACE(hierarchy);
+    Driver driver(scene_of(scalar, {"solver.hierarchy=" + hierarchy}));
+    const int meshes = hierarchy == "meshes" ? 2 : 1;
+    driver.solve();
+    expect_assembled(driver, meshes, meshes, meshes);
+    EXPECT_EQ(driver.report().time.assemblies.hierarchies, 1);
+    driver.scene().obstacles[0] = scene_of(scalar, {"obstacle.0.lower=-0.2"}).obstacles[0];
+    driver.solve();
+    expect_assembled(driver, 0, 0, meshes);
+    EXPECT_EQ(driver.report().time.assemblies.hierarchies, 0);
+    expect_as_new(driver);
+    driver.scene().fixes[0].value[0] = 0.05;
+    driver.scene().loads[0].value[0] = -3;
+    driver.solve();
+    expect_assembled(driver, 0, meshes, meshes);
+    expect_as_new(driver);
+  }
+}
+
+TEST(Driver, steps_assemble_what_depends_on_t) {
+  Scene scene = scene_of(elastic, {"steps.count=4", "fix.1.value=[\"0.001 * t\", \"free\", \"free\"]",
+                                   "load.0.value=[0, 0, \"-0.02 * t\"]"});
+  Driver driver(scene);
+  driver.solve();
+  expect_assembled(driver, levels, 4 * levels, 4 * levels);
+  EXPECT_EQ(driver.report().steps.size(), 4u);
+  Driver last(scene_of(elastic));
+  last.solve();
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(driver.report().last().contact[0].force[i], last.report().last().contact[0].force[i], 1e-9);
+}
+
+TEST(Driver, starts_where_it_is_told_to) {
+  Driver first(scene_of(elastic)), second(scene_of(elastic));
+  first.solve();
+  second.start_from(0, first.solution());
+  second.solve();
+  EXPECT_LT(second.report().last().summary.iterations, first.report().last().summary.iterations);
+  expect_as_new(second);
+  EXPECT_THROW(second.start_from(0, {1, 2, 3}), Error);
+  std::vector<double> wrong = first.solution();
+  wrong.back() = NAN;
+  EXPECT_THROW(second.start_from(0, wrong), Error);
+  EXPECT_EQ(first.points().size(), first.solution().size());
+}
+
+/// Ends after so many cycles.
+class Impatient : public Progress {
+ public:
+  void cycle(const IterationRecord&) const override { --patience; }
+  bool interrupted() const override { return patience <= 0; }
+  mutable int patience = 3;
+};
+
+TEST(Driver, goes_on_after_it_was_ended) {
+  const Impatient progress;
+  Driver driver(scene_of(elastic), progress);
+  try {
+    driver.solve();
+    FAIL() << "it was to end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::interrupted);
+  }
+  progress.patience = 1000;
+  driver.solve();
+  expect_as_new(driver);
+}
+
+}  // namespace
+}  // namespace signorini::test
