@@ -51,7 +51,8 @@ void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
 template <int D, int B>
 void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Model<B>& model) {
   std::vector<std::set<Index>> candidates(scene.obstacles.size());
-  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model)) candidates[bound.obstacle].insert(bound.vertex);
+  std::vector<double> data;
+  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model, data)) candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", k, scene.obstacles[k].type,
                candidates[k].size());

@@ -222,13 +222,17 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
-  const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
-  body.require_minimum();
-  body.fall(solution.x);
+  // Friction may hold a body that bounds alone do not.
+  std::optional<LooseBody<D, B>> body;
+  if (solution.discretization.functional.empty()) body.emplace(hierarchy_.finest(), model, solution.discretization);
+  if (body) {
+    body->require_minimum();
+    body->fall(solution.x);
+  }
   SolverOptions options = options_;
   if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
   solve_level(model, hierarchy_.levels.size() - 1, options, solution);
-  if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+  if (body && solution.summary.converged()) solution.undetermined = body->settle(solution.x);
 }
 
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
@@ -239,7 +243,8 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
   try {
     const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
-    LooseBody<D, B>(hierarchy_.levels[level], model, solution.discretization).fall(solution.x);
+    if (solution.discretization.functional.empty())
+      LooseBody<D, B>(hierarchy_.levels[level], model, solution.discretization).fall(solution.x);
     solve_level(model, level, options, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
