@@ -39,6 +39,14 @@ template <int B>
                           "vertex; such obstacles are not available in this version");
 }
 
+/// Friction opposes the motion since the last step, of which x is the solution.
+template <int B>
+void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
+  Constraints<B>& c = problem.constraints;
+  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
+    std::copy_n(x.begin() + Offset{c.vector[slot]} * B, B, c.last.begin() + static_cast<Offset>(slot) * B);
+}
+
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
   return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
@@ -97,7 +105,10 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   const Mesh<D>& mesh = hierarchy_.levels[level];
   progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
   Solution<B> solution{discretize<D, B>(mesh, model), {}, {}, {}};
-  solution.x = solution.discretization.problem.start;
+  DiscreteProblem<B>& problem = solution.discretization.problem;
+  if (!problem.constraints.last.empty() && !before_[level].empty())
+    remember(to_local(problem, before_[level]), problem);
+  solution.x = problem.start;
   times_.assemble += watch.elapsed();
   return solution;
 }

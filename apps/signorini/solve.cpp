@@ -97,6 +97,9 @@ class SolveRun {
     results_ = results<D, B>(mesh, model, solution);
     report_.steps.push_back(step_report<D, B>(mesh, probes_, results_, model.t,
                                               judge<D, B>(mesh, model, solution, results_.u, scene_.solver.tolerance)));
+    if (const auto steps = report_.steps.size(); steps > 1)  // what friction has dissipated since the first step
+      for (std::size_t k = 0; k < report_.steps.back().contact.size(); ++k)
+        report_.steps.back().contact[k].dissipated += report_.steps[steps - 2].contact[k].dissipated;
     add_undetermined(model, solution.undetermined);
     if (!is_last_step()) write_solution();
     report_.time.output += watch.elapsed();

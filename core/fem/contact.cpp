@@ -88,7 +88,8 @@ class NodeReader {
     node.friction = node.sticks = true;
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
-      const double moved = x_[Offset{p} * B + k], force = r_[Offset{p} * B + k];
+      const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
+      const double force = r_[Offset{p} * B + k];
       node.sticks = node.sticks && moved == 0;
       node.dissipated -= force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);

@@ -94,6 +94,7 @@ class Discretizer {
     std::vector<double>& data = constraints().data;
     data.resize(data.size() + static_cast<std::size_t>(constraints().width));
     constraints().tangential.push_back(0);
+    constraints().last.resize(constraints().last.size() + B);
     if (!bound) return;
     std::copy_n(data_.begin() + Offset{bound->data} * most_data, constraints().width, data.end() - constraints().width);
     const double* N = problem().frames.dual_at(p);

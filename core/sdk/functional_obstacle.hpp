@@ -11,6 +11,7 @@ template <int B>
 struct Slot {
   const double *lower, *upper;  ///< bounds; equal where a component is prescribed
   const double* data;           ///< as LocalConstraint::data
+  const double* last;           ///< its values after the last load step, zero in the first
   Flags tangential;             ///< components orthogonal to the obstacle's direction
 };
 
@@ -85,7 +86,7 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
  private:
   static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
     return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
-            level.tangential[slot]};
+            level.last + Offset{slot} * B, level.tangential[slot]};
   }
 
   static void minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {

@@ -42,6 +42,7 @@ double change(const DiscreteProblem<B>& problem, const double* from, const doubl
   view.upper = c.upper.data();
   view.data = c.data.data();
   view.width = c.width;
+  view.last = c.last.data();
   view.tangential = c.tangential.data();
   double sum = 0;
   for (const Segment<B>& s : problem.segments)

@@ -85,6 +85,7 @@ struct Level {
             relaxation,
             constraints.data.data(),
             constraints.width,
+            constraints.last.data(),
             constraints.tangential.data()};
   }
 

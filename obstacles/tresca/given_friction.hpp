@@ -5,9 +5,9 @@
 
 namespace signorini {
 
-/// phi(v) = g |v_T|: friction with a given bound g on the tangential force, the only number in Slot::data. v_T are the
-/// tangential components. (Tresca friction: Duvaut and Lions, Inequalities in mechanics and physics, 1976, chapter
-/// III.)
+/// phi(v) = g |v_T - l_T|: friction with a given bound g on the tangential force, the only number in Slot::data. v_T
+/// are the tangential components, l_T those after the last load step. (Tresca friction: Duvaut and Lions, Inequalities
+/// in mechanics and physics, 1976, chapter III.)
 template <int B>
 struct GivenFriction {
   /// See FunctionalObstacle. The normal component is eliminated, which leaves a problem for v_T alone; where the normal
@@ -25,17 +25,17 @@ struct GivenFriction {
   static double change(const Slot<B>& slot, const double* from, const double* to) {
     double work = 0;
     for (int k = 0; k < B; ++k)
-      if (slot.tangential >> k & 1u) work += (to[k] - from[k]) * (to[k] + from[k]);
+      if (slot.tangential >> k & 1u) work += (to[k] - from[k]) * ((to[k] - slot.last[k]) + (from[k] - slot.last[k]));
     const double sum = size(slot, from) + size(slot, to);
     return sum > 0 ? slot.data[0] * (work / sum) : 0;
   }
 
   static double slope(const Slot<B>& slot, const double* at, const double* step) {
     const double length = size(slot, at);
-    if (length == 0) return slot.data[0] * size(slot, step);
+    if (length == 0) return slot.data[0] * tangential_size(slot, step);
     double product = 0;
     for (int k = 0; k < B; ++k)
-      if (slot.tangential >> k & 1u) product += at[k] / length * step[k];
+      if (slot.tangential >> k & 1u) product += (at[k] - slot.last[k]) / length * step[k];
     return slot.data[0] * product;
   }
 
@@ -49,20 +49,28 @@ struct GivenFriction {
         out.lower[k] = out.upper[k] = 0;
         continue;
       }
-      const double direction = x[k] / length;
+      const double slip = x[k] - slot.last[k], direction = slip / length;
       out.gradient[k] = g * direction;
       if constexpr (B == 2)  // up to where it comes to rest
-        (x[k] > 0 ? out.lower[k] : out.upper[k]) =
-            x[k] > 0 ? std::max(out.lower[k], -x[k]) : std::min(out.upper[k], -x[k]);
+        (slip > 0 ? out.lower[k] : out.upper[k]) =
+            slip > 0 ? std::max(out.lower[k], -slip) : std::min(out.upper[k], -slip);
       if constexpr (B == 3)
         for (int j = 0; j < B; ++j)
           if (slot.tangential >> j & 1u)
-            out.hessian[k * B + j] = g / length * ((k == j ? 1 : 0) - direction * (x[j] / length));
+            out.hessian[k * B + j] = g / length * ((k == j ? 1 : 0) - direction * ((x[j] - slot.last[j]) / length));
     }
   }
 
  private:
+  /// How far v has slipped.
   static double size(const Slot<B>& slot, const double* v) {
+    double sum = 0;
+    for (int k = 0; k < B; ++k)
+      if (slot.tangential >> k & 1u) sum += (v[k] - slot.last[k]) * (v[k] - slot.last[k]);
+    return std::sqrt(sum);
+  }
+
+  static double tangential_size(const Slot<B>& slot, const double* v) {
     double sum = 0;
     for (int k = 0; k < B; ++k)
       if (slot.tangential >> k & 1u) sum += v[k] * v[k];
@@ -84,7 +92,7 @@ struct GivenFriction {
     for (int k = 0; k < B; ++k) {
       if (!(slot.tangential >> k & 1u)) continue;
       if (slot.lower[k] == slot.upper[k])
-        resting += y[k] * y[k];
+        resting += (y[k] - slot.last[k]) * (y[k] - slot.last[k]);
       else
         at[count++] = k;
     }
@@ -105,12 +113,12 @@ struct GivenFriction {
       }
     }
     for (int a = 0; a < count; ++a)
-      for (int b = 0; b < count; ++b) q[a] += S[a * 2 + b] * x[at[b]];
+      for (int b = 0; b < count; ++b) q[a] += S[a * 2 + b] * (x[at[b]] - slot.last[at[b]]);
     minimise_sliding(S, q, count, slot.data[0], resting, w);
-    for (int a = 0; a < count; ++a) y[at[a]] = w[a];
+    for (int a = 0; a < count; ++a) y[at[a]] = slot.last[at[a]] + w[a];
     if (free < 0) return;
     double force = rest[free];
-    for (int a = 0; a < count; ++a) force -= M[free * B + at[a]] * (w[a] - x[at[a]]);
+    for (int a = 0; a < count; ++a) force -= M[free * B + at[a]] * (y[at[a]] - x[at[a]]);
     y[free] = x[free] + force / M[free * (B + 1)];
   }
 
@@ -120,7 +128,7 @@ struct GivenFriction {
     return false;
   }
 
-  /// The minimiser w of 1/2 w'Sw - q'w + g sqrt(|w|^2 + resting), up to two components.
+  /// The slip w that minimises 1/2 w'Sw - q'w + g sqrt(|w|^2 + resting), up to two components.
   static void minimise_sliding(const double* S, const double* q, int count, double g, double resting, double* w) {
     if (count == 0) return;
     double axis[2] = {1, 0}, s[2] = {S[0], S[3]};  // S = s[0] a a' + s[1] b b' with a = axis, b = axis turned

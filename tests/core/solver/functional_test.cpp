@@ -5,7 +5,7 @@
 #include "core/base/error.hpp"
 #include "obstacles/tresca/given_friction.hpp"
 #include "tests/obstacles/kink/convex_kink.hpp"
-#include "tests/support/convex.hpp"
+#include "tests/support/friction.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_problem.hpp"
 
@@ -37,38 +37,11 @@ DiscreteProblem<B> random_friction(Random& random, Index n) {
       c.upper[slot * B + k] = prescribed ? value : infinity;
     }
     c.data.push_back(random.chance(0.1) ? 0 : random.between(0, 1));
+    for (int k = 0; k < B; ++k) c.last.push_back(random.chance(0.5) ? 0 : random.between(-0.1, 0.1));
     c.tangential.push_back((1u << B) - 2);
   }
   problem.segments = {{0, n, std::make_shared<Functional<B, GivenFriction<B>>>(1)}};
   return problem;
-}
-
-// The Euclidean proximity operator: a clamped normal, a shrunk tangent.
-template <int B>
-auto prox_of(const DiscreteProblem<B>& problem) {
-  return [&problem](double rho, Eigen::VectorXd& y) {
-    const Constraints<B>& c = problem.constraints;
-    for (Index slot = 0; slot < c.size(); ++slot) {
-      const Eigen::Index at = c.vector[slot] * B;
-      y[at] = std::clamp(y[at], c.lower[slot * B], c.upper[slot * B]);
-      const double g = c.data[slot] / rho;
-      if (B == 3 && c.lower[slot * B + 2] == c.upper[slot * B + 2]) {  // by bisection along the free component
-        const double rest = c.lower[slot * B + 2], z = y[at + 1];
-        double low = -std::abs(z), high = std::abs(z);
-        for (int k = 0; k < 200; ++k) {
-          const double t = 0.5 * (low + high);
-          const double length = std::hypot(t, rest);
-          ((t - z) + (length > 0 ? g * t / length : 0) > 0 ? high : low) = t;
-        }
-        y[at + 1] = 0.5 * (low + high);
-        y[at + 2] = rest;
-        continue;
-      }
-      double length = 0;
-      for (int k = 1; k < B; ++k) length = std::hypot(length, y[at + k]);
-      for (int k = 1; k < B; ++k) y[at + k] *= length > g ? 1 - g / length : 0;
-    }
-  };
 }
 
 DiscreteProblem<1> random_kinks(Random& random, Index n) {
@@ -80,6 +53,7 @@ DiscreteProblem<1> random_kinks(Random& random, Index n) {
                                random.between(0, 2), random.between(0, 2)})
       c.data.push_back(value);
   c.tangential.assign(c.vector.size(), 0);
+  c.last.assign(c.vector.size(), 0);
   problem.segments = {{0, n, std::make_shared<Functional<1, ConvexKink>>(5)}};
   return problem;
 }
@@ -130,8 +104,10 @@ void expect_solved(const Make& make, const Prox& prox) {
 }
 
 TEST(Functional, KinksAreSolvedLikeByAConvexSolver) { expect_solved<1>(random_kinks, prox_of_kinks); }
-TEST(Functional, FrictionInThePlaneIsSolvedLikeByAConvexSolver) { expect_solved<2>(random_friction<2>, prox_of<2>); }
-TEST(Functional, FrictionInSpaceIsSolvedLikeByAConvexSolver) { expect_solved<3>(random_friction<3>, prox_of<3>); }
+TEST(Functional, FrictionInThePlaneIsSolvedLikeByAConvexSolver) {
+  expect_solved<2>(random_friction<2>, friction_prox<2>);
+}
+TEST(Functional, FrictionInSpaceIsSolvedLikeByAConvexSolver) { expect_solved<3>(random_friction<3>, friction_prox<3>); }
 
 // The local minimiser beside random admissible points near and far.
 template <int B, class Local, class Make>
@@ -142,7 +118,7 @@ void expect_least(const Make& make) {
     const Constraints<B>& c = problem.constraints;
     for (Index slot = 0; slot < c.size(); ++slot) {
       const Slot<B> s{c.lower.data() + slot * B, c.upper.data() + slot * B, c.data.data() + slot * c.width,
-                      c.tangential[slot]};
+                      c.last.data() + slot * B, c.tangential[slot]};
       const double* M = problem.A.diagonal(c.vector[slot]);
       double x[B], r[B], y[B];
       for (int k = 0; k < B; ++k) {
