@@ -9,6 +9,7 @@
 #include "amg/masked_cg.hpp"
 #include "amg/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
+#include "core/solver/functional.hpp"
 #include "core/solver/rounding.hpp"
 
 namespace signorini {
@@ -124,7 +125,8 @@ class Sweeps {
     before_.assign(level_.x, level_.x + static_cast<std::size_t>(level_.vectors) * B);
     level_.sweep(Order::forward);
     level_.sweep(Order::backward);
-    const double gained = decrease<B>(level_, before_);
+    const double gained =
+        decrease<B>(level_, before_) - functional::change(level_, before_.data(), level_.x, 0, level_.vectors);
     rate_ = gained / gained_;
     gained_ = gained;
     total_ += gained;

@@ -97,7 +97,8 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
       out.b[k] = out.start[k] = p < 0 ? 0 : problem.start[Offset{p} * B + k % B];
   out.frames = std::move(coarse.frames);
   inherit_bounds(problem, twin, out.constraints);
-  out.segments = inherit_obstacles(problem, twin);
+  // A functional scales with the mesh: coarse starts go without it.
+  if (!has_functional(problem.segments)) out.segments = inherit_obstacles(problem, twin);
   return out;
 }
 

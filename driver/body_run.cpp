@@ -86,6 +86,7 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
 template <int D, int B>
 StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_ = model(t);
+  model_.follows = std::exchange(follows_, true);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);

@@ -20,6 +20,8 @@ class BodyRun {
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
           std::vector<std::string>& warnings);
 
+  /// The next step is the first one of its steps: friction counts from the undeformed body.
+  void begin() { follows_ = false; }
   /// Solves the step at t, from the last solution where there is one, and says what came out. Errors: see NestedSolver.
   StepReport solve(double t, std::vector<std::string>& warnings);
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
@@ -52,6 +54,7 @@ class BodyRun {
   Probes<D> probes_;
   NestedSolver<D, B> solver_;
   Model<B> model_;  // of the last step
+  bool follows_ = false;
   Results<D, B> results_;
 };
 

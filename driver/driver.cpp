@@ -57,8 +57,11 @@ const Report& Driver::solve(const std::function<void()>& done) {
       at_step(scene_, t, [&] {
         if (step == 1)
           for (std::size_t body = 0; body < bodies(); ++body)
-            visit(body, [&](const auto& run) { run.add_warnings(t, report_.warnings); });
-        report_.steps.push_back(solve_step(t));
+            visit(body, [&](auto& run) {
+              run.begin();
+              run.add_warnings(t, report_.warnings);
+            });
+        add_step(solve_step(t));
       });
       if (done) done();
     }
@@ -70,6 +73,14 @@ const Report& Driver::solve(const std::function<void()>& done) {
   finish();
   report_.time.total = watch.elapsed();
   return report_;
+}
+
+/// Friction has dissipated what it did in all steps.
+void Driver::add_step(StepReport report) {
+  if (!report_.steps.empty())
+    for (std::size_t k = 0; k < report.contact.size(); ++k)
+      report.contact[k].dissipated += report_.steps.back().contact[k].dissipated;
+  report_.steps.push_back(std::move(report));
 }
 
 StepReport Driver::solve_step(double t) {

@@ -71,6 +71,7 @@ class Driver {
   static const Progress& waiting();
   void build_bodies();
   StepReport solve_step(double t);
+  void add_step(StepReport report);
   void finish();
 
   Scene scene_;

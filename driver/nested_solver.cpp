@@ -50,6 +50,14 @@ template <int B>
                           "vertex; such obstacles are not available in this version");
 }
 
+/// Friction opposes the motion since the last step, of which x is the solution.
+template <int B>
+void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
+  Constraints<B>& c = problem.constraints;
+  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
+    std::copy_n(x.begin() + Offset{c.vector[slot]} * B, B, c.last.begin() + static_cast<Offset>(slot) * B);
+}
+
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
   return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
@@ -135,8 +143,11 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     ++count.stiffness, ++count.load, ++count.constraints;
   }
   if (level == first_ && changed_[level]) forget_products();
-  solution.discretization.problem.cheap_to_factorise = level < factorised_;
-  solution.x = solution.discretization.problem.start;
+  DiscreteProblem<B>& problem = solution.discretization.problem;
+  if (model.follows && !problem.constraints.last.empty() && !before_[level].empty())
+    remember(to_local(problem, before_[level]), problem);
+  problem.cheap_to_factorise = level < factorised_;
+  solution.x = problem.start;
   times_.assemble += watch.elapsed();
   return solution;
 }
@@ -295,11 +306,12 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
 
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
-                                     const LooseBody<D, B>& body, Solution<B>& solution) {
+                                     const LooseBody<D, B>* body, Solution<B>& solution) {
   progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = products_below(level);
-  MovedProblem<B> moved(solution.discretization.problem, body.fall(solution.x), solution.x);
+  MovedProblem<B> moved(solution.discretization.problem, body ? body->fall(solution.x) : std::vector<double>{},
+                        solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
                                            registry_, monitor_);
@@ -318,12 +330,14 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
-  const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
-  body.require_minimum();
+  // Friction may hold a body that bounds alone do not.
+  std::optional<LooseBody<D, B>> body;
+  if (solution.discretization.functional.empty()) body.emplace(hierarchy_.finest(), model, solution.discretization);
+  if (body) body->require_minimum();
   SolverOptions options = options_;
   if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
-  solve_level(model, hierarchy_.levels.size() - 1, options, body, solution);
-  if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+  solve_level(model, hierarchy_.levels.size() - 1, options, body ? &*body : nullptr, solution);
+  if (body && solution.summary.converged()) solution.undetermined = body->settle(solution.x);
 }
 
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
@@ -334,7 +348,10 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
   try {
     const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
     Solution<B> solution = begin_level(model, level, coarse);
-    solve_level(model, level, options, {hierarchy_.levels[level], model, solution.discretization}, solution);
+    std::optional<LooseBody<D, B>> body;
+    if (solution.discretization.functional.empty())
+      body.emplace(hierarchy_.levels[level], model, solution.discretization);
+    solve_level(model, level, options, body ? &*body : nullptr, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
     return true;

@@ -95,8 +95,8 @@ class NestedSolver {
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
-  void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>& body,
-                   Solution<B>& solution);
+  void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>* body,
+                   Solution<B>& solution);  // without a body it is not moved first
   bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
 
   const MeshHierarchy<D>& hierarchy_;

@@ -269,7 +269,12 @@ bool BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
         continue;
       }
       const double* M = A.at(k);
-      double modified[B * B];
+      double curved[B * B], modified[B * B];
+      if (fine.nonlinear && r == p)
+        if (const double* H = fine.curvature(p)) {
+          for (int i = 0; i < B * B; ++i) curved[i] = M[i] + H[i];
+          M = curved;
+        }
       if (!plain || !modifier::is_plain<B>(fine, frames(fine), r)) {
         modifier::block_to_global<B>(fine, frames(fine), p, r, M, modified);
         M = modified;

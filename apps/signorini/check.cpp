@@ -54,7 +54,8 @@ template <int D, int B>
 void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
   std::vector<std::set<Index>> candidates(numbers.size());
-  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model)) candidates[bound.obstacle].insert(bound.vertex);
+  std::vector<double> data;
+  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model, data)) candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
                scene.obstacles[numbers[k]].type, candidates[k].size());

@@ -29,17 +29,20 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
 }
 
 struct ContactFields {
-  std::vector<double> gap, pressure, contact;
+  std::vector<double> gap, pressure, contact, tangential;
 };
 
 template <int B>
 ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices) {
   ContactFields fields{std::vector<double>(vertices, std::numeric_limits<double>::quiet_NaN()),
-                       std::vector<double>(vertices), std::vector<double>(vertices)};
+                       std::vector<double>(vertices), std::vector<double>(vertices),
+                       std::vector<double>(B > 1 ? 3 * vertices : 0)};
   for (const ContactNode<B>& node : state.nodes) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.pressure;
-    if (node.contact) fields.contact[node.vertex] = 1;
+    if (node.contact) fields.contact[node.vertex] = !node.friction ? 1 : node.sticks ? 3 : 2;
+    if (B > 1 && node.area > 0)
+      for (int i = 0; i < B; ++i) fields.tangential[3 * node.vertex + i] += node.tangential[i] / node.area;
   }
   return fields;
 }
@@ -89,7 +92,7 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
   ContactFields contact = contact_fields(results.contact, mesh.points.size());
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
-  if (B > 1) fields.push_back({"tangential_traction", 3, std::vector<double>(3 * mesh.points.size())});
+  if (B > 1) fields.push_back({"tangential_traction", 3, std::move(contact.tangential)});
   fields.push_back({"contact", 1, std::move(contact.contact)});
   return fields;
 }
@@ -158,9 +161,8 @@ void paint(Report& report, const Draw& draw) {
 }  // namespace
 
 void draw_convergence(AtomicFiles& files, Report& report) {
-  paint(report, [&](const Painter& draw) {
-    draw.convergence(files.stage("convergence.png"), report.last().summary.history);
-  });
+  paint(report,
+        [&](const Painter& draw) { draw.convergence(files.stage("convergence.png"), report.last().summary.history); });
 }
 
 template <int D, int B>

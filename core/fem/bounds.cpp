@@ -28,18 +28,25 @@ struct Candidates {
   Surface<D> surface;
   std::vector<Point<D>> normals;
   bool everywhere;
+  std::vector<double> areas, volumes;  // per surface vertex or per vertex: SurfaceVertex::measure for functionals
 
   template <int B>
   Candidates(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t)
       : surface(term.on ? signorini::surface(mesh, select_faces(mesh, *term.on, t)) : signorini::surface(mesh)),
         normals(vertex_normals(mesh, surface)),
-        everywhere(!term.on) {}
+        everywhere(!term.on) {
+    if (!term.obstacle->nonlinearity()) return;
+    if (B == 1 && everywhere)
+      volumes = vertex_volumes(mesh);
+    else
+      areas = vertex_areas(mesh, surface);
+  }
 
   Index size(const Mesh<D>& mesh) const {
     return everywhere ? mesh.vertices() : static_cast<Index>(surface.vertices.size());
   }
 
-  // Calls use(vertex, normal) by ascending vertex.
+  // Calls use(vertex, normal, measure) by ascending vertex.
   template <class Use>
   void each(const Mesh<D>& mesh, const Use& use) const {
     const auto on_surface = static_cast<Index>(surface.vertices.size());
@@ -47,7 +54,8 @@ struct Candidates {
     for (Index p = 0; p < size(mesh); ++p) {
       const Index vertex = everywhere ? p : surface.vertices[p];
       const bool here = next < on_surface && surface.vertices[next] == vertex;
-      use(vertex, here ? normals[next] : Point<D>{});
+      const double measure = !volumes.empty() ? volumes[vertex] : here && !areas.empty() ? areas[next] : 0;
+      use(vertex, here ? normals[next] : Point<D>{}, measure);
       next += here;
     }
   }
@@ -56,20 +64,24 @@ struct Candidates {
 template <int D, int B>
 class Collector {
  public:
-  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds)
-      : mesh_(mesh), model_(model), bounds_(bounds), constraints_(batch) {}
+  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds, std::vector<double>& data)
+      : mesh_(mesh), model_(model), bounds_(bounds), data_(data), constraints_(batch) {}
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
     const Candidates<D> candidates(mesh_, model_.obstacles[obstacle], model_.t);
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(mesh_)));
-    candidates.each(mesh_, [this](Index vertex, const Point<D>& normal) { push(vertex, normal); });
+    functional_ = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    candidates.each(mesh_,
+                    [this](Index vertex, const Point<D>& normal, double measure) { push(vertex, normal, measure); });
     flush();
   }
 
  private:
-  void push(Index vertex, const Point<D>& normal) {
+  void push(Index vertex, const Point<D>& normal, double measure) {
     SurfaceVertex v{};
+    v.measure = measure;
+    v.vertex = vertex;
     std::copy_n(mesh_.points[vertex].data(), D, v.position);
     std::copy_n(normal.data(), D, v.normal);
     numbers_.push_back(vertex);
@@ -113,13 +125,29 @@ class Collector {
                   fmt::format("{}: no solution: the {} at {} leaves nothing admissible", origin,
                               bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
                               position(mesh_, vertex)));
-    if (bound.lower > -infinity || bound.upper < infinity) bounds_.push_back(bound);
+    const bool functional = functional_ && k == 0 && add_data(constraint, position(mesh_, vertex));
+    if (functional) bound.data = static_cast<Index>(data_.size() / most_data) - 1;
+    if (functional || bound.lower > -infinity || bound.upper < infinity) bounds_.push_back(bound);
+  }
+
+  // Whether there are any but zeros.
+  bool add_data(const LocalConstraint<B>& constraint, const std::string& place) {
+    bool any = false;
+    for (const double value : constraint.data) {
+      if (!std::isfinite(value))
+        input_error(model_.obstacles[obstacle_].origin, fmt::format("number that is not finite at {}", place));
+      any = any || value != 0;
+    }
+    if (any) data_.insert(data_.end(), std::begin(constraint.data), std::end(constraint.data));
+    return any;
   }
 
   const Mesh<D>& mesh_;
   const Model<B>& model_;
   std::vector<Bound<B>>& bounds_;
+  std::vector<double>& data_;
   Index obstacle_ = 0;
+  bool functional_ = false;
   std::vector<Index> numbers_;
   std::vector<SurfaceVertex> vertices_;
   std::vector<LocalConstraint<B>> constraints_;
@@ -128,9 +156,9 @@ class Collector {
 }  // namespace
 
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model) {
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model, std::vector<double>& data) {
   std::vector<Bound<B>> bounds;
-  Collector<D, B> collector(mesh, model, bounds);
+  Collector<D, B> collector(mesh, model, bounds, data);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k) collector.collect(static_cast<Index>(k));
   if (model.obstacles.size() > 1)
     std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
@@ -155,14 +183,31 @@ const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>
                                                                   std::vector<Bound<B>>& held) {
   reduced_.clear();
   combined_.clear();
+  find_functional(first, last);
   for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed, held);
   if (reduced_.size() > 1)  // it takes memory
-    std::stable_sort(reduced_.begin(), reduced_.end(),
-                     [](const Reduced& a, const Reduced& b) { return a.distance() < b.distance(); });
+    std::stable_sort(reduced_.begin(), reduced_.end(), [this](const Reduced& a, const Reduced& b) {
+      const bool a_rules = a.from == functional_, b_rules = b.from == functional_;
+      return a_rules != b_rules ? a_rules : a.distance() < b.distance();
+    });
   for (const Reduced& bound : reduced_)
     if (!merge(bound)) dropped.push_back(*bound.from);
   for (CombinedBound<B>& bound : combined_) check_order(bound, first->vertex);
   return combined_;
+}
+
+template <int D, int B>
+void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>* last) {
+  functional_ = nullptr;
+  for (const Bound<B>* bound = first; bound != last; ++bound) {
+    if (bound->data < 0) continue;
+    if (functional_)
+      input_error(model_.obstacles[bound->obstacle].origin,
+                  fmt::format("acts at {} together with {}, and two obstacles with a functional (such as friction) at "
+                              "one vertex are not available in this version",
+                              position(mesh_, bound->vertex), model_.obstacles[functional_->obstacle].origin));
+    functional_ = bound;
+  }
 }
 
 // Takes out of a bound what is prescribed: direction . v = prescribed + |rest| (rest / |rest|) . v.
@@ -181,6 +226,11 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
     prescribed += c * fixed->value[k];
   }
   const double length = normalise(out.direction);
+  if (&bound == functional_ && length > same_direction && length < 1 - same_direction && fixed->count < B)
+    input_error(model_.obstacles[bound.obstacle].origin,
+                fmt::format("meets a direction prescribed at {} that is neither along its normal nor across it, which "
+                            "is not available in this version",
+                            position(mesh_, bound.vertex)));
   if (length > same_direction) {
     out.lower = (bound.lower - prescribed) / length;
     out.upper = (bound.upper - prescribed) / length;
@@ -200,7 +250,7 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
 template <int D, int B>
 bool BoundCombiner<D, B>::merge(const Reduced& bound) {
   const Index obstacle = bound.from->obstacle;
-  if (!combined_.empty()) {
+  if (!combined_.empty() && !functional_) {
     const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
     if (obstacle != combined_[0].lower_obstacle && !type(obstacle).same_type(type(combined_[0].lower_obstacle)))
       return false;
@@ -214,7 +264,7 @@ bool BoundCombiner<D, B>::merge(const Reduced& bound) {
       return true;
     }
   }
-  if (!independent_of_combined(bound)) return false;
+  if ((functional_ && !combined_.empty()) || !independent_of_combined(bound)) return false;
   combined_.push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle, bound.from, bound.from});
   return true;
 }
@@ -265,10 +315,10 @@ void BoundCombiner<D, B>::no_solution(Index obstacle, Index vertex, const std::s
                                              position(mesh_, vertex), why));
 }
 
-template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&);
-template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&);
-template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&);
-template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&);
+template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&, std::vector<double>&);
+template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&, std::vector<double>&);
+template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&, std::vector<double>&);
+template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&, std::vector<double>&);
 template class BoundCombiner<2, 1>;
 template class BoundCombiner<3, 1>;
 template class BoundCombiner<2, 2>;

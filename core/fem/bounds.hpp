@@ -10,12 +10,15 @@ struct Bound {
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> direction;
   double lower, upper;
+  Index data = -1;  ///< number of the obstacle's own numbers, where it has a functional here
 };
 
-/// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides. An obstacle
-/// that fails is an Error with its code; a bound that no number satisfies is an Error(Exit::no_solution).
+/// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides unless a
+/// functional comes with them. An obstacle that fails is an Error with its code; a bound that no number satisfies is an
+/// Error(Exit::no_solution).
+/// @param data most_data numbers for each functional are appended, see Bound::data
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model);
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model, std::vector<double>& data);
 
 /// One direction of a local constraint and the obstacles its two bounds come from.
 template <int B>
@@ -40,9 +43,14 @@ class BoundCombiner {
   /// 0.02 of its length: rounding grows by that number's inverse squared. Returns unit vectors in storage that the next
   /// call overwrites. Bounds along a direction that is prescribed and that what is prescribed there touches are
   /// appended to `held`. Error(Exit::no_solution): bounds that are violated whatever the free components are.
+  /// A bound with a functional rules its vertex: it comes first, and others are kept along the same direction only.
+  /// Error(Exit::input): two functionals at one vertex, or one whose direction is neither free nor prescribed.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
                                                const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped,
                                                std::vector<Bound<B>>& held);
+
+  /// Of the vertex combined last, the bound with a functional; null where there is none.
+  const Bound<B>* functional() const { return functional_; }
 
  private:
   struct Reduced {
@@ -52,6 +60,7 @@ class BoundCombiner {
     double distance() const { return std::min(-lower, upper); }
   };
 
+  void find_functional(const Bound<B>* first, const Bound<B>* last);
   void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
   bool merge(const Reduced& bound);
   bool independent_of_combined(const Reduced& bound) const;
@@ -64,6 +73,7 @@ class BoundCombiner {
   const std::vector<Bound<B>>& bounds_;
   double size_;                   // of prescribed values, and of coordinates where bounds are computed from them
   std::vector<double> rounding_;  // per obstacle, negative until it is needed
+  const Bound<B>* functional_ = nullptr;
   std::vector<Reduced> reduced_;
   std::vector<CombinedBound<B>> combined_;
 };

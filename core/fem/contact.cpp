@@ -79,6 +79,29 @@ class NodeReader {
     return node;
   }
 
+  /// Friction at a slot with a functional, to be added to what is known of its vertex.
+  void add_friction(Index slot, ContactNode<B>& node) const {
+    const Index p = problem_.constraints.vector[slot];
+    const double* Q = problem_.frames.at(p);
+    node.friction = node.sticks = true;
+    for (int k = 0; k < B; ++k) {
+      if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
+      const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
+      const double force = r_[Offset{p} * B + k];
+      node.sticks = node.sticks && moved == 0;
+      node.dissipated -= force * moved;
+      for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
+    }
+    for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
+  }
+
+  /// A vertex where a functional acts and nothing is bounded.
+  ContactNode<B> free_node(Index slot) const {
+    ContactNode<B> node{
+        problem_.constraints.vector[slot], discretization_.functional[slot], false, false, 0, 0, 0, {}, {}};
+    return node;
+  }
+
   ContactNode<B> read(const HeldBound<B>& held) const {
     const Bound<B>& bound = held.bound;
     double value = 0;
@@ -151,12 +174,41 @@ template <int B>
 void release(ContactNode<B>& node) {
   node.contact = false;
   node.pressure = 0;
-  node.force = {};
+  node.force = node.tangential;
+}
+
+// What functionals do, at their vertices' nodes; where there is none yet, one of its own.
+template <int B>
+void add_friction(const NodeReader<B>& reader, const Discretization<B>& discretization,
+                  std::vector<ContactNode<B>>& nodes) {
+  const auto known = nodes.size();
+  const auto by_vertex = [](const auto& a, const auto& b) { return a.vertex < b.vertex; };
+  for (std::size_t slot = 0; slot < discretization.functional.size(); ++slot) {
+    const Index obstacle = discretization.functional[slot];
+    if (obstacle < 0) continue;
+    const Index p = discretization.problem.constraints.vector[slot];
+    auto node = std::partition_point(nodes.begin(), nodes.begin() + static_cast<Offset>(known),
+                                     [p](const auto& n) { return n.vertex < p; });
+    const auto end = nodes.begin() + static_cast<Offset>(known);
+    while (node != end && node->vertex == p && node->obstacle != obstacle) ++node;
+    if (node != end && node->vertex == p)
+      reader.add_friction(static_cast<Index>(slot), *node);
+    else
+      reader.add_friction(static_cast<Index>(slot), nodes.emplace_back(reader.free_node(static_cast<Index>(slot))));
+  }
+  std::inplace_merge(nodes.begin(), nodes.begin() + static_cast<Offset>(known), nodes.end(), by_vertex);
 }
 
 template <int B>
 void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least_force) {
-  if (!node.contact) return;
+  for (int i = 0; i < B; ++i) summary.tangential_force[i] += node.tangential[i];
+  summary.dissipated += node.dissipated;
+  if (!node.contact) {
+    for (int i = 0; i < B; ++i) summary.force[i] += node.tangential[i];
+    return;
+  }
+  summary.slip_nodes += node.friction && !node.sticks;
+  summary.stick_nodes += node.friction && node.sticks;
   ++summary.nodes;
   if (B == 1 || node.pressure * node.area > least_force) summary.area += node.area;
   for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
@@ -180,6 +232,7 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  add_friction(reader, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);

@@ -17,9 +17,13 @@ struct ContactNode {
   /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
   /// degrees of -direction; where there is none all do.
   double area;
-  double pressure;                  ///< consistent nodal force over area, positive where the obstacle pushes
-  std::array<double, B> force;      ///< exerted by the obstacle, global coordinates; zero without contact
-  std::array<double, B> direction;  ///< of the obstacle's whole force, and of the gap; of length 1, global
+  double pressure;                     ///< consistent nodal force over area, positive where the obstacle pushes
+  std::array<double, B> force;         ///< exerted by the obstacle, global coordinates; zero without contact
+  std::array<double, B> direction;     ///< of what presses, and of the gap; of length 1, global
+  bool friction = false;               ///< the obstacle has a functional here; then:
+  bool sticks = false;                 ///< no motion along the surface
+  std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
+  double dissipated = 0;               ///< work of that against the motion, not negative but for rounding
 };
 
 /// What one obstacle does to the body.
@@ -33,6 +37,9 @@ struct ContactSummary {
   double max_pressure = 0;
   Index undetermined_nodes = 0;   ///< of those in contact the held ones
   double undetermined_force = 0;  ///< the sum of what presses there
+  Index slip_nodes = 0, stick_nodes = 0;
+  std::array<double, B> tangential_force{};  ///< total along the surface, counted in `force`
+  double dissipated = 0;
 };
 
 template <int B>

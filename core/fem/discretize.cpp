@@ -46,12 +46,16 @@ class Discretizer {
       : mesh_(mesh),
         model_(model),
         fixes_(collect_fixes(mesh, model)),
-        bounds_(collect_bounds(mesh, model)),
+        bounds_(collect_bounds(mesh, model, data_)),
         combiner_(mesh, model, bounds_, fixes_) {
     const std::size_t n = mesh.points.size();
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);
     problem().constraints.slot.assign(n, -1);
+    if (!data_.empty())
+      for (const ObstacleTerm<B>& term : model.obstacles)
+        if (term.obstacle->nonlinearity())
+          constraints().width = std::max(constraints().width, term.obstacle->descriptor().data);
     reserve(bounds_.size());
     localise();
     add_segments();
@@ -144,14 +148,37 @@ class Discretizer {
   void localise(Index p, const FixedDirections<B>* fixed, const Bound<B>* first, const Bound<B>* last) {
     static const std::vector<CombinedBound<B>> none;
     const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, out_.dropped, held_);
-    if (!combined.empty()) add_constraint(p, combined);
+    // What cannot move does not change a functional.
+    const Bound<B>* functional = first == last || (fixed && fixed->count == B) ? nullptr : combiner_.functional();
+    const bool constrained = !combined.empty() || functional;
+    if (constrained) add_constraint(p, combined);
     if (B > 1 && fixed && !combined.empty()) add_reduced(combined);
-    if (fixed && combined.empty() && (fixed->count == B || fixed->along_axes()))
+    if (fixed && !constrained && (fixed->count == B || fixed->along_axes()))
       prescribe_global(p, *fixed);
     else if (fixed)
       prescribe_last(p, *fixed);
-    if (B > 1 && (!combined.empty() || (fixed && fixed->count < B && !fixed->along_axes())))
-      add_frame(p, combined, fixed);
+    if (B > 1 && (constrained || (fixed && fixed->count < B && !fixed->along_axes()))) add_frame(p, combined, fixed);
+    if (constrained && constraints().width > 0) add_functional(p, functional);
+  }
+
+  // To the slot added last.
+  void add_functional(Index p, const Bound<B>* bound) {
+    out_.functional.push_back(bound ? bound->obstacle : -1);
+    std::vector<double>& data = constraints().data;
+    data.resize(data.size() + static_cast<std::size_t>(constraints().width));
+    constraints().tangential.push_back(0);
+    constraints().last.resize(constraints().last.size() + B);
+    if (!bound) return;
+    std::copy_n(data_.begin() + Offset{bound->data} * most_data, constraints().width, data.end() - constraints().width);
+    const double* N = problem().frames.dual_at(p);
+    for (int k = 0; k < B; ++k) {
+      double across = 0;
+      for (int i = 0; i < B; ++i) across += (N ? N[i * B + k] : i == k ? 1.0 : 0.0) * bound->direction[i];
+      if (std::fabs(across) < same_direction) constraints().tangential.back() |= static_cast<Flags>(1u << k);
+      if (!(problem().fixed[p] >> k & 1u)) continue;
+      const std::size_t at = constraints().lower.size() - B + static_cast<std::size_t>(k);
+      constraints().lower[at] = constraints().upper[at] = problem().start[Offset{p} * B + k];
+    }
   }
 
   void prescribe_global(Index p, const FixedDirections<B>& fixed) {
@@ -188,7 +215,7 @@ class Discretizer {
     for (std::size_t k = 0; k < B; ++k) {
       const bool here = k < combined.size();
       // A scalar unknown has no frame: -v is bounded by turning the bounds.
-      const bool turned = B == 1 && combined[k].direction[0] < 0;
+      const bool turned = B == 1 && here && combined[k].direction[0] < 0;
       const double lower = here ? combined[k].lower : -infinity, upper = here ? combined[k].upper : infinity;
       const Index below = here && lower > -infinity ? combined[k].lower_obstacle : -1;
       const Index above = here && upper < infinity ? combined[k].upper_obstacle : -1;
@@ -222,6 +249,7 @@ class Discretizer {
   }
 
   Index ruling_obstacle(Index slot) const {
+    if (!out_.functional.empty() && out_.functional[slot] >= 0) return out_.functional[slot];
     const Offset k = Offset{slot} * B;
     return out_.lower_obstacle[k] >= 0 ? out_.lower_obstacle[k] : out_.upper_obstacle[k];
   }
@@ -243,6 +271,7 @@ class Discretizer {
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
+  std::vector<double> data_;  // of functionals, see Bound::data
   std::vector<Bound<B>> bounds_, held_;
   BoundCombiner<D, B> combiner_;
 };

@@ -29,6 +29,7 @@ struct Discretization {
   /// B per slot of problem.constraints: the number in Model::obstacles that the lower or upper bound comes from, -1
   /// where there is none.
   std::vector<Index> lower_obstacle, upper_obstacle;
+  std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
   /// Bounds that are not part of the problem, see BoundCombiner. The caller checks after the solve that they hold, see
   /// violation().
   std::vector<Bound<B>> dropped;

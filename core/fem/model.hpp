@@ -59,6 +59,7 @@ struct Model {
   std::vector<Load<B>> loads;
   std::vector<ObstacleTerm<B>> obstacles;
   double t = 1;                 ///< step parameter
+  bool follows = false;         ///< another load step: friction counts from the solution of the last one
   std::string origin = "body";  ///< of the body, for messages: "scene.toml:3: body.0"
 };
 

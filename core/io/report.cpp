@@ -38,6 +38,8 @@ Json contact(const ContactReport& contact) {
           {"max_pressure", contact.max_pressure},
           {"slip_nodes", contact.slip_nodes},
           {"stick_nodes", contact.stick_nodes},
+          {"tangential_force", contact.tangential_force},
+          {"dissipated", contact.dissipated},
           {"undetermined_nodes", contact.undetermined_nodes},
           {"undetermined_force", contact.undetermined_force},
           {"largest_penetration", contact.largest_penetration},

@@ -15,7 +15,9 @@ struct ContactReport {
   double area = 0;            ///< measure of the contact (or coincidence) set; a length in 2D
   std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
   double max_pressure = 0;
-  Index slip_nodes = 0, stick_nodes = 0;
+  Index slip_nodes = 0, stick_nodes = 0;  ///< of those in contact, where there is friction
+  std::vector<double> tangential_force;   ///< part of `force` along the surface
+  double dissipated = 0;                  ///< work of friction
   Index undetermined_nodes = 0;   ///< of those in contact, held by a fix along the obstacle's normal, see ContactNode
   double undetermined_force = 0;  ///< sum of what presses there
   /// Of the deformed boundary against the true obstacle: the deepest vertex inside it, the farthest one off it where

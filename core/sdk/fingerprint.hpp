@@ -94,8 +94,9 @@ static constexpr const char* sanitizer = "none";
 #define SIGNORINI_OFFSET(type, member) SIGNORINI_NUMBER("offset of " #type "::" #member, offsetof(type, member))
 #define SIGNORINI_LAYOUT_OF_BLOCKS(B)                                                                    \
   SIGNORINI_SIZE(LevelView<B>), SIGNORINI_OFFSET(LevelView<B>, x), SIGNORINI_OFFSET(LevelView<B>, slot), \
-      SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_SIZE(LocalConstraint<B>),                    \
-      SIGNORINI_OFFSET(LocalConstraint<B>, direction), SIGNORINI_OFFSET(LocalConstraint<B>, upper)
+      SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_OFFSET(LevelView<B>, data),                  \
+      SIGNORINI_SIZE(LocalConstraint<B>), SIGNORINI_OFFSET(LocalConstraint<B>, direction),               \
+      SIGNORINI_OFFSET(LocalConstraint<B>, upper), SIGNORINI_SIZE(Linearisation<B>)
 
 /// The build of this translation unit.
 static constexpr FingerprintField fingerprint[] = {
@@ -133,6 +134,7 @@ static constexpr FingerprintField fingerprint[] = {
     SIGNORINI_SIZE(Distance),
     SIGNORINI_SIZE(SurfaceVertex),
     SIGNORINI_OFFSET(SurfaceVertex, normal),
+    SIGNORINI_OFFSET(SurfaceVertex, vertex),
     SIGNORINI_LAYOUT_OF_BLOCKS(1),
     SIGNORINI_LAYOUT_OF_BLOCKS(2),
     SIGNORINI_LAYOUT_OF_BLOCKS(3),

@@ -11,8 +11,17 @@ Registrar::~Registrar() = default;
 template <int B>
 Obstacle<B>::~Obstacle() = default;
 
+template <int B>
+Nonlinearity<B>::~Nonlinearity() = default;
+
+template <int B>
+void Nonlinearity<B>::renew(const LevelView<B>&, Index, Index, const double*, double*) const noexcept {}
+
 template class Obstacle<1>;
 template class Obstacle<2>;
 template class Obstacle<3>;
+template class Nonlinearity<1>;
+template class Nonlinearity<2>;
+template class Nonlinearity<3>;
 
 }  // namespace signorini

@@ -21,7 +21,11 @@ struct LevelView {
   Index slots;
   const double* lower;  ///< B per slot: bounds on x
   const double* upper;
-  double relaxation;  ///< in (0, 2): how far sweeps go towards the local minimiser where no bound is met; 1 is there
+  double relaxation;   ///< in (0, 2): how far sweeps go towards the local minimiser where no bound is met; 1 is there
+  const double* data;  ///< `width` per slot: what LocalConstraint::data says; null where no obstacle has any
+  int width;
+  const double* last;       ///< B per slot: the vectors' values after the last load step, zero in the first
+  const Flags* tangential;  ///< per slot: components orthogonal to the obstacle's direction; null like `data`
 };
 
 }  // namespace signorini

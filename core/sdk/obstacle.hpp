@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "core/sdk/level_view.hpp"
+#include "core/sdk/nonlinearity.hpp"
 #include "core/sdk/settings.hpp"
 
 namespace signorini {
@@ -15,6 +16,7 @@ struct ObstacleDescriptor {
   };
   int directions = 0;
   Direction direction[4] = {};
+  int data = 0;  ///< numbers of its own per slot, at most most_data: LocalConstraint::data
 
   /// Two obstacles are of one type exactly when directions and value counts agree.
   bool same_type(const ObstacleDescriptor& other) const {
@@ -26,10 +28,16 @@ struct ObstacleDescriptor {
   }
 };
 
+inline constexpr int most_data = 8;
+
 /// A vertex that an obstacle may reach. Unused coordinates are zero.
 struct SurfaceVertex {
   double position[3];
   double normal[3];  ///< averaged outer unit normal of the body's surface; zero inside it
+  /// Integral of the vertex's hat function over the faces that the obstacle acts on, over the body where it acts on all
+  /// vertices of a scalar one. Zero for obstacles without data of their own.
+  double measure = 0;
+  long vertex = -1;  ///< its number in the mesh
 };
 
 /// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for
@@ -39,6 +47,7 @@ struct LocalConstraint {
   int directions = 0;
   double direction[B][B] = {};
   double lower[B], upper[B];
+  double data[most_data] = {};  ///< the obstacle's own numbers: what a functional needs at this vertex
 };
 
 /// An obstacle type: everything nonlinear about a problem, all of it local to one vector. The kernel knows no more than
@@ -68,8 +77,12 @@ class Obstacle {
                         Flags* critical) const noexcept = 0;
 
   /// max over the vectors of ||x_p - Proj_K(x_p + A_pp^-1 r_p)||, Proj_K in the scalar product of A_pp; r = b - A x.
+  /// With a nonlinearity: of the distance to the local minimiser.
   virtual double natural_residual(const LevelView<B>& level, Index first, Index last,
                                   const double* r) const noexcept = 0;
+
+  /// What it adds to the energy; null: bounds are all there is. Owned by the obstacle.
+  virtual const Nonlinearity<B>* nonlinearity() const noexcept { return nullptr; }
 };
 
 }  // namespace signorini

@@ -90,19 +90,16 @@ void dense_projected_sweep(LevelView<1> level, Index slot, Index first, Index la
     for (Index p = last - 1; p >= first; --p) relax_clamped<Local>(level, p, lower[p], upper[p]);
 }
 
-/// One projected block Gauss-Seidel sweep over first <= p < last; Local::correct is the exact local minimiser. Runs of
-/// vectors without obstacle pass through the plain linear loop. The view is copied: the compiler then knows that a
-/// store to the iterate changes nothing of it.
-template <int B, class Local>
-void projected_sweep(LevelView<B> level, Index first, Index last, Order order) {
-  const auto [from, to] = slots_between(level, first, last);
-  if constexpr (is_scalar_box<B, Local>)
-    if (to - from == last - first) return dense_projected_sweep<Local>(level, from, first, last, order);
+/// One block Gauss-Seidel sweep over first <= p < last: relax_slot(slot) treats the vectors that have a slot, runs of
+/// vectors without obstacle pass through the plain linear loop.
+template <int B, class RelaxSlot>
+inline void sweep_slots(const LevelView<B>& level, Index from, Index to, Index first, Index last, Order order,
+                        const RelaxSlot& relax_slot) {
   if (order == Order::forward) {
     Index p = first;
     for (Index slot = from; slot < to; ++slot) {
       for (; p < level.constrained[slot]; ++p) relax<B>(level, p);
-      relax_projected<B, Local>(level, slot);
+      relax_slot(slot);
       ++p;
     }
     for (; p < last; ++p) relax<B>(level, p);
@@ -110,11 +107,21 @@ void projected_sweep(LevelView<B> level, Index first, Index last, Order order) {
     Index p = last - 1;
     for (Index slot = to - 1; slot >= from; --slot) {
       for (; p > level.constrained[slot]; --p) relax<B>(level, p);
-      relax_projected<B, Local>(level, slot);
+      relax_slot(slot);
       --p;
     }
     for (; p >= first; --p) relax<B>(level, p);
   }
+}
+
+/// One projected block Gauss-Seidel sweep over first <= p < last; Local::correct is the exact local minimiser. The view
+/// is copied: the compiler then knows that a store to the iterate changes nothing of it.
+template <int B, class Local>
+void projected_sweep(LevelView<B> level, Index first, Index last, Order order) {
+  const auto [from, to] = slots_between(level, first, last);
+  if constexpr (is_scalar_box<B, Local>)
+    if (to - from == last - first) return dense_projected_sweep<Local>(level, from, first, last, order);
+  sweep_slots<B>(level, from, to, first, last, order, [&level](Index slot) { relax_projected<B, Local>(level, slot); });
 }
 
 }  // namespace signorini

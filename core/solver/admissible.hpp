@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/algebra/products.hpp"
-#include "core/solver/discrete_problem.hpp"
+#include "core/solver/functional.hpp"
 
 namespace signorini {
 
@@ -30,7 +30,7 @@ bool lowers(const DiscreteProblem<B>& problem, const std::vector<double>& a, con
   residual<B>(problem.A, middle.data(), problem.b.data(), r.data());
   double gain = 0;
   for (std::size_t k = 0; k < a.size(); ++k) gain += (a[k] - b[k]) * r[k];
-  return gain >= 0;
+  return gain - functional::change(problem, b.data(), a.data()) >= 0;
 }
 
 }  // namespace signorini

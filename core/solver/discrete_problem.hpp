@@ -44,6 +44,10 @@ struct Constraints {
   std::vector<Index> slot;           ///< per vector, -1: none
   std::vector<Index> vector;         ///< per slot, ascending
   std::vector<double> lower, upper;  ///< B per slot, infinite where there is none
+  std::vector<double> data;          ///< `width` per slot, see LevelView::data; empty without functionals
+  int width = 0;
+  std::vector<double> last;       ///< B per slot, see LevelView::last; empty without functionals
+  std::vector<Flags> tangential;  ///< per slot, see LevelView::tangential; empty without functionals
 
   Index size() const { return static_cast<Index>(vector.size()); }
   /// Takes away all bounds; the slots stay.
@@ -69,6 +73,13 @@ struct Segment {
   std::shared_ptr<const Obstacle<B>> obstacle;
 };
 
+/// Whether an obstacle adds to the energy.
+template <int B>
+bool has_functional(const std::vector<Segment<B>>& segments) {
+  return std::any_of(segments.begin(), segments.end(),
+                     [](const Segment<B>& s) { return s.obstacle->nonlinearity() != nullptr; });
+}
+
 /// The matrix of a coarser level without any truncation.
 template <int B>
 struct GalerkinMatrix {
@@ -77,7 +88,8 @@ struct GalerkinMatrix {
   bool complete = true;    ///< whether A stores a coupling wherever truncation may leave one, even where it is zero
 };
 
-/// min 1/2 x'Ax - b'x with x within bounds: what the solver is given. All of it is in local coordinates. A component
+/// min 1/2 x'Ax - b'x + sum of phi_p(x_p) with x within bounds: what the solver is given; the obstacles of the segments
+/// know phi. All of it is in local coordinates. A component
 /// whose bit is set in `fixed` is prescribed: its row and column are those of the identity and b holds its value, while
 /// the other entries of b account for it.
 template <int B>

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/attainable.hpp"
+#include "core/solver/functional.hpp"
 
 namespace signorini {
 
@@ -70,14 +71,14 @@ bool Iteration<B>::step(const Monitor& monitor) {
 }
 
 template <int B>
-typename Iteration<B>::Sums Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r) const {
+typename Iteration<B>::Sums Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r) {
   Sums sums;
   evaluate(x, r, 0, problem_.A.size(), sums);
   return sums;
 }
 
 template <int B>
-void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const {
+void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) {
   in_pieces<B>(first, last, [&](Index from, Index to) {
     residual<B>(problem_.A, x.data(), problem_.b.data(), from, to, r.data() + Offset{from} * B);
     add_sums(x, r, from, to, sums);
@@ -85,8 +86,9 @@ void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Inde
 }
 
 template <int B>
-void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last,
-                            Sums& sums) const {
+void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) {
+  const double added = functional::change(finest(), x_before_.data(), x.data(), first, last);
+  if (finest().nonlinear) renew(x, r, first, last);  // the residual is that of what is renewed from x itself
   add_natural_residual(x, first, last, r, sums.natural_residual);
   // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
   double gain = 0, correction = 0, size = 0, largest = sums.largest, moved = sums.moved;
@@ -100,7 +102,7 @@ void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r
     largest = std::max(largest, std::abs(now[i]));
     moved = std::max(moved, std::abs(d));
   }
-  sums.gain += gain;
+  sums.gain += gain - added;
   sums.correction += correction;
   sums.size += size;
   sums.largest = largest;
@@ -129,6 +131,10 @@ void Iteration<B>::measure(double error) {
   size_ = std::sqrt(std::max(squared, rounding));
   s.algebraic_error = error == 0 ? 0 : size_ > 0 ? error / size_ : 1;
   s.energy = energy(problem_, sums_.products);
+  if (finest().nonlinear) {
+    zero_.resize(x_.size());
+    s.energy += functional::change(finest(), zero_.data(), x_.data(), 0, problem_.A.size());
+  }
 }
 
 template <int B>

@@ -35,7 +35,8 @@ class Iteration {
   /// Everything that is recomputed from an iterate, and what was gained since x_before_.
   struct Sums {
     double natural_residual = 0;
-    double gain = 0, correction = 0, size = 0;  // J(before) - J, squared energy norm of the step, and their terms
+    double gain = 0, correction = 0,
+           size = 0;  // J(before) - J with the functionals, squared energy norm of the step, and their terms
     FreeProducts products;
     double largest = 0;  // |x|
     double moved = 0;    // the largest |step|
@@ -53,15 +54,17 @@ class Iteration {
   virtual Step advance() = 0;
   /// Adds the linear solver and what it has done, on the finest level.
   virtual void add_work(Stage&) const {}
+  /// Renews what functionals keep frozen, at the vectors first <= p < last.
+  virtual void renew(const std::vector<double>&, const std::vector<double>&, Index, Index) {}
   /// Response of the components of x_ that no bound holds.
   virtual std::optional<double> response(const std::vector<double>& forces, double enough) = 0;
 
   /// r = b - A x and what follows from it.
-  Sums evaluate(std::vector<double>& x, std::vector<double>& r) const;
+  Sums evaluate(std::vector<double>& x, std::vector<double>& r);
   /// The same at the vectors first <= p < last.
-  void evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) const;
+  void evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums);
   /// Adds what follows from a residual at the vectors first <= p < last, one piece of them (in_pieces()).
-  void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) const;
+  void add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums);
   /// Error(Exit::input) where a residual is not finite.
   static void refuse_nan(double residual);
   Index free_unknowns(const Level<B>& level) const;
@@ -103,6 +106,7 @@ class Iteration {
   double reference_ = 0;
   double least_ = infinity;
   int stalled_ = 0;
+  std::vector<double> zero_;              // empty without functionals
   std::optional<double> rounding_error_;  // in the energy norm, once it was asked for
 };
 

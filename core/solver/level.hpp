@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <iterator>
 #include <span>
 
 #include "core/solver/discrete_problem.hpp"
@@ -37,6 +38,10 @@ struct Level {
   std::vector<Index> changed;        ///< vectors whose `removed` changed and is not yet in the coarser matrices
   std::vector<Index> renewed;        ///< rows of A recomputed and not yet in the coarser matrices
 
+  bool nonlinear = false;                 ///< an obstacle of this level adds to the energy; then, else empty:
+  std::vector<double> gradient, hessian;  ///< B and B * B per slot: of phi at the last visit, see Linearisation
+  std::vector<double> used_hessian;       ///< B * B per slot: what the coarser matrices contain
+
   /// No direction in contact, no distances; once slots and prescribed components are known.
   void clear_phases() {
     const auto slots = static_cast<std::size_t>(constraints.size());
@@ -45,6 +50,23 @@ struct Level {
     phase.assign(slots, 0);
     lower.assign(slots * B, -infinity);
     upper.assign(slots * B, infinity);
+    if (!nonlinear) return;
+    gradient.assign(slots * B, 0.0);
+    hessian.assign(slots * B * B, 0.0);
+    used_hessian.assign(slots * B * B, 0.0);
+  }
+
+  /// r -= gradient of phi at the last visit, at the vectors first <= p < last; r: B each, from `first` on.
+  void subtract_gradient(Index first, Index last, double* r) const {
+    const auto [from, to] = slots_between(constraints, first, last);
+    for (Index slot = from; slot < to; ++slot)
+      for (int i = 0; i < B; ++i) r[Offset{constraints.vector[slot] - first} * B + i] -= gradient[Offset{slot} * B + i];
+  }
+
+  /// Hessian of phi at vector p, as the coarser matrices contain it; null where there is none.
+  const double* curvature(Index p) const {
+    const Index slot = constraints.slot[p];
+    return slot < 0 ? nullptr : used_hessian.data() + Offset{slot} * B * B;
   }
 
   LevelView<B> view() const {
@@ -60,7 +82,22 @@ struct Level {
             constraints.size(),
             constraints.lower.data(),
             constraints.upper.data(),
-            relaxation};
+            relaxation,
+            constraints.data.data(),
+            constraints.width,
+            constraints.last.data(),
+            constraints.tangential.data()};
+  }
+
+  /// Phases of the iterate at the vectors first <= p < last: what the bounds admit and hold, and phi's linearisation.
+  void locate(Index from, Index to) {
+    const LevelView<B> v = view();
+    const Linearisation<B> linear{gradient.data(), hessian.data(), lower.data(), upper.data(), critical.data()};
+    for_each_segment(from, to, Order::forward, [&](const Segment<B>& s, Index first, Index last) {
+      s.obstacle->distance(v, first, last, lower.data(), upper.data(), critical.data());
+      if (!nonlinear) return;
+      if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) phi->linearise(v, first, last, linear);
+    });
   }
 
   /// One projected Gauss-Seidel sweep over the vectors first <= p < last: one virtual call per segment.
@@ -74,12 +111,14 @@ struct Level {
   /// Calls visit(segment, first, last) with what each segment has in common with from <= p < to.
   template <class Visit>
   void for_each_segment(Index from, Index to, Order order, const Visit& visit) const {
-    const auto count = segments.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Segment<B>& s = segments[order == Order::forward ? i : count - 1 - i];
-      const Index first = std::max(from, s.first), last = std::min(to, s.last);
-      if (first < last) visit(s, first, last);
-    }
+    const auto begin =
+        std::partition_point(segments.begin(), segments.end(), [from](const Segment<B>& s) { return s.last <= from; });
+    const auto end = std::partition_point(begin, segments.end(), [to](const Segment<B>& s) { return s.first < to; });
+    const auto each = [&](const Segment<B>& s) { visit(s, std::max(from, s.first), std::min(to, s.last)); };
+    if (order == Order::forward)
+      std::for_each(begin, end, each);
+    else
+      std::for_each(std::make_reverse_iterator(end), std::make_reverse_iterator(begin), each);
   }
 };
 

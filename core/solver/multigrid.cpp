@@ -8,6 +8,8 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/sdk/box_obstacle.hpp"
+#include "core/solver/functional.hpp"
+#include "core/solver/line_search.hpp"
 #include "core/solver/rounding.hpp"
 
 namespace signorini {
@@ -17,6 +19,7 @@ namespace {
 constexpr int response_cycles = 10;
 constexpr double grown = 1.1,
                  far_below = 0.01;  // squares of norms: of a response in a cycle, and beside what is enough
+constexpr double enough_curvature = 0.1;
 
 // Coarse corrections live in boxes whatever the obstacle on the finest level is.
 template <int B>
@@ -36,7 +39,7 @@ std::vector<Segment<B>> one_box_segment(Index vectors) {
 // Where most vectors have bounds, the others get infinite ones: then loops over them need no look-ups.
 template <int B>
 Constraints<B> completed(const Constraints<B>& c, Index vectors) {
-  if (B > 1 || c.size() == vectors || c.size() < vectors - c.size()) return c;
+  if (B > 1 || !c.data.empty() || c.size() == vectors || c.size() < vectors - c.size()) return c;
   Constraints<B> out;
   const auto n = static_cast<std::size_t>(vectors);
   out.slot.resize(n);
@@ -79,6 +82,7 @@ Level<B> finest_level(const DiscreteProblem<B>& problem) {
   level.constraints = completed(problem.constraints, level.vectors);
   if (level.constraints.slot.empty()) level.constraints.slot.assign(static_cast<std::size_t>(level.vectors), -1);
   level.segments = problem.segments.empty() ? one_box_segment<B>(level.vectors) : problem.segments;
+  level.nonlinear = has_functional(level.segments);
   level.off = problem.fixed;
   level.inverse.resize(static_cast<std::size_t>(level.vectors) * B * B);
   for (Index p = 0; p < level.vectors; ++p)
@@ -138,15 +142,21 @@ std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& 
                                                      double enough) {
   Level<B>& level = levels_.back();
   Constraints<B> linear = level.constraints;
+  if (level.nonlinear) {
+    std::vector<double> now = x;
+    level.x = now.data();
+    level.locate(0, level.vectors);
+  }
   for (Index slot = 0; slot < linear.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const double value = x[Offset{linear.vector[slot]} * B + k];
       double &lower = linear.lower[Offset{slot} * B + k], &upper = linear.upper[Offset{slot} * B + k];
-      const bool held = value <= lower || value >= upper;
+      const bool held = value <= lower || value >= upper || (level.nonlinear && level.critical[slot] >> k & 1u);
       lower = held ? 0 : -infinity;
       upper = held ? 0 : infinity;
     }
   std::vector<Segment<B>> segments = one_box_segment<B>(level.vectors);
+  const bool nonlinear = std::exchange(level.nonlinear, false);
   const double *b = std::exchange(level.b, forces.data()), near = std::exchange(near_, 0.0);
   const bool search = std::exchange(line_search_, settings_.truncate != Truncation::none);
   std::swap(level.constraints, linear);
@@ -162,10 +172,24 @@ std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& 
   }
   std::swap(level.constraints, linear);
   std::swap(level.segments, segments);
+  level.nonlinear = nonlinear;
   level.b = b;
   near_ = near;
   line_search_ = search;
   return bounded ? std::optional(std::sqrt(squared)) : std::nullopt;
+}
+
+template <int B>
+void MonotoneMultigrid<B>::subtract_gradient(const double* x, double* r) {
+  Level<B>& level = levels_.back();
+  level.x = const_cast<double*>(x);
+  level.locate(0, level.vectors);
+  level.subtract_gradient(0, level.vectors, r);
+}
+
+template <int B>
+void MonotoneMultigrid<B>::renew(const double* x, const double* r, Index first, Index last) {
+  if (levels_.back().nonlinear) functional::renew(levels_.back(), x, r, first, last);
 }
 
 template <int B>
@@ -244,7 +268,8 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
 // Whether the correction of level k may raise the energy: without bounds, or by a matrix that knows no truncation.
 template <int B>
 bool MonotoneMultigrid<B>::searches(std::size_t k) const {
-  return (line_search_ && k + 1 == levels_.size()) || (k <= lasting_ && levels_[k].constraints.size() > 0);
+  return (line_search_ && k + 1 == levels_.size()) || levels_[k].nonlinear ||
+         (k <= lasting_ && levels_[k].constraints.size() > 0);
 }
 
 // prolongate() projects onto the bounds. Where that cuts nothing off, a correction without bounds lowers the energy as
@@ -256,7 +281,7 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   const auto n = static_cast<std::size_t>(level.vectors) * B;
   start_.assign(level.x, level.x + n);
   transfers_[k - 1]->prolongate(levels_[k - 1], level, 0, level.vectors);
-  if (k > lasting_ && !meets_bound(level)) return;
+  if (k > lasting_ && !level.nonlinear && !meets_bound(level)) return;
   step_.resize(n);
   product_.resize(n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];
@@ -268,6 +293,7 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
     energy += step_[i] * product_[i];
     work += step_[i] * r_[i];
   }
+  if (level.nonlinear) return search_nonlinear(level, energy, work);
   if (!(energy > 0 || work < 0)) return;
   double length = energy > 0 ? std::max(0.0, 1 + work / energy) : 0.0;
   const Constraints<B>& c = level.constraints;
@@ -287,11 +313,33 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   each_bound([&](Offset i, double lower, double upper) { level.x[i] = std::clamp(level.x[i], lower, upper); });
 }
 
+// The same with a functional; a step within bounds stays there.
+// @param energy, work of the full step, work with the forces at its end
+template <int B>
+void MonotoneMultigrid<B>::search_nonlinear(Level<B>& level, double energy, double work) {
+  const Constraints<B>& c = level.constraints;
+  const auto go = [&](double t, Index p) {
+    for (Offset i = Offset{p} * B; i < (Offset{p} + 1) * B; ++i)
+      level.x[i] = t == 0 ? start_[i] : start_[i] + t * step_[i];
+  };
+  const double length = step_length([&](double t) {
+    for (const Index p : c.vector) go(t, p);
+    return -work - (1 - t) * energy + functional::slope(level, level.x, step_.data());
+  });
+  for (Index p = 0; p < level.vectors; ++p) go(length, p);
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      double& x = level.x[Offset{c.vector[slot]} * B + k];
+      x = std::clamp(x, c.lower[Offset{slot} * B + k], c.upper[Offset{slot} * B + k]);
+    }
+}
+
 template <int B>
 void MonotoneMultigrid<B>::restrict_residual(std::size_t k, Index first, Index last) {
   const Level<B>& fine = levels_[k];
   r_.resize(static_cast<std::size_t>(last - first) * B);
   residual<B>(*fine.A, fine.x, fine.b, first, last, r_.data());
+  if (fine.nonlinear) fine.subtract_gradient(first, last, r_.data());
   transfers_[k - 1]->restrict_residual(fine, first, last, r_.data(), levels_[k - 1]);
 }
 
@@ -299,10 +347,7 @@ void MonotoneMultigrid<B>::restrict_residual(std::size_t k, Index first, Index l
 // made with is listed for their local reassembly.
 template <int B>
 void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index last) {
-  const LevelView<B> view = level.view();
-  level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    s.obstacle->distance(view, begin, end, level.lower.data(), level.upper.data(), level.critical.data());
-  });
+  level.locate(first, last);
   LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
   const auto [from, to] = slots_between(level.constraints, first, last);
   if (rests(level, from, to, report)) return;
@@ -314,16 +359,33 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     const Flags removed = level.off[p] | truncated(level, slot, critical);
     report.changed += critical != level.phase[slot] || removed != level.removed[p];
     level.phase[slot] = critical;
+    if (level.nonlinear) renew_curvature(level, slot);
     if (removed == level.removed[p]) continue;
     level.removed[p] = removed;
     level.changed.push_back(p);
   }
 }
 
+// The coarser matrices follow the Hessian once it has changed by more than a tenth; line searches make up for the rest.
+template <int B>
+void MonotoneMultigrid<B>::renew_curvature(Level<B>& level, Index slot) {
+  const double* now = level.hessian.data() + Offset{slot} * B * B;
+  double* used = level.used_hessian.data() + Offset{slot} * B * B;
+  double largest = 0, changed = 0;
+  for (int i = 0; i < B * B; ++i) {
+    largest = std::max({largest, std::abs(now[i]), std::abs(used[i])});
+    changed = std::max(changed, std::abs(now[i] - used[i]));
+  }
+  if (changed <= enough_curvature * largest) return;
+  std::copy_n(now, B * B, used);
+  level.renewed.push_back(level.constraints.vector[slot]);
+}
+
 // Whether no phase has changed, found without branches where every vector has a slot.
 template <int B>
 bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, LevelReport& report) const {
-  if (level.constraints.size() != level.vectors || near_ > 0 || settings_.truncate == Truncation::tangential)
+  if (level.constraints.size() != level.vectors || level.nonlinear || near_ > 0 ||
+      settings_.truncate == Truncation::tangential)
     return false;
   const Flags kept = settings_.truncate == Truncation::none ? 0 : (1u << B) - 1;
   const Flags *critical = level.critical.data(), *phase = level.phase.data();

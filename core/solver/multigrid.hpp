@@ -63,6 +63,12 @@ class MonotoneMultigrid {
   /// @param enough smaller ones need not be known exactly
   std::optional<double> response(const std::vector<double>& x, const std::vector<double>& forces, double enough);
 
+  /// Renews what functionals keep frozen during a cycle, from x and r = b - A x, at the vectors first <= p < last.
+  void renew(const double* x, const double* r, Index first, Index last);
+
+  /// Subtracts the gradient of the functionals at x, where these are smooth.
+  void subtract_gradient(const double* x, double* r);
+
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }
 
@@ -71,7 +77,9 @@ class MonotoneMultigrid {
   double correct(std::size_t k, Cycle cycle);
   bool searches(std::size_t k) const;
   void search(std::size_t k);
+  void search_nonlinear(Level<B>& level, double energy, double work);
   void update_phases(Level<B>& level, Index first, Index last);
+  void renew_curvature(Level<B>& level, Index slot);
   bool rests(const Level<B>& level, Index from, Index to, LevelReport& report) const;
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
   void restrict_residual(std::size_t k, Index first, Index last);

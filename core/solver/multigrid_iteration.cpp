@@ -26,7 +26,7 @@ bool sweeps_first(const DiscreteProblem<B>& problem, std::span<const Prolongatio
                   const SolverOptions& options) {
   const Index vectors = problem.A.size();
   const Index coarsest = prolongations.empty() ? vectors : prolongations.front().coarse;
-  if (problem.cheap_to_factorise) return false;
+  if (problem.cheap_to_factorise || has_functional(problem.segments)) return false;
   return automatic::begins_with_sweeps(options, coarsest, vectors, problem.A.row[vectors]) &&
          !automatic::solvers_for_active_sets(B, Offset{vectors} * B, Offset{coarsest} * B).empty();
 }
@@ -35,6 +35,22 @@ template <int B>
 Components<B> components(SolverOptions options, const Registry& registry, bool sweeps) {
   if (sweeps) options.coarse = "pgs";
   return components_of<B>(options, registry);
+}
+
+/// Coarse solvers know bounds only: where the single level has functionals, they get one of their own below it, on
+/// which these are linear.
+template <int B>
+std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                                       Method method) {
+  if (method == Method::pgs || !prolongations.empty() || !has_functional(problem.segments)) return {};
+  Prolongation identity;
+  identity.coarse = problem.A.size();
+  for (Index p = 0; p < identity.coarse; ++p) {
+    identity.column.push_back(p);
+    identity.row.push_back(Offset{p} + 1);
+  }
+  identity.weight.assign(identity.column.size(), 1.0);
+  return {std::move(identity)};
 }
 
 bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic::resting_percent * finest.critical; }
@@ -48,11 +64,13 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
     : Iteration<B>(problem, x, options),
       method_(check_options(options)),
       sweeps_(sweeps_first(problem, prolongations, options)),
-      multigrid_(problem, hierarchy_of(options, prolongations), components<B>(options, registry, sweeps_),
-                 settings_of<B>(options)),
+      own_(linear_level<B>(problem, prolongations, method_)),
+      multigrid_(problem, own_.empty() ? hierarchy_of(options, prolongations) : own_,
+                 components<B>(options, registry, sweeps_), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
-      may_turn_(method_ == Method::automatic && automatic::may_turn(options)) {}
+      may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
+      nonlinear_(multigrid_.finest().nonlinear) {}
 
 template <int B>
 std::vector<Index> MultigridIteration<B>::unknowns() const {
@@ -84,19 +102,27 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
         });
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
+  if (nonlinear_ && this->options_.krylov) renew_forces();
   const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
   const double error = idle ? infinity : estimate_.error();
-  Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free, gaining, {}};
+  // Where the linear model has no minimum, the functional may well have one.
+  Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, {}};
   rests_ = rests(cycle.finest());
   compare_gains(free);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
+  if (nonlinear_) return step;                    // nothing else can treat functionals
   if (method_ == Method::automatic && leaves_to_active_sets()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
+}
+
+template <int B>
+void MultigridIteration<B>::renew(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last) {
+  multigrid_.renew(x.data(), r.data(), first, last);
 }
 
 template <int B>
@@ -155,11 +181,31 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
     recombination_.reset();
     return false;
   }
-  if (recombination_.propose(this->x_before_, this->r_before_, this->x_, this->r_, this->sums_.gain) &&
-      take_combination(cycle))
+  const std::vector<double>&before = nonlinear_ ? forces_before_ : this->r_before_,
+        &now = nonlinear_ ? forces_ : this->r_;
+  if (recombination_.propose(this->x_before_, before, this->x_, now, this->sums_.gain) && take_combination(cycle)) {
+    if (nonlinear_) set_forces();
     return true;
+  }
   recombination_.reset();
   return false;
+}
+
+// The negative gradient of the energy with the functionals, where these are smooth.
+template <int B>
+void MultigridIteration<B>::set_forces() {
+  forces_ = this->r_;
+  multigrid_.subtract_gradient(this->x_.data(), forces_.data());
+}
+
+template <int B>
+void MultigridIteration<B>::renew_forces() {
+  if (forces_.empty()) {
+    forces_ = this->r_before_;
+    multigrid_.subtract_gradient(this->x_before_.data(), forces_.data());
+  }
+  forces_before_.swap(forces_);
+  set_forces();
 }
 
 // If it is admissible and has the lower energy, by more than what rounding may make of extrapolated residuals.
@@ -172,9 +218,10 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
     admissible =
         admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
-    if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
+    if (admissible && !nonlinear_) this->add_sums(x_trial_, r_trial_, first, last, sums);
   });
   if (!admissible) return false;
+  if (nonlinear_) sums = this->evaluate(x_trial_, r_trial_);
   if (!(sums.gain >= this->sums_.gain)) return false;
   const double bound = cycle.rounding > 0 ? cycle.rounding : rounding_of_work(multigrid_.finest());  // a single level
   const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));

@@ -22,28 +22,34 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override;
   std::string method() const override;
   Step advance() override;
+  void renew(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last) override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
   bool goes_without_bounds() const;
   void compare_gains(bool free);
   bool leaves_to_active_sets() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination(const CycleReport& cycle);
+  void set_forces();
+  void renew_forces();
   void add_gain();
   double rounding_of_gain() const;
 
   Method method_;
-  bool sweeps_;  // the coarse solver makes no Newton steps
+  bool sweeps_;                    // the coarse solver makes no Newton steps
+  std::vector<Prolongation> own_;  // empty unless a single level has functionals
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
   bool blocks_;         // among the interpolations' weights
   bool may_turn_;       // "auto" may make corrections without bounds
+  bool nonlinear_;      // obstacles add to the energy
   bool rests_ = false;  // few phases changed in the last cycle
   bool bounds_pay_ = true;
   double amplification_ = 0;                               // of rounding in the residual that the last cycle began with
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
-  std::vector<double> x_trial_, r_trial_;  // empty without acceleration
+  std::vector<double> x_trial_, r_trial_;       // empty without acceleration
+  std::vector<double> forces_, forces_before_;  // empty without functionals
 };
 
 }  // namespace signorini

@@ -21,8 +21,13 @@ template <int B>
 std::unique_ptr<Iteration<B>> iteration(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                         std::vector<double>& x, const SolverOptions& options,
                                         const Registry& registry) {
-  if (check_options(options) == Method::pdas)
+  if (check_options(options) == Method::pdas) {
+    if (has_functional(problem.segments))
+      input_error("solver.method",
+                  "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
+                  "expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
     return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
+  }
   return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, registry);
 }
 

@@ -1,0 +1,107 @@
+#pragma once
+#include <algorithm>
+
+#include "core/sdk/box_obstacle.hpp"
+#include "core/sdk/nonlinearity.hpp"
+
+namespace signorini {
+
+/// What a local functional knows of its vector: B components in local coordinates.
+template <int B>
+struct Slot {
+  const double *lower, *upper;  ///< bounds; equal where a component is prescribed
+  const double* data;           ///< as LocalConstraint::data
+  const double* last;           ///< its values after the last load step, zero in the first
+  Flags tangential;             ///< components orthogonal to the obstacle's direction
+};
+
+/// An obstacle with bounds in local coordinates and a functional phi. What is left to an implementation is
+/// descriptor(), assemble() and `Local`, phi at a single vector:
+/// - `void minimise(const Slot<B>&, const double* M, const double* r, const double* x, double* y)`: the minimiser y of
+///   1/2 (y-x)'M(y-x) - r'(y-x) + phi(y) within the bounds; kinks and bounds are met exactly, not up to rounding;
+/// - `double change(const Slot<B>&, const double* from, const double* to)`, `double slope(const Slot<B>&, const double*
+///   at, const double* step)`, as in Nonlinearity;
+/// - `void linearise(const Slot<B>&, const double* x, const Linearisation<B>& out)`, `out` being that of this vector
+///   alone, gradient and hessian zero on entry.
+/// All of them are static, and inlined into loops that the implementation's own library instantiates.
+template <int B, class Local>
+class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
+ public:
+  const Nonlinearity<B>* nonlinearity() const noexcept final { return this; }
+
+  // Where bounds are all there is over-relaxation pays; beyond a kink it would not lower the energy.
+  void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
+    const LevelView<B> level = view;  // stores to the iterate change nothing of it
+    const auto [from, to] = slots_between(level, first, last);
+    sweep_slots<B>(level, from, to, first, last, order, [&level](Index slot) {
+      const Index p = level.constrained[slot];
+      double r[B], y[B];
+      row_residual<B>(level, p, r);
+      minimise(level, slot, r, y);
+      std::copy_n(y, B, level.x + Offset{p} * B);
+    });
+  }
+
+  double natural_residual(const LevelView<B>& level, Index first, Index last, const double* r) const noexcept override {
+    const auto [from, to] = slots_between(level, first, last);
+    double largest = 0;
+    Index slot = from;
+    for (Index p = first; p < last; ++p) {
+      double d[B];
+      if (slot < to && level.constrained[slot] == p) {
+        minimise(level, slot++, r + Offset{p} * B, d);
+        for (int k = 0; k < B; ++k) d[k] -= level.x[Offset{p} * B + k];
+      } else {
+        block::product<B>(level.inverse + Offset{p} * B * B, r + Offset{p} * B, d);
+      }
+      largest = block::larger(largest, block::norm<B>(d));
+    }
+    return largest;
+  }
+
+  double change(const LevelView<B>& level, Index first, Index last, const double* from,
+                const double* to) const noexcept override {
+    return sum(level, first, last,
+               [&](Index slot, Offset at) { return Local::change(slot_of(level, slot), from + at, to + at); });
+  }
+
+  double slope(const LevelView<B>& level, Index first, Index last, const double* at,
+               const double* step) const noexcept override {
+    return sum(level, first, last,
+               [&](Index slot, Offset i) { return Local::slope(slot_of(level, slot), at + i, step + i); });
+  }
+
+  void linearise(const LevelView<B>& level, Index first, Index last,
+                 const Linearisation<B>& out) const noexcept override {
+    sum(level, first, last, [&](Index slot, Offset at) {
+      const Linearisation<B> own{out.gradient + Offset{slot} * B, out.hessian + Offset{slot} * B * B,
+                                 out.lower + Offset{slot} * B, out.upper + Offset{slot} * B, out.critical + slot};
+      std::fill_n(own.gradient, B, 0.0);
+      std::fill_n(own.hessian, B * B, 0.0);
+      Local::linearise(slot_of(level, slot), level.x + at, own);
+      return 0.0;
+    });
+  }
+
+ private:
+  static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
+    return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
+            level.last + Offset{slot} * B, level.tangential[slot]};
+  }
+
+  static void minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {
+    const Index p = level.constrained[slot];
+    Local::minimise(slot_of(level, slot), level.value + level.row[p] * B * B, r, level.x + Offset{p} * B, y);
+  }
+
+  /// Of term(slot, place of its vector) over the slots.
+  template <class Term>
+  static double sum(const LevelView<B>& level, Index first, Index last, const Term& term) {
+    const auto [from, to] = slots_between(level, first, last);
+    double out = 0;
+    for (Index slot = from; slot < to; ++slot) out += term(slot, Offset{level.constrained[slot]} * B);
+    return out;
+  }
+};
+
+}  // namespace signorini

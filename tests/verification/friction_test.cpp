@@ -1,0 +1,141 @@
+// Friction with a given bound: closed forms, an independent convex solver, what has to hold at every vertex, and the
+// iterations it costs beside frictionless contact.
+#include "tests/support/friction.hpp"
+#include "run.hpp"
+#include "scene_text.hpp"
+
+namespace signorini::test {
+namespace {
+
+constexpr const char* on_plane = "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]";
+constexpr const char* on_floor = "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]";
+
+std::string with_friction(const char* where, const std::string& bound) {
+  return std::string(where) + "\ntype = \"tresca\"\nbound = " + bound;
+}
+std::string frictionless(const char* where) { return std::string(where) + "\ntype = \"contact\""; }
+
+SceneText block2(const std::string& obstacle, int refinements) {
+  return {.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
+          .fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"},
+          .obstacle = obstacle,
+          .refinements = refinements};
+}
+
+SceneText block3(const std::string& obstacle, int refinements) {
+  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\nyoung = 1\npoisson = 0.3",
+          .fixes = {"on = \"top\"\nvalue = [0.02, 0.01, -0.03]"},
+          .obstacle = obstacle,
+          .refinements = refinements};
+}
+
+// Uniform shear g and pressure p, sliding everywhere: u_x = s + g y / G, which linear elements have exactly.
+TEST(Tresca, UniformSlipIsExact) {
+  const double g = 0.004, young = 1, poisson = 0.3, shear = young / (2 * (1 + poisson));
+  const SceneText scene{
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"},
+      .loads = {fmt::format("on = \"right\"\nvalue = [0, {}]", g), fmt::format("on = \"left\"\nvalue = [0, {}]", -g)},
+      .obstacle = with_friction(on_plane, fmt::format("{}", g)),
+      .refinements = 2};
+  // Sides that stay straight: u_x = c + g y / G does so with poisson = 0 alone; here the top holds its width.
+  SceneText straight = scene;
+  straight.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0";
+  const auto r = run<2, 2>(straight);
+  const double G = young / 2;
+  (void)shear;
+  for (Index p = 0; p < r.mesh().vertices(); ++p) {
+    const double y = r.mesh().points[p][1];
+    EXPECT_NEAR(r.u()[2 * p], 0.02 - g * (1 - y) / G, 1e-10);
+    EXPECT_NEAR(r.u()[2 * p + 1], -0.03 * y, 1e-10);
+  }
+  EXPECT_NEAR(r.contact().tangential_force[0], -2 * g, 1e-10);
+  EXPECT_NEAR(r.contact().dissipated, 2 * g * (0.02 - g / G), 1e-11);
+  EXPECT_EQ(r.contact().slip_nodes, 17);
+  EXPECT_EQ(r.contact().stick_nodes, 0);
+}
+
+template <int D>
+void expect_like_convex_solver(const std::string& scene) {
+  const auto r = run<D, D>(scene, {"solver.tolerance=1e-11"});
+  const auto& problem = r.problem();
+  const Eigen::VectorXd expected =
+      convex_minimiser(dense(problem.A), vector(problem.b), friction_prox<D>(problem), 1e-13);
+  EXPECT_LE((vector(r.solution.x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
+  for (const ContactNode<D>& node : r.results.contact.nodes) {
+    double traction = 0;
+    for (const double f : node.tangential) traction = std::hypot(traction, f);
+    const Index slot = problem.constraints.slot[node.vertex];
+    const double bound = problem.constraints.data[static_cast<std::size_t>(slot)];
+    EXPECT_LE(traction, bound * (1 + 1e-6));
+    if (!node.sticks) EXPECT_NEAR(traction, bound, 1e-6 * bound);
+    EXPECT_GE(node.dissipated, -1e-14);
+  }
+}
+
+TEST(Tresca, ScenesAreSolvedLikeByAConvexSolver) {
+  expect_like_convex_solver<2>(block2(with_friction(on_plane, "0.008"), 2));
+  expect_like_convex_solver<2>(block2(with_friction(on_plane, "\"0.02 * x\""), 2));
+  expect_like_convex_solver<3>(block3(with_friction(on_floor, "0.008"), 1));
+  SceneText guided = block3(with_friction(on_floor, "\"0.01 * y\""), 1);
+  guided.fixes.push_back("on = \"left\"\nvalue = [0.01, \"free\", \"free\"]");
+  expect_like_convex_solver<3>(guided);
+  SceneText bilateral = block2(with_friction(on_plane, "0.006"), 2);
+  bilateral.fixes.push_back("on = \"bottom\"\nvalue = [\"free\", 0]");
+  expect_like_convex_solver<2>(bilateral);
+  SceneText round = block2(
+      "on = \"bottom\"\nshape = \"sphere\"\ncenter = [0.8, -3]\nradius = 3\ntype = \"tresca\"\n"
+      "bound = 0.004",
+      2);
+  expect_like_convex_solver<2>(round);
+}
+
+TEST(Tresca, NoFrictionIsContactAndMuchOfItGlue) {
+  const auto slides = run<2, 2>(block2(with_friction(on_plane, "0"), 3));
+  const auto contact = run<2, 2>(block2(frictionless(on_plane), 3));
+  for (std::size_t i = 0; i < contact.u().size(); ++i) ASSERT_NEAR(slides.u()[i], contact.u()[i], 1e-9);
+  const auto glued = run<2, 2>(block2(with_friction(on_plane, "1e6"), 3));
+  for (Index p = 0; p < glued.mesh().vertices(); ++p)
+    if (glued.mesh().points[p][1] == 0) EXPECT_EQ(glued.u()[2 * p], 0);
+  EXPECT_EQ(glued.contact().slip_nodes, 0);
+}
+
+TEST(Tresca, ScenesMayBeTurnedAndScaled) {
+  const auto scene = [](double angle, double scale, double stress) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto turned = [&](double x, double y) {
+      return fmt::format("[{}, {}]", scale * (c * x - s * y), scale * (s * x + c * y));
+    };
+    return SceneText{.body = fmt::format("shape = \"polygon\"\npoints = [{}, {}, {}, {}]\nsize = {}\nyoung = {}\n"
+                                         "poisson = 0.3",
+                                         turned(0, 0), turned(2, 0), turned(2, 1), turned(0, 1), 0.5 * scale, stress),
+                     .fixes = {fmt::format("on = \"edge2\"\nvalue = {}", turned(0.02, -0.03))},
+                     .obstacle = fmt::format("type = \"tresca\"\nbound = {}\non = \"edge0\"\nshape = \"plane\"\n"
+                                             "point = [0, 0]\nnormal = [{}, {}]",
+                                             0.008 * stress, -s, c),
+                     .refinements = 2};
+  };
+  const auto first = run<2, 2>(scene(0, 1, 1)), other = run<2, 2>(scene(0.7, 1e3, 2e5));
+  const double c = std::cos(0.7), s = std::sin(0.7), size = 1e3 * 2e5;
+  const auto& f = first.contact().force;
+  EXPECT_NEAR(other.contact().force[0] / size, c * f[0] - s * f[1], 1e-7);
+  EXPECT_NEAR(other.contact().force[1] / size, s * f[0] + c * f[1], 1e-7);
+  EXPECT_NEAR(other.contact().dissipated / size / 1e3, first.contact().dissipated, 1e-8);
+}
+
+TEST(Tresca, FrictionCostsFewIterationsOnAllMeshes) {
+  for (const int refinements : {3, 4, 5}) {
+    const auto plain = run<2, 2>(block2(frictionless(on_plane), refinements));
+    const auto rough = run<2, 2>(block2(with_friction(on_plane, "0.008"), refinements));
+    show("2D, {} refinements: {} and {} iterations\n", refinements, plain.summary().iterations,
+         rough.summary().iterations);
+    EXPECT_LE(rough.summary().iterations, plain.summary().iterations + 3);
+  }
+  const auto plain = run<3, 3>(block3(frictionless(on_floor), 3));
+  const auto rough = run<3, 3>(block3(with_friction(on_floor, "0.008"), 3));
+  show("3D: {} and {} iterations\n", plain.summary().iterations, rough.summary().iterations);
+  EXPECT_LE(rough.summary().iterations, plain.summary().iterations + 3);
+}
+
+}  // namespace
+}  // namespace signorini::test
