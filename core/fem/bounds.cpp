@@ -125,20 +125,23 @@ class Collector {
                   fmt::format("{}: no solution: the {} at {} leaves nothing admissible", origin,
                               bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
                               position(mesh_, vertex)));
-    const bool functional = functional_ && k == 0 && add_data(constraint, position(mesh_, vertex));
-    if (functional) bound.data = static_cast<Index>(data_.size() / most_data) - 1;
-    if (functional || bound.lower > -infinity || bound.upper < infinity) bounds_.push_back(bound);
+    const bool bounded = bound.lower > -infinity || bound.upper < infinity;
+    if (functional_ && k == 0 && (has_data(constraint, vertex) || bounded)) {
+      bound.data = static_cast<Index>(data_.size() / most_data);
+      data_.insert(data_.end(), std::begin(constraint.data), std::end(constraint.data));
+    }
+    if (bound.data >= 0 || bounded) bounds_.push_back(bound);
   }
 
-  // Whether there are any but zeros.
-  bool add_data(const LocalConstraint<B>& constraint, const std::string& place) {
+  // Any but zeros.
+  bool has_data(const LocalConstraint<B>& constraint, Index vertex) const {
     bool any = false;
     for (const double value : constraint.data) {
       if (!std::isfinite(value))
-        input_error(model_.obstacles[obstacle_].origin, fmt::format("number that is not finite at {}", place));
+        input_error(model_.obstacles[obstacle_].origin,
+                    fmt::format("number that is not finite at {}", position(mesh_, vertex)));
       any = any || value != 0;
     }
-    if (any) data_.insert(data_.end(), std::begin(constraint.data), std::end(constraint.data));
     return any;
   }
 

@@ -56,6 +56,7 @@ class NodeReader {
   NodeReader(const Discretization<B>& discretization, const std::vector<double>& x)
       : problem_(discretization.problem), discretization_(discretization), x_(x) {
     for (const double v : x) size_ = std::max(size_, std::fabs(v));
+    gradient_ = functional::gradient(problem_, x);
   }
 
   // Direction k of a slot; only those that are bounded are read.
@@ -87,7 +88,9 @@ class NodeReader {
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
-      const double force = r_[Offset{p} * B + k];
+      // What holds a prescribed component hides the force along it.
+      const bool fixed = problem_.fixed[p] >> k & 1u;
+      const double force = fixed ? -gradient_[Offset{slot} * B + k] : r_[Offset{p} * B + k];
       node.sticks = node.sticks && moved == 0;
       node.dissipated -= force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);

@@ -29,25 +29,47 @@ double slope(const Level<B>& level, const double* at, const double* step) {
   return sum;
 }
 
-/// The same change for a problem that is no level yet.
+/// A problem that is no level yet as its functionals see it.
+template <int B>
+LevelView<B> view(const DiscreteProblem<B>& problem) {
+  const Constraints<B>& c = problem.constraints;
+  LevelView<B> out{};
+  out.vectors = problem.A.size();
+  out.slot = c.slot.data();
+  out.constrained = c.vector.data();
+  out.slots = c.size();
+  out.lower = c.lower.data();
+  out.upper = c.upper.data();
+  out.data = c.data.data();
+  out.width = c.width;
+  out.last = c.last.data();
+  out.tangential = c.tangential.data();
+  return out;
+}
+
+/// The same change for a problem.
 template <int B>
 double change(const DiscreteProblem<B>& problem, const double* from, const double* to) {
-  const Constraints<B>& c = problem.constraints;
-  LevelView<B> view{};
-  view.vectors = problem.A.size();
-  view.slot = c.slot.data();
-  view.constrained = c.vector.data();
-  view.slots = c.size();
-  view.lower = c.lower.data();
-  view.upper = c.upper.data();
-  view.data = c.data.data();
-  view.width = c.width;
-  view.last = c.last.data();
-  view.tangential = c.tangential.data();
+  const LevelView<B> level = view(problem);
   double sum = 0;
   for (const Segment<B>& s : problem.segments)
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->change(view, s.first, s.last, from, to);
+    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->change(level, s.first, s.last, from, to);
   return sum;
+}
+
+/// Gradient of phi at x where it is smooth, B per slot; empty without functionals.
+template <int B>
+std::vector<double> gradient(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
+  if (!has_functional(problem.segments)) return {};
+  LevelView<B> level = view(problem);
+  level.x = const_cast<double*>(x.data());
+  const auto slots = static_cast<std::size_t>(level.slots);
+  std::vector<double> out(slots * B), hessian(slots * B * B), lower(slots * B, -infinity), upper(slots * B, infinity);
+  std::vector<Flags> critical(slots);
+  for (const Segment<B>& s : problem.segments)
+    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity())
+      phi->linearise(level, s.first, s.last, {out.data(), hessian.data(), lower.data(), upper.data(), critical.data()});
+  return out;
 }
 
 /// Renews what is frozen in phi at the vectors first <= p < last from the iterate x and its residual r = b - A x.
