@@ -81,20 +81,40 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
   return warnings;
 }
 
+namespace {
+
+/// By how much more some vertices in contact have moved along the obstacle's normal than others: the depth of the contact
+/// on a curved surface.
+template <int D, int B>
+double flattened(const Results<D, B>& results, Index obstacle) {
+  double least = infinity, most = -infinity;
+  for (const ContactNode<B>& node : results.contact.nodes) {
+    if (!node.contact || node.obstacle != obstacle) continue;
+    double along = 0;
+    for (int i = 0; i < B; ++i) along += node.direction[i] * results.u[Offset{node.vertex} * B + i];
+    least = std::min(least, along);
+    most = std::max(most, along);
+  }
+  return most > least ? most - least : 0;
+}
+
+}  // namespace
+
 template <int D, int B>
 std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy,
                                         const Results<D, B>& results) {
   std::vector<std::string> warnings;
   for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
     if (!results.deformed[k]) continue;
-    const auto add = [&, displacement = results.deformed[k]->displacement](const char* whose, double sagitta) {
-      if (!(sagitta > noticeable * displacement)) return;
+    const double depth = flattened(results, static_cast<Index>(k));
+    const double displacement = results.deformed[k]->displacement, size = depth > 0 ? depth : displacement;
+    const auto add = [&](const char* whose, double sagitta) {
+      if (!(sagitta > noticeable * size)) return;
       warnings.push_back(fmt::format(
           "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
-          "where displacements are up to {:.3g}: refinement brings out the edges between them, and the largest "
-          "pressure "
-          "gets worse with it",
-          model.obstacles[k].origin, whose, sagitta, displacement));
+          "where contact flattens it by {:.3g} and displacements are up to {:.3g}: refinement brings out the edges "
+          "between them, and the largest pressure gets worse with it",
+          model.obstacles[k].origin, whose, sagitta, depth, displacement));
     };
     std::vector<bool> touching(hierarchy.finest().points.size());
     for (const ContactNode<B>& node : results.contact.nodes)

@@ -7,6 +7,7 @@
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/functional.hpp"
 
 namespace signorini {
 namespace {
@@ -90,7 +91,7 @@ class NodeReader {
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
       // What holds a prescribed component hides the force along it.
       const bool fixed = problem_.fixed[p] >> k & 1u;
-      const double force = fixed ? -gradient_[Offset{slot} * B + k] : r_[Offset{p} * B + k];
+      const double force = fixed ? -gradient_[Offset{slot} * B + k] : residual(p, k);
       node.sticks = node.sticks && moved == 0;
       node.dissipated -= force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
@@ -169,6 +170,7 @@ class NodeReader {
   const DiscreteProblem<B>& problem_;
   const Discretization<B>& discretization_;
   const std::vector<double>& x_;
+  std::vector<double> gradient_;  // of functionals
   double size_ = 0;
 };
 
