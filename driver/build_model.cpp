@@ -102,7 +102,7 @@ Load<B> load(const Scene::Load& scene) {
 template <int B>
 Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
-  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t, body.source.table};
+  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t, false, body.source.table};
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(scene.fixes[k]));
   for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene.loads[k]));
   for (const int k : numbers_of(scene.obstacles, body))
