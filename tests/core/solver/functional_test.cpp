@@ -109,6 +109,20 @@ TEST(Functional, FrictionInThePlaneIsSolvedLikeByAConvexSolver) {
 }
 TEST(Functional, FrictionInSpaceIsSolvedLikeByAConvexSolver) { expect_solved<3>(random_friction<3>, friction_prox<3>); }
 
+// Obstacles with and without a functional in turns, each ruling its own vectors alone.
+DiscreteProblem<1> random_turns(Random& random, Index n) {
+  DiscreteProblem<1> problem = random_kinks(random, n);
+  const std::shared_ptr<const Obstacle<1>> kink = problem.segments[0].obstacle, box = std::make_shared<Box<1>>();
+  problem.segments.clear();
+  for (Index p = 0; p < n; ++p) problem.segments.push_back({p, p + 1, p % 2 ? kink : box});
+  Constraints<1>& c = problem.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    if (c.vector[slot] % 2 == 0) std::fill_n(c.data.begin() + 5 * slot, 5, 0.0);  // what the reference then knows as none
+  return problem;
+}
+
+TEST(Functional, ObstaclesTakeTurnsVectorByVector) { expect_solved<1>(random_turns, prox_of_kinks); }
+
 // The local minimiser beside random admissible points near and far.
 template <int B, class Local, class Make>
 void expect_least(const Make& make) {
