@@ -8,6 +8,7 @@
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
 #include "driver/loose_body.hpp"
+#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
@@ -42,6 +43,30 @@ template <int B>
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
   return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
+}
+
+/// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with the
+/// residual r in the middle between them, all in one pass over the matrix.
+template <int B>
+std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
+  const std::vector<double>& first = vectors.front();
+  std::vector<std::vector<double>> middle(vectors);
+  for (std::vector<double>& x : middle)
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.5 * (x[k] + first[k]);
+  std::vector<double> gain(vectors.size());
+  for (Index p = 0; p < problem.A.size(); ++p)
+    for (std::size_t v = 1; v < vectors.size(); ++v) {
+      double Ax[B];
+      row_product(problem.A, p, middle[v].data(), Ax);
+      for (int i = 0; i < B; ++i) {
+        const Offset at = Offset{p} * B + i;
+        gain[v] += (vectors[v][at] - first[at]) * (problem.b[at] - Ax[i]);
+      }
+    }
+  std::size_t best = 0;
+  for (std::size_t v = 1; v < vectors.size(); ++v)
+    if (gain[v] >= gain[best]) best = v;
+  return best;
 }
 
 /// Of an elastic body.
@@ -211,23 +236,23 @@ void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, Di
 template <int D, int B>
 void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
   const DiscreteProblem<B>& problem = solution.discretization.problem;
-  const auto take_better = [&](std::vector<double> x) {
+  std::vector<std::vector<double>> starts;
+  const auto add = [&](std::vector<double> x) {
     make_admissible(problem, x);
-    if (lowers(problem, x, solution.x)) solution.x = std::move(x);
+    starts.push_back(std::move(x));
   };
   const std::vector<double> last = to_local(problem, before_[level]);
-  make_admissible(problem, solution.x);
-  if (options_.start == "nested")
-    take_better(last);
-  else
-    solution.x = last;
-  if (coarse.x.empty() || before_[level - 1].empty()) return;
-  const DiscreteProblem<B>& below = coarse.discretization.problem;
-  std::vector<double> change = to_local(below, before_[level - 1]);
-  for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
-  std::vector<double> x = interpolate(below, change, prolongations_[algebraic_ + level - first_ - 1], problem);
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
-  take_better(std::move(x));
+  if (options_.start == "nested") add(std::move(solution.x));
+  add(last);
+  if (!coarse.x.empty() && !before_[level - 1].empty()) {
+    const DiscreteProblem<B>& below = coarse.discretization.problem;
+    std::vector<double> change = to_local(below, before_[level - 1]);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
+    std::vector<double> x = interpolate(below, change, prolongations_[number(level) - 1], problem);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
+    add(std::move(x));
+  }
+  solution.x = std::move(starts[least_energy(problem, starts)]);
 }
 
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
@@ -237,7 +262,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (!coarse.x.empty()) {
     solution.x =
-        interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - first_ - 1], problem);
+        interpolate(coarse.discretization.problem, coarse.x, prolongations_[number(level) - 1], problem);
     if (!before_[level].empty()) start_from_before(level, coarse, solution);
     share_matrix(coarse, level, problem);
     keep(model, level - 1, coarse);
