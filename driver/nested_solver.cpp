@@ -50,9 +50,11 @@ bool is_stretched(const Mesh<D>& mesh, int block) {
 template <int B>
 std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
   const std::vector<double>& first = vectors.front();
-  std::vector<std::vector<double>> middle(vectors);
-  for (std::vector<double>& x : middle)
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] = 0.5 * (x[k] + first[k]);
+  std::vector<std::vector<double>> middle(vectors.size());
+  for (std::size_t v = 1; v < vectors.size(); ++v) {
+    middle[v].resize(first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) middle[v][k] = 0.5 * (vectors[v][k] + first[k]);
+  }
   std::vector<double> gain(vectors.size());
   for (Index p = 0; p < problem.A.size(); ++p)
     for (std::size_t v = 1; v < vectors.size(); ++v) {
@@ -260,21 +262,22 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
-  if (!coarse.x.empty()) {
-    solution.x =
-        interpolate(coarse.discretization.problem, coarse.x, prolongations_[number(level) - 1], problem);
-    if (!before_[level].empty()) start_from_before(level, coarse, solution);
-    share_matrix(coarse, level, problem);
-    keep(model, level - 1, coarse);
-  } else if (level == first_ && options_.start == "nested") {
-    continue_algebraically(problem);
-    Stopwatch watch;
+  const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
+  if (first) continue_algebraically(problem);
+  const Stopwatch watch;
+  if (refined)
+    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[number(level) - 1], problem);
+  if (first) {
     problem.galerkin = products_below(level);
     solution.x =
         nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
-    times_.solve += watch.elapsed();
   }
-  if (coarse.x.empty() && !before_[level].empty()) start_from_before(level, coarse, solution);
+  if (!before_[level].empty()) start_from_before(level, coarse, solution);
+  times_.solve += watch.elapsed();
+  if (refined) {
+    share_matrix(coarse, level, problem);
+    keep(model, level - 1, coarse);
+  }
   return solution;
 }
 
