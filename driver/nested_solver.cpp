@@ -174,7 +174,11 @@ std::span<const GalerkinMatrix<B>> NestedSolver<D, B>::products_below(std::size_
 
 template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
-  if (!coarse.x.empty()) kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
+  if (coarse.x.empty()) return;
+  DiscreteProblem<B>& problem = coarse.discretization.problem;
+  problem.b = problem.start = {};  // which are new in every solve
+  problem.constraints = {};
+  kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
 }
 
 template <int D, int B>
