@@ -7,15 +7,17 @@
 
 #include "amg/hierarchy.hpp"
 #include "amg/nested_start.hpp"
-#include "driver/loose_body.hpp"
-#include "driver/moved_problem.hpp"
+#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
 #include "core/mesh/slender.hpp"
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
+#include "core/solver/functional.hpp"
 #include "core/solver/solve.hpp"
+#include "driver/loose_body.hpp"
+#include "driver/moved_problem.hpp"
 
 namespace signorini {
 namespace {
@@ -61,6 +63,34 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
   return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
+}
+
+/// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with the
+/// residual r in the middle between them, all in one pass over the matrix.
+template <int B>
+std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
+  const std::vector<double>& first = vectors.front();
+  std::vector<std::vector<double>> middle(vectors.size());
+  for (std::size_t v = 1; v < vectors.size(); ++v) {
+    middle[v].resize(first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) middle[v][k] = 0.5 * (vectors[v][k] + first[k]);
+  }
+  std::vector<double> gain(vectors.size());
+  for (Index p = 0; p < problem.A.size(); ++p)
+    for (std::size_t v = 1; v < vectors.size(); ++v) {
+      double Ax[B];
+      row_product(problem.A, p, middle[v].data(), Ax);
+      for (int i = 0; i < B; ++i) {
+        const Offset at = Offset{p} * B + i;
+        gain[v] += (vectors[v][at] - first[at]) * (problem.b[at] - Ax[i]);
+      }
+    }
+  for (std::size_t v = 1; v < vectors.size(); ++v)
+    gain[v] -= functional::change(problem, first.data(), vectors[v].data());
+  std::size_t best = 0;
+  for (std::size_t v = 1; v < vectors.size(); ++v)
+    if (gain[v] >= gain[best]) best = v;
+  return best;
 }
 
 /// Of an elastic body.
@@ -186,7 +216,11 @@ std::span<const GalerkinMatrix<B>> NestedSolver<D, B>::products_below(std::size_
 
 template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
-  if (!coarse.x.empty()) kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
+  if (coarse.x.empty()) return;
+  DiscreteProblem<B>& problem = coarse.discretization.problem;
+  problem.b = problem.start = {};  // which are new in every solve
+  problem.constraints = {};
+  kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
 }
 
 template <int D, int B>
@@ -262,23 +296,23 @@ void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, Di
 template <int D, int B>
 void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
   const DiscreteProblem<B>& problem = solution.discretization.problem;
-  const auto take_better = [&](std::vector<double> x) {
+  std::vector<std::vector<double>> starts;
+  const auto add = [&](std::vector<double> x) {
     make_admissible(problem, x);
-    if (lowers(problem, x, solution.x)) solution.x = std::move(x);
+    starts.push_back(std::move(x));
   };
   const std::vector<double> last = to_local(problem, before_[level]);
-  make_admissible(problem, solution.x);
-  if (options_.start == "nested")
-    take_better(last);
-  else
-    solution.x = last;
-  if (coarse.x.empty() || before_[level - 1].empty()) return;
-  const DiscreteProblem<B>& below = coarse.discretization.problem;
-  std::vector<double> change = to_local(below, before_[level - 1]);
-  for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
-  std::vector<double> x = interpolate(below, change, prolongations_[algebraic_ + level - first_ - 1], problem);
-  for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
-  take_better(std::move(x));
+  if (options_.start == "nested") add(std::move(solution.x));
+  add(last);
+  if (!coarse.x.empty() && !before_[level - 1].empty()) {
+    const DiscreteProblem<B>& below = coarse.discretization.problem;
+    std::vector<double> change = to_local(below, before_[level - 1]);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
+    std::vector<double> x = interpolate(below, change, prolongations_[number(level) - 1], problem);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
+    add(std::move(x));
+  }
+  solution.x = std::move(starts[least_energy(problem, starts)]);
 }
 
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
@@ -286,21 +320,22 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
-  if (!coarse.x.empty()) {
-    solution.x =
-        interpolate(coarse.discretization.problem, coarse.x, prolongations_[algebraic_ + level - first_ - 1], problem);
-    if (!before_[level].empty()) start_from_before(level, coarse, solution);
-    share_matrix(coarse, level, problem);
-    keep(model, level - 1, coarse);
-  } else if (level == first_ && options_.start == "nested") {
-    continue_algebraically(problem);
-    Stopwatch watch;
+  const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
+  if (first) continue_algebraically(problem);
+  const Stopwatch watch;
+  if (refined)
+    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[number(level) - 1], problem);
+  if (first) {
     problem.galerkin = products_below(level);
     solution.x =
         nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
-    times_.solve += watch.elapsed();
   }
-  if (coarse.x.empty() && !before_[level].empty()) start_from_before(level, coarse, solution);
+  if (!before_[level].empty()) start_from_before(level, coarse, solution);
+  times_.solve += watch.elapsed();
+  if (refined) {
+    share_matrix(coarse, level, problem);
+    keep(model, level - 1, coarse);
+  }
   return solution;
 }
 

@@ -99,7 +99,16 @@ class Discretizer {
     problem().A = stiffness(mesh_, model_);
     check_stiffness(mesh_, model_, problem().A);
     rotate(problem().A, problem().frames);
-    for (const FixedDirections<B>& fixed : out_.fixes) out_.prescribed.add(problem().A, fixed.vertex);
+    keep_prescribed_rows();
+  }
+
+  void keep_prescribed_rows() {
+    const BlockMatrix<B>& A = problem().A;
+    Offset entries = 0;
+    for (const FixedDirections<B>& fixed : out_.fixes) entries += A.row[fixed.vertex + 1] - A.row[fixed.vertex];
+    out_.prescribed.column.reserve(entries);
+    out_.prescribed.value.reserve(entries * B * B);
+    for (const FixedDirections<B>& fixed : out_.fixes) out_.prescribed.add(A, fixed.vertex);
   }
 
   /// Takes over the matrix, turned to the frames of now; false where it is that of other prescribed components.

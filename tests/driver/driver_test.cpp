@@ -197,6 +197,29 @@ TEST(Driver, computes_again_only_what_changed_of_a_scalar_body) {
   }
 }
 
+// Starts without coarser meshes, active sets, and levels by the matrix of stretched cells, which may fall back to
+// meshes.
+TEST(Driver, keeps_matrices_with_every_method) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"solver.start=zero"},
+        {"solver.start=zero", "body.0.cells=[12, 12, 12]", "refine.uniform=1"},
+        {"solver.method=pdas"},
+        {"body.0.cells=[12, 2, 2]", "refine.uniform=1"},
+        {"body.0.cells=[12, 2, 2]", "refine.uniform=0", "solver.hierarchy=matrix"}}) {
+    SCOPED_TRACE(options.front() + " " + options.back());
+    Scene scene = scene_of(elastic, options);
+    scene.fixes.pop_back();
+    Driver driver(scene);
+    driver.solve();
+    for (const double radius : {2.985, 2.98}) {
+      shape<Scene::SphereShape>(driver).radius = radius;
+      driver.solve();
+      expect_assembled(driver, 0, 0, driver.report().time.assemblies.constraints);
+      expect_as_new(driver);
+    }
+  }
+}
+
 TEST(Driver, steps_assemble_what_depends_on_t) {
   Scene scene = scene_of(elastic, {"steps.count=4", "fix.1.value=[\"0.001 * t\", \"free\", \"free\"]",
                                    "load.0.value=[0, 0, \"-0.02 * t\"]"});

@@ -117,7 +117,8 @@ DiscreteProblem<1> random_turns(Random& random, Index n) {
   for (Index p = 0; p < n; ++p) problem.segments.push_back({p, p + 1, p % 2 ? kink : box});
   Constraints<1>& c = problem.constraints;
   for (Index slot = 0; slot < c.size(); ++slot)
-    if (c.vector[slot] % 2 == 0) std::fill_n(c.data.begin() + 5 * slot, 5, 0.0);  // what the reference then knows as none
+    if (c.vector[slot] % 2 == 0)
+      std::fill_n(c.data.begin() + 5 * slot, 5, 0.0);  // what the reference then knows as none
   return problem;
 }
 
