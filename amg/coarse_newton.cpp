@@ -189,7 +189,8 @@ CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
     apply_mask<B>(mask_, z);
   };
   const auto attempt = [&](double without_energy) {
-    const bool definite = holds_everything();
+    // Of scalars, semidefinite ones above all, small pivots may be rounding alone.
+    const bool definite = B > 1 && holds_everything();
     const CgLimits limits{.reduction = 1e-8,
                           .iterations = definite ? most_refinements : max_cg_iterations,
                           .rounding = definite ? 0 : rounding_of_work(level),

@@ -8,7 +8,8 @@ template <int B>
 struct Linearisation {
   double* gradient;  ///< B: of the smooth piece of phi at the iterate; zero in components that are not smooth
   double* hessian;   ///< B * B, row-major, symmetric, semidefinite; zero in rows of components that are not smooth
-  /// B: corrections of the iterate for which both hold. On entry what the bounds admit; only ever narrowed.
+  /// B: corrections of the iterate. On entry what the bounds admit; zero in components that are not smooth. How far the
+  /// smooth piece is a good model is for the line search to find out: narrower bounds slow down more than they help.
   double *lower, *upper;
   Flags* critical;  ///< on entry what the bounds hold; components in which phi is not smooth are added
 };

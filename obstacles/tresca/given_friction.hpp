@@ -51,9 +51,6 @@ struct GivenFriction {
       }
       const double slip = x[k] - slot.last[k], direction = slip / length;
       out.gradient[k] = g * direction;
-      if constexpr (B == 2)  // up to where it comes to rest
-        (slip > 0 ? out.lower[k] : out.upper[k]) =
-            slip > 0 ? std::max(out.lower[k], -slip) : std::min(out.upper[k], -slip);
       if constexpr (B == 3)
         for (int j = 0; j < B; ++j)
           if (slot.tangential >> j & 1u)

@@ -39,11 +39,9 @@ struct ConvexKink {
     } else if (*x < c) {
       *out.gradient = -below - k_below * (c - *x);
       *out.hessian = k_below;
-      *out.upper = std::min(*out.upper, c - *x);
     } else {
       *out.gradient = above + k_above * (*x - c);
       *out.hessian = k_above;
-      *out.lower = std::max(*out.lower, c - *x);
     }
   }
 

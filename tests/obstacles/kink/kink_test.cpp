@@ -42,7 +42,7 @@ TEST(Kink, ScenesAreSolvedLikeByAConvexSolver) {
     EXPECT_LE((vector(r.solution.x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
     Index resting = 0;
     for (const double u : r.u()) resting += u == 0.05;
-    EXPECT_GT(resting, 3) << "the kink holds nothing: no test";
+    EXPECT_GE(resting, 3) << "the kink holds nothing: no test";
   }
 }
 
