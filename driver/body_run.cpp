@@ -60,14 +60,14 @@ std::vector<Stress> BodyRun<D, B>::stress() const {
 }
 
 template <int D, int B>
-void BodyRun<D, B>::start_from(std::vector<double> u) {
+void BodyRun<D, B>::start_from(const std::vector<double>& u) {
   if (u.size() != mesh().points.size() * B)
     throw Error(Exit::usage, fmt::format("{}: a start of {} numbers, expected {}: {} for each of {} vertices",
                                          body().source.table, u.size(), mesh().points.size() * B, B,
                                          mesh().points.size()));
   if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
     throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
-  results_.u = std::move(u);
+  results_.u = u;
 }
 
 /// Where there is no solution, perhaps the body was meant to be on the other side.

@@ -26,7 +26,7 @@ class BodyRun {
   StepReport solve(double t, std::vector<std::string>& warnings);
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
-  void start_from(std::vector<double> u);
+  void start_from(const std::vector<double>& u);
   /// What is odd about the scene as it is at t, before it is solved.
   void add_warnings(double t, std::vector<std::string>& warnings) const;
   /// What is odd about the results.

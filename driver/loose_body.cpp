@@ -12,6 +12,7 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/select.hpp"
 #include "core/solver/admissible.hpp"
+#include "core/solver/functional.hpp"
 
 namespace signorini {
 namespace {
@@ -134,11 +135,27 @@ void LooseBody<D, B>::require_minimum() const {
   const Eigen::VectorXd left = project_onto_cone(G, work_);
   if (!(left.norm() > enough)) return;
   const Eigen::VectorXd motion = project_onto_cone(G, left.normalized());
-  if (!(work_.dot(motion) > enough * motion.norm())) return;
+  if (!(work_.dot(motion) - resistance(free_ * motion) > enough * motion.norm())) return;
   throw Error(Exit::no_solution,
               fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "
                           "which do work along this motion: {} (contact is linearised about the undeformed body)",
                           model_.origin, motions_.describe(free_ * motion)));
+}
+
+// What functionals, such as friction, take of the work along a motion that goes on.
+template <int D, int B>
+double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  if (discretization_.functional.empty()) return 0;
+  std::vector<double> step(problem.b.size()), far;
+  add(motion, step);
+  double size = 0, extent = 0;
+  for (const double v : step) size = std::max(size, std::abs(v));
+  for (const double v : problem.constraints.last) extent = std::max(extent, std::abs(v));
+  for (const Point<D>& x : mesh_.points)
+    for (const double v : x) extent = std::max(extent, std::abs(v));
+  for (const double v : step) far.push_back(v / size * (extent / negligible));
+  return functional::slope(problem, far.data(), step.data());
 }
 
 // Rows of what obstacles press on, which stays in contact.

@@ -365,14 +365,13 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
-  // Friction may hold a body that bounds alone do not.
-  std::optional<LooseBody<D, B>> body;
-  if (solution.discretization.functional.empty()) body.emplace(hierarchy_.finest(), model, solution.discretization);
-  if (body) body->require_minimum();
+  const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
+  body.require_minimum();
+  const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
   SolverOptions options = options_;
   if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
-  solve_level(model, hierarchy_.levels.size() - 1, options, body ? &*body : nullptr, solution);
-  if (body && solution.summary.converged()) solution.undetermined = body->settle(solution.x);
+  solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
+  if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
 }
 
 /// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the

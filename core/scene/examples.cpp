@@ -40,8 +40,8 @@ number or an expression. Where the traction is smaller the node sticks, else it 
 nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
 the motion since the last step. The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
-3 where it sticks. Whether friction is enough to hold a body is not known before: a body that it does not hold ends at the
-iteration limit.
+3 where it sticks. Where friction does not hold a body against the motion that the loads would take it without friction, there is no solution;
+where it gives way to another motion alone, the solve ends at the iteration limit.
 
 **Forces.** `force` of the report is the whole force of the obstacle. How it divides between the obstacle and a fix that
 holds a node along the obstacle's normal is not determined. What presses there is counted as the obstacle's, and

@@ -57,6 +57,16 @@ double change(const DiscreteProblem<B>& problem, const double* from, const doubl
   return sum;
 }
 
+/// The same slope for a problem.
+template <int B>
+double slope(const DiscreteProblem<B>& problem, const double* at, const double* step) {
+  const LevelView<B> level = view(problem);
+  double sum = 0;
+  for (const Segment<B>& s : problem.segments)
+    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->slope(level, s.first, s.last, at, step);
+  return sum;
+}
+
 /// Gradient of phi at x where it is smooth, B per slot; empty without functionals.
 template <int B>
 std::vector<double> gradient(const DiscreteProblem<B>& problem, const std::vector<double>& x) {

@@ -1,6 +1,7 @@
 // Friction with a given bound: closed forms, an independent convex solver, what has to hold at every vertex, and the
 // iterations it costs beside frictionless contact.
 #include "tests/support/friction.hpp"
+#include "core/base/error.hpp"
 #include "core/mesh/structured.hpp"
 #include "driver/driver.hpp"
 #include "mesh_file.hpp"
@@ -141,6 +142,24 @@ TEST(Tresca, OpposesTheMotionSinceTheLastStep) {
   EXPECT_LT(report.steps[1].contact[0].tangential_force[0], 0);
   EXPECT_GT(report.steps[3].contact[0].tangential_force[0], 0) << "pulled back";
   EXPECT_GT(last, report.steps[1].contact[0].dissipated);
+}
+
+// Friction bears 0.008 times the width 2, a body force f over the area 2.
+TEST(Tresca, BodiesHeldByFrictionAloneAreSolvedUpToWhatItBears) {
+  const auto pushed = [](double force) {
+    SceneText scene = block2(with_friction(on_plane, "0.008"), 2);
+    scene.fixes.clear();
+    scene.loads = {fmt::format("value = [{}, -0.01]", force)};
+    return scene;
+  };
+  for (const double force : {0.003, 0.0078, -0.0078})
+    EXPECT_NEAR((run<2, 2>(pushed(force)).contact().tangential_force[0]), -2 * force, 1e-8);
+  try {
+    run<2, 2>(pushed(0.0082));
+    FAIL() << "held";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::no_solution) << error.what();
+  }
 }
 
 TEST(Tresca, FrictionCostsFewIterationsOnAllMeshes) {
