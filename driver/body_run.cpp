@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 #include <cmath>
 #include <utility>
 
@@ -83,6 +84,27 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
   }
 }
 
+namespace {
+
+/// Loads far smaller than stiffness times displacement are lost in rounding, and in the tolerance.
+void add_balance_warning(const StepReport& report, std::vector<std::string>& warnings) {
+  constexpr double noticeable = 0.01;
+  const auto size = [](const std::vector<double>& v) {
+    return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
+  };
+  for (const BalanceReport& balance : report.balance) {
+    const double applied = size(balance.applied), left = size(balance.sum());
+    if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;
+    std::string warning = fmt::format(
+        "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness times "
+        "displacement for the tolerance or the machine's precision, and what they do is not known",
+        balance.body, left, applied);
+    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
+  }
+}
+
+}  // namespace
+
 template <int D, int B>
 StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_ = model(t);
@@ -100,6 +122,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
         model_.origin, fmt::join(solution.undetermined, "; "));
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
   }
+  add_balance_warning(report, warnings);
   times_.output += watch.elapsed();
   solver_.take_back(model_, std::move(solution.discretization));
   return report;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
+constexpr double edged = 1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
 /// How far off the linearised condition is, relative to the displacements.
 double off(const ContactReport& contact) {
@@ -107,9 +108,10 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
   for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
     if (!results.deformed[k]) continue;
     const double depth = flattened(results, static_cast<Index>(k));
-    const double displacement = results.deformed[k]->displacement, size = depth > 0 ? depth : displacement;
+    const double displacement = results.deformed[k]->displacement;
+    const double most = depth > 0 ? edged * depth : noticeable * displacement;
     const auto add = [&](const char* whose, double sagitta) {
-      if (!(sagitta > noticeable * size)) return;
+      if (!(sagitta > most)) return;
       warnings.push_back(fmt::format(
           "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
           "where contact flattens it by {:.3g} and displacements are up to {:.3g}: refinement brings out the edges "

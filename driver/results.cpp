@@ -117,10 +117,15 @@ Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& sol
   }
   if (!worst || !summary.converged()) return summary;
   summary.outcome = Outcome::violated;
+  const char* why = solution.discretization.functional.empty()
+                        ? "where obstacles meet in dependent or nearly parallel directions, so that only the nearest "
+                          "count"
+                        : "where obstacles meet in other directions than that of one with friction, which then counts "
+                          "alone, or in dependent or nearly parallel ones";
   summary.reason = fmt::format(
-      "{}: this obstacle is violated by {:.3g} at ({}), the worst of {} vertices where obstacles meet in dependent or "
-      "nearly parallel directions, so that only the nearest count; such obstacles are not available in this version",
-      model.obstacles[worst->obstacle].origin, most, fmt::join(mesh.points[worst->vertex], ", "), count);
+      "{}: this obstacle is violated by {:.3g} at ({}), the worst of {} vertices {}; such obstacles are not available in "
+      "this version",
+      model.obstacles[worst->obstacle].origin, most, fmt::join(mesh.points[worst->vertex], ", "), count, why);
   return summary;
 }
 

@@ -76,10 +76,10 @@ std::string described(const Stage& stage) {
 
 }  // namespace
 
-void print_summary(const Summary& summary, bool solved) {
+void print_summary(const Summary& summary, bool solved, const std::string& reason) {
   const std::vector<Index>& unknowns = summary.level_unknowns;
   fmt::print("{}", convergence_table(summary.history));
-  fmt::print("{}: {}\n", solved ? "solved" : "not solved", summary.reason);
+  fmt::print("{}: {}\n", solved ? "solved" : "not solved", reason);
   if (summary.stages.size() > 1)
     for (const Stage& stage : summary.stages) fmt::print("{}", described(stage));
   fmt::print("{} unknowns on {} levels ({} to {}), {} iterations, rate {}, energy {:.10g}\n",

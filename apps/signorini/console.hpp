@@ -34,7 +34,7 @@ class Console final : public Progress {
 
 /// What a solve did: the convergence table, why it stopped, and its size.
 /// @param solved this solve and all before it
-void print_summary(const Summary& summary, bool solved);
+void print_summary(const Summary& summary, bool solved, const std::string& reason);
 
 /// Calls `print`, which prints on standard output what results are that are in their files already: where it cannot be
 /// written there is a warning, and nothing is printed from then on.

@@ -146,7 +146,7 @@ class QpRun {
   }
 
   void print() const {
-    print_summary(result_.summary, result_.summary.converged());
+    print_summary(result_.summary, result_.summary.converged(), result_.summary.reason);
     if (arguments_.block == 0 && block_ > 1) fmt::print("blocks of {} unknowns, recognised in the matrix\n", block_);
     fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
     fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,

@@ -94,7 +94,7 @@ std::vector<std::filesystem::path> inputs(const Scene& scene) {
 void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
   fmt::print("{}\n", report.title);
-  print_summary(last.summary, report.converged());
+  print_summary(last.summary, report.converged(), report.reason());
   for (const ContactReport& contact : last.contact)
     fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
                contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);

@@ -86,6 +86,7 @@ class NodeReader {
     const Index p = problem_.constraints.vector[slot];
     const double* Q = problem_.frames.at(p);
     node.friction = node.sticks = true;
+    double work = 0;
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
@@ -93,9 +94,10 @@ class NodeReader {
       const bool fixed = problem_.fixed[p] >> k & 1u;
       const double force = fixed ? -gradient_[Offset{slot} * B + k] : residual(p, k);
       node.sticks = node.sticks && moved == 0;
-      node.dissipated -= force * moved;
+      work += force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
+    node.dissipated = std::max(-work, 0.0);  // what is left of the other sign is rounding
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
 

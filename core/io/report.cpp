@@ -1,5 +1,7 @@
 #include "core/io/report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace signorini {
@@ -190,6 +192,13 @@ bool Report::converged() const {
          std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
 }
 
+std::string Report::reason() const {
+  const auto failed =
+      std::find_if(steps.begin(), steps.end() - 1, [](const StepReport& step) { return !step.summary.converged(); });
+  if (failed == steps.end() - 1 || !last().summary.converged()) return last().summary.reason;
+  return fmt::format("the step at t = {:.4g}: {}", failed->t, failed->summary.reason);
+}
+
 Json to_json(const Summary& summary) {
   Json json{{"converged", summary.converged()}, {"unknowns", unknowns(summary)}, {"levels", levels(summary)}};
   add_summary(json, summary);
@@ -207,6 +216,7 @@ Json to_json(const Report& report) {
             {"unknowns", unknowns(report.last().summary)},
             {"levels", levels(report.last().summary)}};
   add_summary(json, report.last().summary);
+  json["reason"] = report.reason();
   add_history(json, report.last().summary);
   json["hierarchy"] = report.hierarchy;
   json["time"] = time(report.time);

@@ -94,6 +94,8 @@ struct Report {
 
   const StepReport& last() const { return steps.back(); }
   bool converged() const;
+  /// Why the last step ended; where another one failed and the last one did not, that one's reason.
+  std::string reason() const;
 };
 
 /// One solve alone, with the keys that a report has for it.

@@ -40,7 +40,17 @@ number or an expression. Where the traction is smaller the node sticks, else it 
 nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
 the motion since the last step. The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
-3 where it sticks. Where friction does not hold a body against the motion that the loads would take it without friction, there is no solution;
+3 where it sticks. Some things to know:
+
+- The bound counts on all picked faces, the field `tangential_traction` is force over those that face the obstacle. At the
+  edge of what is picked it may be larger than the bound.
+- Nodes all of whose components are prescribed have no friction; they count in `nodes` alone.
+- At a vertex one obstacle has friction, and no other holds there along another direction. Two that meet at a vertex are
+  refused: take one with an expression as its bound. A fix is along the obstacle's normal or across it, else it is refused.
+- A body that nothing but very little friction holds along the surface (bounds below a thousandth of the modulus times the
+  strain) takes many cycles, up to the iteration limit.
+
+Where friction does not hold a body against the motion that the loads would take it without friction, there is no solution;
 where it gives way to another motion alone, the solve ends at the iteration limit.
 
 **Forces.** `force` of the report is the whole force of the obstacle. How it divides between the obstacle and a fix that

@@ -24,6 +24,7 @@ class Tresca final : public FunctionalObstacle<B, GivenFriction<B>> {
     for (std::size_t k = 0; k < count && status.ok(); ++k) {
       const SurfaceVertex& v = vertices[k];
       contact_.assemble(v, constraints[k], status);
+      if (!(v.measure > 0)) continue;  // asked for the distance alone
       const double bound = status.ok() ? settings_.value("bound", 0, v.position, v.normal, status) : 0;
       if (status.ok() && !(bound >= 0)) RigidContact<B>::fail(v, "'bound' is negative", status);
       constraints[k].data[0] = bound * v.measure;
