@@ -124,6 +124,47 @@ DiscreteProblem<1> random_turns(Random& random, Index n) {
 
 TEST(Functional, ObstaclesTakeTurnsVectorByVector) { expect_solved<1>(random_turns, prox_of_kinks); }
 
+// The bound of friction is renewed from the force that presses, as Coulomb's law has it.
+class RenewedFriction final : public FunctionalObstacle<2, GivenFriction<2>> {
+ public:
+  static constexpr double coefficient = 0.2;
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", 2, 1}}, 1}; }
+  void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<2>*, Status&) const noexcept override {}
+  void renew(const LevelView<2>& level, Index first, Index last, const double* r,
+             double* data) const noexcept override {
+    for (Index slot = 0; slot < level.slots; ++slot)
+      if (const Index p = level.constrained[slot]; p >= first && p < last)
+        data[slot] = coefficient * std::max(0.0, -r[2 * p]);
+  }
+};
+
+TEST(Functional, WhatIsFrozenDuringACycleIsRenewedUntilItFits) {
+  Random random(17);
+  for (int trial = 0; trial < 5; ++trial) {
+    SCOPED_TRACE(trial);
+    DiscreteProblem<2> problem = random_friction<2>(random, 40);
+    Constraints<2>& c = problem.constraints;
+    for (Index slot = 0; slot < c.size(); ++slot) c.upper[2 * slot] = infinity;
+    problem.segments = {{0, 40, std::make_shared<RenewedFriction>()}};
+    std::vector<double> x = problem.start;
+    SolverOptions options;
+    options.tolerance = 1e-11;
+    const Summary summary = solve<2>(problem, {}, x, options, registry());
+    ASSERT_EQ(summary.outcome, Outcome::converged) << summary.reason;
+    // Friction with the bounds that follow from the solution has the same solution.
+    const Eigen::VectorXd force = dense(problem.A) * vector(x) - vector(problem.b);
+    double most = 0;
+    for (Index slot = 0; slot < c.size(); ++slot) {
+      const bool presses = x[2 * c.vector[slot]] == c.lower[2 * slot];
+      c.data[slot] = presses ? RenewedFriction::coefficient * std::max(0.0, force[2 * c.vector[slot]]) : 0;
+      most = std::max(most, c.data[slot]);
+    }
+    EXPECT_GT(most, 0.01) << "nothing presses: no test";
+    const Eigen::VectorXd expected = convex_minimiser(dense(problem.A), vector(problem.b), friction_prox<2>(problem));
+    EXPECT_LE((vector(x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
+  }
+}
+
 // The local minimiser beside random admissible points near and far.
 template <int B, class Local, class Make>
 void expect_least(const Make& make) {
