@@ -62,11 +62,11 @@ void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Scene::Body& 
 }
 
 void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
-                  Offset unknowns) {
+                  Offset unknowns, bool functional) {
   const bool aggregates = below == Coarsening::aggregation;
-  fmt::print("solver: method {}\n", options.method == "auto"
-                                        ? "auto: " + automatic::describe(options, aggregates, block, unknowns)
-                                        : options.method);
+  fmt::print("solver: method {}\n",
+             options.method == "auto" ? "auto: " + automatic::describe(options, aggregates, block, unknowns, functional)
+                                      : options.method);
   if (options.method == "pdas") return;
   if (options.method == "pgs") {
     fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
@@ -101,7 +101,9 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const std::size_t first = first_mesh(hierarchy, scene.solver, B);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
-  print_solver(scene.solver, below, first == 0, B, free_unknowns(hierarchy.finest(), model));
+  const bool functional =
+      std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
+  print_solver(scene.solver, below, first == 0, B, free_unknowns(hierarchy.finest(), model), functional);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
   print_warnings(model_warnings(scene, hierarchy.finest(), model, body));

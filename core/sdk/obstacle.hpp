@@ -35,7 +35,7 @@ struct SurfaceVertex {
   double position[3];
   double normal[3];  ///< averaged outer unit normal of the body's surface; zero inside it
   /// Integral of the vertex's hat function over the faces that the obstacle acts on, over the body where it acts on all
-  /// vertices of a scalar one. Zero for obstacles without data of their own.
+  /// vertices of a scalar one. Zero where no functional asks for it.
   double measure = 0;
   long vertex = -1;  ///< its number in the mesh
 };

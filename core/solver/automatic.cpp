@@ -21,14 +21,14 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
   return out;
 }
 
-std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns) {
+std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns, bool functional) {
   std::string text = "monotone";
   if (may_turn(options) && aggregates)
     text += ", tnnmg from the second cycle on while it gains more than cycles with bounds";
   else if (may_turn(options))
     text += fmt::format(", tnnmg while at most {} % of the phases change, and in every second cycle after {}",
                         resting_percent, patience_with_bounds);
-  if (const auto solvers = solvers_for_active_sets(block, unknowns, 0); !solvers.empty())
+  if (const auto solvers = solvers_for_active_sets(block, unknowns, 0); !solvers.empty() && !functional)
     text +=
         fmt::format("; pdas with {} after {} cycles or more, where they would be over {}{}",
                     fmt::join(solvers, ", else "), patience_with_cycles, std::min(most_cycles, options.max_iterations),

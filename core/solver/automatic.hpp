@@ -55,7 +55,8 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
 
 /// What the rules come down to for a problem with several levels.
 /// @param aggregates weights of algebraic levels are blocks: smoothed aggregation
-std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns);
+/// @param functional an obstacle adds to the energy: then there are cycles alone
+std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns, bool functional);
 
 }  // namespace automatic
 

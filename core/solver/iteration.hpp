@@ -35,8 +35,8 @@ class Iteration {
   /// Everything that is recomputed from an iterate, and what was gained since x_before_.
   struct Sums {
     double natural_residual = 0;
-    double gain = 0, correction = 0,
-           size = 0;  // J(before) - J with the functionals, squared energy norm of the step, and their terms
+    /// J(before) - J with the functionals, the squared energy norm of the step, and the size of their terms.
+    double gain = 0, correction = 0, size = 0;
     FreeProducts products;
     double largest = 0;  // |x|
     double moved = 0;    // the largest |step|

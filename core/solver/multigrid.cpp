@@ -319,8 +319,7 @@ template <int B>
 void MonotoneMultigrid<B>::search_nonlinear(Level<B>& level, double energy, double work) {
   const Constraints<B>& c = level.constraints;
   const auto go = [&](double t, Index p) {
-    for (Offset i = Offset{p} * B; i < (Offset{p} + 1) * B; ++i)
-      level.x[i] = t == 0 ? start_[i] : start_[i] + t * step_[i];
+    for (Offset i = Offset{p} * B; i < (Offset{p} + 1) * B; ++i) level.x[i] = start_[i] + t * step_[i];
   };
   const double length = step_length([&](double t) {
     for (const Index p : c.vector) go(t, p);

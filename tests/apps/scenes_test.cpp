@@ -32,6 +32,17 @@ TEST_F(Scenes, AllAreSolvedOnTheirCoarsestMeshes) {
   EXPECT_GE(count, 10);
 }
 
+// Active sets know bounds alone: what check announces is what can happen.
+TEST_F(Scenes, CheckAnnouncesNoActiveSetsForFriction) {
+  const auto announced = [&](const char* scene) {
+    const Ended ended = signorini({"check", (scenes / scene).string(), "--set", "refine.uniform=1"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.out;
+  };
+  EXPECT_EQ(announced("block_with_friction_2d.toml").find("pdas"), std::string::npos);
+  EXPECT_NE(announced("signorini_elastic_2d.toml").find("pdas"), std::string::npos);
+}
+
 TEST_F(Scenes, RadialObstacle2D) {
   const auto r = solve("obstacle_radial_2d.toml", {});
   EXPECT_NEAR(r.at("probes")[0].at("value"), 0.471519893402112, 1e-4);
