@@ -28,7 +28,7 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Inde
   return out;
 }
 
-/// lower <= row . c <= upper; zero is one such c.
+/// lower <= row . c <= upper
 struct Slab {
   Eigen::RowVectorXd row;
   double lower, upper;
@@ -45,14 +45,14 @@ Eigen::VectorXd least_point(const Eigen::MatrixXd& G, const Eigen::VectorXd& h) 
   return p.head(n) / p[n];
 }
 
-/// The point within all slabs that is next to `wanted`; zero where rounding does not let it be found.
-Eigen::VectorXd nearest(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs) {
-  const double far = wanted.norm();
+/// The point within all slabs that is next to `wanted`, at about the distance `far`; zero where there is none, or
+/// rounding does not let it be found.
+Eigen::VectorXd nearest(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs, double far) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(wanted.size());
   if (!(far > 0) || !std::isfinite(far)) return zero;
   std::vector<Eigen::RowVectorXd> rows;
   std::vector<double> bounds;
-  for (const Slab& slab : slabs) {  // in units of the way there, which is no longer than from zero
+  for (const Slab& slab : slabs) {  // in units of the way there
     const double at = slab.row.dot(wanted) / far;
     if (slab.lower > -infinity) rows.push_back(slab.row), bounds.push_back(slab.lower / far - at);
     if (slab.upper < infinity) rows.push_back(-slab.row), bounds.push_back(at - slab.upper / far);
@@ -65,6 +65,11 @@ Eigen::VectorXd nearest(const Eigen::VectorXd& wanted, const std::vector<Slab>& 
     if (!(at >= slab.lower - allowed && at <= slab.upper + allowed)) return zero;
   }
   return found;
+}
+
+/// The same where zero is within all slabs.
+Eigen::VectorXd within(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs) {
+  return nearest(wanted, slabs, wanted.norm());
 }
 
 }  // namespace
@@ -93,13 +98,24 @@ void LooseBody<D, B>::add_work() {
   work_ = free_.transpose() * work.transpose();
 }
 
-/// What the bounds leave to an iterate; those that no part of the problem is, too.
+/// What the bounds leave to an admissible iterate.
 template <int D, int B>
 auto LooseBody<D, B>::rooms(const std::vector<double>& x) const -> std::vector<Room> {
+  std::vector<Room> out = gaps(x);
+  for (Room& room : out) {
+    room.lower = std::min(room.lower, 0.0);
+    room.upper = std::max(room.upper, 0.0);
+  }
+  return out;
+}
+
+/// What the bounds leave to an iterate; those that are not part of the problem, too.
+template <int D, int B>
+auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Room> {
   std::vector<Room> out;
   const DiscreteProblem<B>& problem = discretization_.problem;
   const auto add = [&](Index p, const Eigen::RowVectorXd& row, double lower, double upper) {
-    if (row.norm() > negligible) out.push_back({p, row, std::min(lower, 0.0), std::max(upper, 0.0)});
+    if (row.norm() > negligible) out.push_back({p, row, lower, upper});
   };
   for (Index slot = 0; slot < problem.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
@@ -235,7 +251,7 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
     const Eigen::VectorXd row = (room.row * costless).transpose();
     if (row.norm() > negligible) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
   }
-  const Eigen::VectorXd moved = nearest(cholesky.matrixU() * best, slabs);
+  const Eigen::VectorXd moved = within(cholesky.matrixU() * best, slabs);
   return cholesky.matrixU().solve(moved);
 }
 
@@ -243,15 +259,46 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
 // are its solutions, and a step that is long enough ends in one.
 template <int D, int B>
 std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
-  if (free_.cols() == 0 || !(work_.norm() > negligible * most_work_)) return {};
+  std::vector<double> way = as_prescribed();
+  if (free_.cols() == 0) return way;
   const DiscreteProblem<B>& problem = discretization_.problem;
-  std::vector<double> rigid = problem.start, way(x.size());
+  std::vector<double> rigid = way;
+  add(come_clear(rigid), way);
   make_admissible(problem, x);
   make_admissible(problem, rigid);
-  let_fall(x);
-  add(let_fall(rigid), way);
+  if (work_.norm() > negligible * most_work_) {
+    let_fall(x);
+    add(let_fall(rigid), way);
+  }
   if (lowers(problem, rigid, x)) x = std::move(rigid);
   return way;
+}
+
+// The rigid motion next to the prescribed values.
+template <int D, int B>
+std::vector<double> LooseBody<D, B>::as_prescribed() const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const auto motion = motions_.nearest_to_prescribed(problem);
+  if (motion.isZero(0) && free_.cols() == 0) return {};
+  std::vector<double> out(problem.start.size());
+  for (Index p = 0; p < mesh_.vertices(); ++p)
+    for (int k = 0; k < B; ++k) out[Offset{p} * B + k] = motions_.along(problem.frames, p, k) * motion;
+  return out;
+}
+
+// The least motion that takes x out of all obstacles, by which it moves x; zero where there is none.
+template <int D, int B>
+Eigen::VectorXd LooseBody<D, B>::come_clear(std::vector<double>& x) const {
+  double deepest = 0;
+  std::vector<Slab> slabs;
+  for (Room& room : gaps(x)) {
+    deepest = std::max({deepest, room.lower, -room.upper});
+    slabs.push_back({std::move(room.row), room.lower, room.upper});
+  }
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(free_.cols());
+  if (deepest > 0) way = nearest(way, slabs, deepest);
+  add(free_ * way, x);
+  return free_ * way;
 }
 
 // The motion by which it moves x.
@@ -263,7 +310,7 @@ Eigen::VectorXd LooseBody<D, B>::let_fall(std::vector<double>& x) const {
   Eigen::VectorXd way = Eigen::VectorXd::Zero(free_.cols());
   double length = motions_.size();
   for (int k = 0; k < steps; ++k, length *= 2) {
-    const Eigen::VectorXd next = nearest(way + length * work_.normalized(), slabs);
+    const Eigen::VectorXd next = within(way + length * work_.normalized(), slabs);
     if (!(work_.dot(next - way) > negligible * work_.norm() * next.norm())) break;
     way = next;
   }

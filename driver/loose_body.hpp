@@ -17,11 +17,14 @@ class LooseBody {
   LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization);
 
   /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
-  /// has no minimum. Friction takes its part of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts whose work is more than 1e-10 of what the loads could do.
+  /// has no minimum. Friction takes its part
+  /// of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts whose
+  /// work is more than 1e-10 of what the loads could do.
   void require_minimum() const;
 
-  /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where the
-  /// loads take it. What is stiff comes to rest next to that, and iterations find it slowly.
+  /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where
+  /// prescribed values, obstacles and loads take it. What is stiff comes to rest next to that, and iterations find it
+  /// slowly.
   /// @return the way of the undeformed body there (local coordinates); empty: it stays where it is
   std::vector<double> fall(std::vector<double>& x) const;
 
@@ -42,8 +45,11 @@ class LooseBody {
 
   void add_work();
   double resistance(const Eigen::VectorXd& motion) const;
+  std::vector<double> as_prescribed() const;
+  Eigen::VectorXd come_clear(std::vector<double>& x) const;
   Eigen::VectorXd let_fall(std::vector<double>& x) const;
   void touch(double rounding, std::vector<double>& x) const;
+  std::vector<Room> gaps(const std::vector<double>& x) const;
   std::vector<Room> rooms(const std::vector<double>& x) const;
   Eigen::MatrixXd pressed(const std::vector<double>& x) const;
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;

@@ -4,35 +4,70 @@
 #include <numeric>
 #include <utility>
 
+#include "core/algebra/local_coordinates.hpp"
+
 namespace signorini {
+namespace {
 
 template <int B>
-MovedProblem<B>::MovedProblem(DiscreteProblem<B>& problem, std::vector<double> way, std::vector<double>& x)
-    : problem_(problem), way_(std::move(way)), x_(x) {
-  if (way_.empty()) return;
-  Constraints<B>& c = problem.constraints;
-  lower_ = c.lower;
-  upper_ = c.upper;
-  prescribed_work_ = problem.prescribed_work;
-  problem.prescribed_work += std::inner_product(way_.begin(), way_.end(), problem.b.begin(), 0.0);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= way_[i];
+void subtract_prescribed(const std::vector<double>& way, DiscreteProblem<B>& problem) {
+  for (std::size_t p = 0; p < problem.fixed.size(); ++p)
+    for (std::size_t k = 0; k < B; ++k)
+      if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] -= way[p * B + k];
+}
+
+template <int B>
+void subtract_from_bounds(const std::vector<double>& way, Constraints<B>& c) {
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;
-      c.lower[at] -= way_[i];
-      c.upper[at] -= way_[i];
+      c.lower[at] -= way[i];
+      c.upper[at] -= way[i];
     }
+}
+
+/// The right-hand side of the prescribed values of now.
+template <int B>
+void prescribe_anew(Discretization<B>& discretization) {
+  DiscreteProblem<B>& problem = discretization.problem;
+  problem.b = discretization.load;
+  rotate(problem.b, problem.frames);
+  prescribe(problem, discretization.prescribed);
+}
+
+}  // namespace
+
+template <int B>
+MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x)
+    : discretization_(discretization), way_(std::move(way)), x_(x) {
+  if (way_.empty()) return;
+  DiscreteProblem<B>& problem = discretization.problem;
+  start_ = problem.start;
+  lower_ = problem.constraints.lower;
+  upper_ = problem.constraints.upper;
+  subtract_prescribed(way_, problem);
+  subtract_from_bounds(way_, problem.constraints);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= way_[i];
+  prescribe_anew(discretization);
+  const std::vector<double> moved = to_global(problem, way_);
+  problem.prescribed_work +=
+      std::inner_product(moved.begin(), moved.end(), discretization.load.begin(), 0.0);
 }
 
 template <int B>
 void MovedProblem<B>::back() {
   if (way_.empty()) return;
-  Constraints<B>& c = problem_.constraints;
+  DiscreteProblem<B>& problem = discretization_.problem;
+  Constraints<B>& c = problem.constraints;
+  std::swap(problem.start, start_);
   std::swap(c.lower, lower_);
   std::swap(c.upper, upper_);
-  problem_.prescribed_work = prescribed_work_;
+  prescribe_anew(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];
+  for (std::size_t p = 0; p < problem.fixed.size(); ++p)
+    for (std::size_t k = 0; k < B; ++k)
+      if (problem.fixed[p] >> k & 1u) x_[p * B + k] = problem.start[p * B + k];
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "core/solver/discrete_problem.hpp"
+#include "core/fem/discretize.hpp"
 
 namespace signorini {
 
@@ -11,19 +11,18 @@ namespace signorini {
 template <int B>
 class MovedProblem {
  public:
-  /// Takes `way` off the bounds and off x. Keeps references to both until back(), which is called once.
-  /// @param way a motion without energy of what is not prescribed, local coordinates; empty: none
-  MovedProblem(DiscreteProblem<B>& problem, std::vector<double> way, std::vector<double>& x);
+  /// Takes `way` off prescribed values, bounds and x. Keeps references to both until back(), which is called once.
+  /// @param way a motion without energy, local coordinates; empty: none
+  MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x);
 
   /// The problem as it was, and x with the way added. What is at a bound stays there.
   void back();
 
  private:
-  DiscreteProblem<B>& problem_;
+  Discretization<B>& discretization_;
   std::vector<double> way_;
   std::vector<double>& x_;
-  std::vector<double> lower_, upper_;  // of the problem as it was
-  double prescribed_work_ = 0;
+  std::vector<double> start_, lower_, upper_;  // of the problem as it was
 };
 
 }  // namespace signorini

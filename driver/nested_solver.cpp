@@ -345,7 +345,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = products_below(level);
-  MovedProblem<B> moved(solution.discretization.problem, body ? body->fall(solution.x) : std::vector<double>{},
+  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{},
                         solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,

@@ -135,6 +135,21 @@ Eigen::MatrixXd RigidMotions<D, B>::free(const DiscreteProblem<B>& problem) cons
 }
 
 template <int D, int B>
+auto RigidMotions<D, B>::nearest_to_prescribed(const DiscreteProblem<B>& problem) const -> Motion {
+  Eigen::Matrix<double, modes, modes> H = decltype(H)::Zero();
+  Motion h = Motion::Zero();
+  for (std::size_t p = 0; p < problem.fixed.size(); ++p)
+    for (int k = 0; k < B; ++k)
+      if (problem.fixed[p] >> k & 1u) {
+        const Row row = along(problem.frames, static_cast<Index>(p), k);
+        H += row.transpose() * row;
+        h += problem.start[p * B + static_cast<std::size_t>(k)] * row.transpose();
+      }
+  if (h.isZero(0)) return h;
+  return H.completeOrthogonalDecomposition().solve(h);
+}
+
+template <int D, int B>
 std::string RigidMotions<D, B>::at(const Point<D>& from_middle) const {
   Point<D> x;
   for (int i = 0; i < D; ++i) {

@@ -32,6 +32,9 @@ class RigidMotions {
   /// Those that the prescribed values leave free: an orthonormal basis, one per column, none where they hold the body.
   Eigen::MatrixXd free(const DiscreteProblem<B>& problem) const;
 
+  /// The one nearest to the prescribed values, by least squares; the shortest where there are several.
+  Motion nearest_to_prescribed(const DiscreteProblem<B>& problem) const;
+
   /// For messages: "translation along (1, 0)", "rotation about (0.5, 2)".
   std::string describe(const Motion& motion) const;
   /// A basis of a space of motions, as simple as it goes: first translations, then rotations.

@@ -18,6 +18,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double shared = 100;
 constexpr int errors_for_few_motions = 3;
 
+constexpr double explained = 10;  // times what rounding does: forces that need no other reason
+
 template <int B>
 bool prescribed(const DiscreteProblem<B>& problem, Offset i) {
   return problem.fixed[static_cast<std::size_t>(i / B)] >> (i % B) & 1u;
@@ -90,10 +92,32 @@ double rounding_error(const DiscreteProblem<B>& problem, const std::vector<doubl
   return std::sqrt(sum / errors_for_few_motions);
 }
 
-#define SIGNORINI_INSTANTIATE(B)                                                              \
-  template double rough_rounding_error(const DiscreteProblem<B>&, const std::vector<double>&, \
-                                       const std::vector<double>&, double, double);           \
-  template double rounding_error(const DiscreteProblem<B>&, const std::vector<double>&, double, const Response&);
+template <int B>
+Balance balance(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r) {
+  const Constraints<B>& c = problem.constraints;
+  const std::vector<double> errors = force_errors(problem, x);
+  double loads = 0, contact = 0, resting = 0, rounding = 0;  // squared
+  for (Index p = 0; p < problem.A.size(); ++p)
+    for (int k = 0; k < B; ++k) {
+      const Offset i = Offset{p} * B + k;
+      if (prescribed(problem, i)) continue;
+      const double d = problem.A.diagonal(p)[k * B + k];
+      const Index slot = c.slot.empty() ? -1 : c.slot[p];
+      const Offset at = Offset{slot} * B + k;
+      const bool held = slot >= 0 && (c.width > 0 || x[i] <= c.lower[at] || x[i] >= c.upper[at]);
+      (held ? contact : resting) += r[i] * r[i] / d;
+      loads += problem.b[i] * problem.b[i] / d;
+      rounding += errors[i] * errors[i] / d;
+    }
+  if (contact <= explained * explained * rounding) contact = 0;
+  return {std::sqrt(loads + contact), std::sqrt(resting), std::sqrt(rounding)};
+}
+
+#define SIGNORINI_INSTANTIATE(B)                                                                                  \
+  template double rough_rounding_error(const DiscreteProblem<B>&, const std::vector<double>&,                     \
+                                       const std::vector<double>&, double, double);                               \
+  template double rounding_error(const DiscreteProblem<B>&, const std::vector<double>&, double, const Response&); \
+  template Balance balance(const DiscreteProblem<B>&, const std::vector<double>&, const std::vector<double>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

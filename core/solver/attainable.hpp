@@ -28,4 +28,15 @@ template <int B>
 double rounding_error(const DiscreteProblem<B>& problem, const std::vector<double>& x, double enough,
                       const Response& response);
 
+/// Forces on the free components of a body that moves without any energy that rounding would show, all of them in the
+/// norm of the inverse diagonal: what there is to compare with instead.
+struct Balance {
+  double acting;    ///< loads, and forces of obstacles that rounding does not explain
+  double resting;   ///< what is left of them where nothing holds
+  double rounding;  ///< epsilon (|A||x| + |b|)
+};
+/// @param r b - A x
+template <int B>
+Balance balance(const DiscreteProblem<B>& problem, const std::vector<double>& x, const std::vector<double>& r);
+
 }  // namespace signorini

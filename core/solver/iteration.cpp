@@ -170,12 +170,19 @@ bool Iteration<B>::finished(bool gaining) {
   Summary& s = summary_;
   stalled_ = sums_.natural_residual > 0.5 * least_ ? stalled_ + 1 : 0;
   least_ = std::min(least_, sums_.natural_residual);
-  // A rigid motion has no energy that errors of its size could be compared with; a residual of rounding bends nothing.
-  const bool rigid = moves_rigidly_ && !gaining && s.residual <= options_.tolerance;
-  if (rigid) s.algebraic_error = s.history.back().algebraic_error = 0;
+  // A rigid motion has no energy that errors could be compared with: forces are, with those that act.
+  std::optional<double> hidden;
+  if (moves_rigidly_ && !gaining && s.residual <= options_.tolerance) {
+    const Balance forces = balance(problem_, x_, r_);
+    const bool any = forces.acting > 0;
+    s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
+    hidden = any ? forces.rounding / forces.acting : 0;
+  }
   const bool at_rest = stalled_ >= 3 && !gaining && is_rounding_of_unknowns() && !has_risen();
   if (!within_tolerance() && !at_rest) return false;
-  const double of_rounding = size_ > 0 && !rigid ? rounding_error() / size_ : 0,
+  const double of_rounding = hidden      ? *hidden
+                             : size_ > 0 ? rounding_error() / size_
+                                         : 0,
                error = std::hypot(s.algebraic_error, of_rounding);
   // Large residuals beside larger unknowns, as of slender bodies: it takes the error by rounding to explain them.
   if (of_rounding == 0 && !within_tolerance() && !rests_at_rounding()) return false;

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/base/error.hpp"
+#include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/structured.hpp"
@@ -420,6 +421,50 @@ radius = 1.3
       EXPECT_NE(message.find("body.0"), std::string::npos) << message;
       EXPECT_NE(message.find("translation along (1, 0)"), std::string::npos) << message;
     }
+}
+
+// A prescribed way down pushes it aside, far beside what it deforms: it touches the round where that balances the load,
+// which is small beside stiffness times way.
+TEST(LooseBody, IsPushedAsideByARoundHoweverStiffItIs) {
+  for (const auto& [young, aside, down] : {std::array{2.1e5, -1e-6, -7.7e-5}, std::array{1e7, -1e-4, -0.01}}) {
+    const auto r = run<2, 2>(fmt::format(R"(
+[[body]]
+name = "b"
+shape = "half_disk"
+center = [0, 0]
+radius = 1
+size = 0.5
+young = {}
+poisson = 0.3
+[[fix]]
+body = "b"
+on = "flat"
+value = ["free", -0.01]
+[[load]]
+body = "b"
+value = [{}, {}]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "boundary"
+shape = "sphere"
+center = [0.4, -4.1]
+radius = 3
+)",
+                                         young, aside, down),
+                             {uniform(1)});
+    double area = 0;
+    for (const auto& e : r.mesh().elements) area += linear_element(r.mesh(), e).measure;
+    const auto& force = r.contact().force;
+    EXPECT_NEAR(force[0], -aside * area, 1e-3 * std::abs(aside) * area) << young;
+    for (const ContactNode<2>& node : r.results.contact.nodes) {
+      if (!node.contact) continue;
+      const Point<2> at = r.mesh().points[node.vertex];
+      const double across = (at[0] - 0.4) * node.force[1] - (at[1] + 4.1) * node.force[0];
+      EXPECT_LT(std::abs(across), 1e-6 * norm<2>(force)) << young;
+    }
+    EXPECT_LE(r.summary().iterations, 12) << young;
+  }
 }
 
 TEST(LooseBody, TurnsInABowl) {
