@@ -265,10 +265,11 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   return elsewhere;
 }
 
-// Whether the correction of level k may raise the energy: without bounds, or by a matrix that knows no truncation.
+// Whether the correction of level k may raise the energy, without bounds or by a matrix that knows no truncation, or
+// goes further than bounds let it.
 template <int B>
 bool MonotoneMultigrid<B>::searches(std::size_t k) const {
-  return (line_search_ && k + 1 == levels_.size()) || levels_[k].nonlinear ||
+  return ((line_search_ || extended_) && k + 1 == levels_.size()) || levels_[k].nonlinear ||
          (k <= lasting_ && levels_[k].constraints.size() > 0);
 }
 
@@ -281,7 +282,9 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   const auto n = static_cast<std::size_t>(level.vectors) * B;
   start_.assign(level.x, level.x + n);
   transfers_[k - 1]->prolongate(levels_[k - 1], level, 0, level.vectors);
-  if (k > lasting_ && !level.nonlinear && !meets_bound(level)) return;
+  const bool met = meets_bound(level);
+  report_.cut_off = report_.cut_off || (line_search_ && met);
+  if (k > lasting_ && !extended_ && !level.nonlinear && !met) return;
   step_.resize(n);
   product_.resize(n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];

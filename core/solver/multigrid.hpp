@@ -12,6 +12,7 @@ struct CycleReport {
   std::vector<LevelReport> levels;  ///< coarsest first
   double rounding = 0;              ///< rounding_of_work() on the finest level
   bool bounded = true;              ///< false: what the coarsest level minimised has no minimum
+  bool cut_off = false;             ///< bounds met a correction that knew none of them
 
   const LevelReport& finest() const { return levels.back(); }
   /// Coarse matrix rows recomputed, on all levels.
@@ -55,6 +56,10 @@ class MonotoneMultigrid {
   /// direction as lowers the energy most (Graeser and Kornhuber 2009, section 5); or no longer so. Needs truncation.
   void search_lines(bool on) { line_search_ = on; }
 
+  /// From now on a correction with bounds is not only added but goes as far along its direction as lowers the energy
+  /// most, until it meets a bound of the finest level; or no longer so. Coarse bounds allow parts of the way only.
+  void extend_steps(bool on) { extended_ = on; }
+
   /// From now on directions with at most this distance left are truncated too.
   void cut_below(double distance) { near_ = distance; }
 
@@ -93,7 +98,7 @@ class MonotoneMultigrid {
   Settings settings_;
   Crew crew_;
   CycleReport report_;
-  bool line_search_ = false;
+  bool line_search_ = false, extended_ = false;
   double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk
   std::vector<double> start_, step_, product_;  // of a line search

@@ -85,6 +85,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   multigrid_.cut_below(this->options_.cut * sums.moved);
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
+  multigrid_.extend_steps(!free && may_turn_ && rests_);
   ++cycles_;
   sums = {};
   recombination_.begin();
@@ -111,7 +112,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   // Where the linear model has no minimum, the functional may well have one.
   Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, {}};
   rests_ = rests(cycle.finest());
-  compare_gains(free);
+  compare_gains(free, cycle.cut_off);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
   if (nonlinear_) return step;                    // nothing else can treat functionals
@@ -142,24 +143,25 @@ bool MultigridIteration<B>::leaves_to_active_sets() const {
   return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);
 }
 
-// Bounds of coarse corrections keep contact from spreading too far; where it rests they only hold back, and where they
-// are tight, as on algebraic levels, it spreads too slowly with them alone. (Weights that are blocks share a distance
-// among so many components that there the gains decide, from the second cycle on.)
+// Bounds of coarse corrections keep contact from spreading too far; where it rests they mostly hold back, and where
+// they are tight, as on algebraic levels, it spreads too slowly with them alone. The gains tell whether they pay after
+// all: where a slender body comes to an obstacle with its tip, or where weights are blocks, which share a distance
+// among so many components that they are asked from the second cycle on.
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
   if (!may_turn_) return false;
-  if (blocks_) return !bounds_pay_;
-  return rests_ || (cycles_ >= automatic::patience_with_bounds && cycles_ % 2 == 0);
+  if (blocks_ || rests_) return !bounds_pay_;
+  return cycles_ >= automatic::patience_with_bounds && cycles_ % 2 == 0;
 }
 
 // A correction that single vectors cut off gains little: bounds take over, until they gain no more than it did.
 template <int B>
-void MultigridIteration<B>::compare_gains(bool free) {
+void MultigridIteration<B>::compare_gains(bool free, bool cut_off) {
   const double gain = this->sums_.gain;
   if (!free) {
     bounds_pay_ = gain > gain_without_bounds_;
-  } else if (gain > automatic::slow_gain * last_gain_) {
+  } else if ((blocks_ || cut_off) && gain > automatic::slow_gain * last_gain_) {
     bounds_pay_ = true;
     gain_without_bounds_ = gain;
   }

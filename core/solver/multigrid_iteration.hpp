@@ -25,7 +25,7 @@ class MultigridIteration final : public Iteration<B> {
   void renew(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last) override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
   bool goes_without_bounds() const;
-  void compare_gains(bool free);
+  void compare_gains(bool free, bool cut_off);
   bool leaves_to_active_sets() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination(const CycleReport& cycle);
