@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <system_error>
 #include <utility>
 
 #include "apps/signorini/commands.hpp"
@@ -235,6 +236,9 @@ int guarded_run(int argc, char** argv) {
     return report_error("there is not enough memory", Exit::input);
   } catch (const std::exception& error) {
     if (std::ferror(stdout)) return flushed(static_cast<int>(Exit::input));
+    const auto* of_system = dynamic_cast<const std::system_error*>(&error);
+    if (of_system && of_system->code() == std::errc::resource_unavailable_try_again)
+      return report_error("there is not enough memory for another thread, or too many of them run", Exit::input);
     return report_error(std::string("internal: ") + error.what(), Exit::input);
   }
 }

@@ -2,10 +2,25 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <new>
 
 #include "core/base/error.hpp"
 
 namespace signorini {
+namespace {
+
+/// Whether there is no room for a library: the loader does not say why it cannot map one.
+bool out_of_address_space() {
+  constexpr std::size_t library = 64 << 20;  // with those that it needs
+  void* room = mmap(nullptr, library, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) return true;
+  munmap(room, library);
+  return false;
+}
+
+}  // namespace
 
 std::filesystem::path core_folder() {
   Dl_info info{};
@@ -16,6 +31,7 @@ std::filesystem::path core_folder() {
 
 void* load_function(const std::filesystem::path& library, const char* function, const char* what) {
   const auto fail = [&](const char* reason) {
+    if (out_of_address_space()) throw std::bad_alloc();
     throw Error(Exit::plugin, fmt::format("{}: {} cannot be loaded: {}; expected it beside the core library",
                                           library.string(), what, reason));
   };
