@@ -12,6 +12,7 @@ namespace {
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
+constexpr double rounding = 1e-12;   // of displacements
 constexpr double edged = 1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
 /// How far off the linearised condition is, relative to the displacements.
@@ -96,7 +97,8 @@ double flattened(const Results<D, B>& results, Index obstacle) {
     least = std::min(least, along);
     most = std::max(most, along);
   }
-  return most > least ? most - least : 0;
+  const double size = std::max(std::abs(least), std::abs(most));
+  return most - least > rounding * size ? most - least : 0;
 }
 
 }  // namespace
@@ -114,9 +116,10 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
       if (!(sagitta > most)) return;
       warnings.push_back(fmt::format(
           "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
-          "where contact flattens it by {:.3g} and displacements are up to {:.3g}: refinement brings out the edges "
-          "between them, and the largest pressure gets worse with it",
-          model.obstacles[k].origin, whose, sagitta, depth, displacement));
+          "where {}displacements are up to {:.3g}: refinement brings out the edges between them, and the largest "
+          "pressure gets worse with it",
+          model.obstacles[k].origin, whose, sagitta,
+          depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
     };
     std::vector<bool> touching(hierarchy.finest().points.size());
     for (const ContactNode<B>& node : results.contact.nodes)
