@@ -10,6 +10,7 @@
 #include "core/component/settings.hpp"
 #include "core/scene/rigid_shape.hpp"
 #include "core/scene/specs.hpp"
+#include "driver/materials.hpp"
 #include "driver/numbers.hpp"
 
 namespace signorini {
@@ -102,7 +103,13 @@ Load<B> load(const Scene::Load& scene) {
 template <int B>
 Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
-  Model<B> model{body.diffusion, body.young, body.poisson, body.plane, {}, {}, {}, t, false, body.source.table};
+  Model<B> model;
+  model.diffusion = coefficient(scene, body, body.diffusion, &Scene::Material::diffusion);
+  model.young = coefficient(scene, body, body.young, &Scene::Material::young);
+  model.poisson = coefficient(scene, body, body.poisson, &Scene::Material::poisson);
+  model.plane = body.plane;
+  model.t = t;
+  model.origin = body.source.table;
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(scene.fixes[k]));
   for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene.loads[k]));
   for (const int k : numbers_of(scene.obstacles, body))

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "driver/memory.hpp"
+#include "driver/materials.hpp"
 #include "driver/mesh_warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
@@ -44,6 +45,7 @@ struct Mesher {
     FileGroups groups;
     Mesh<D> mesh = read_mesh<D>(given.file, &groups);
     refuse_lost_groups(scene, body, mesh, groups);
+    mesh.region = regions(scene, body, mesh, groups);
     if (warnings)
       for (std::string& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
         warnings->push_back(std::move(warning));

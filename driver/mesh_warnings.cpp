@@ -70,7 +70,7 @@ void refuse_lost_groups(const Scene& scene, const Scene::Body& body, const Mesh<
   for (const Part& part : mesh.parts) parts.push_back(part.name);
   for (const Selection& selection : selections(scene, body)) {
     if (!selection.part || std::ranges::count(parts, *selection.part) > 0) continue;
-    if (std::ranges::count(groups.of_elements, *selection.part) > 0)
+    if (groups.of_elements.contains(*selection.part))
       input_error(selection.origin,
                   fmt::format("'{}' is a physical group of {}, expected one of boundary {} (the parts "
                               "are: {})",

@@ -10,6 +10,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "driver/materials.hpp"
 #include "driver/numbers.hpp"
 
 namespace signorini {
@@ -133,10 +134,10 @@ template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
-  double poisson = body.poisson.constant().value_or(0);
-  if (!body.poisson.constant())
-    for (const auto& element : mesh.elements)
-      poisson = std::max(poisson, body.poisson(site<D>(centroid<D>(mesh, element), 1)));
+  const Field ratio = coefficient(scene, body, body.poisson, &Scene::Material::poisson);
+  double poisson = ratio.constant().value_or(0);
+  if (!ratio.constant())
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) poisson = std::max(poisson, ratio(site_in(mesh, e, 1)));
   if (poisson < 0.45) return {};
   return {
       fmt::format("poisson = {}: linear elements are too stiff for nearly incompressible material, and refinement "

@@ -106,4 +106,16 @@ inline Site site(const Point<D>& x, double t, const Point<D>& normal = {}) {
   return s;
 }
 
+/// For the material of element e: at its centroid, or at x in it.
+template <int D>
+inline Site site_in(const Mesh<D>& mesh, std::size_t e, const Point<D>& x, double t) {
+  Site s = site<D>(x, t);
+  if (!mesh.region.empty()) s.region = mesh.region[e];
+  return s;
+}
+template <int D>
+inline Site site_in(const Mesh<D>& mesh, std::size_t e, double t) {
+  return site_in<D>(mesh, e, centroid<D>(mesh, mesh.elements[e]), t);
+}
+
 }  // namespace signorini

@@ -32,7 +32,8 @@ double energy_error(const Mesh<D>& mesh, const Model<B>& model, const std::vecto
                     const ExactGradient<D, B>& exact) {
   const MaterialLaw<B> law(model);
   double sum = 0;
-  for (const Simplex<D>& vertices : mesh.elements) {
+  for (std::size_t number = 0; number < mesh.elements.size(); ++number) {
+    const Simplex<D>& vertices = mesh.elements[number];
     const LinearElement<D> element = linear_element(mesh, vertices);
     const Gradient<D, B> g = gradient<D, B>(element, vertices, u);
     for (const auto& [barycentric, weight] : quadrature5<D>()) {
@@ -40,7 +41,7 @@ double energy_error(const Mesh<D>& mesh, const Model<B>& model, const std::vecto
       Gradient<D, B> e = exact(x);
       for (int i = 0; i < B; ++i)
         for (int j = 0; j < D; ++j) e[i][j] -= g[i][j];
-      sum += weight * element.measure * density<D>(law.at(site<D>(x, model.t)), e);
+      sum += weight * element.measure * density<D>(law.at(site_in<D>(mesh, number, x, model.t)), e);
     }
   }
   return std::sqrt(sum);

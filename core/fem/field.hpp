@@ -5,11 +5,13 @@
 
 namespace signorini {
 
-/// Where a field is evaluated: position, outer normal (zero inside the body) and step parameter.
+/// Where a field is evaluated: position, outer normal (zero inside the body), step parameter, and for materials the
+/// region of the element, see Mesh::region.
 struct Site {
   double x[3] = {0, 0, 0};
   double n[3] = {0, 0, 0};
   double t = 1;
+  int region = -1;
 };
 
 /// A number given by the user: a constant or an expression. `origin` says where it was written ("scene.toml:12:
@@ -36,6 +38,7 @@ class Field {
   /// As the user wrote it; a constant as a number.
   std::string text() const;
   const std::string& origin() const { return origin_; }
+  bool uses_t() const { return uses_t_; }
   /// Whether the values at the step parameter t are surely those of another field at t_other.
   bool same(double t, const Field& other, double t_other) const;
 

@@ -80,9 +80,10 @@ template <int D, int B>
 void add_upper_half(const Mesh<D>& mesh, const Model<B>& model, Assembly<B>& out) {
   const MaterialLaw<B> law(model);
   Material<B> material = law.constant() ? law.at({}) : Material<B>{};
-  for (const auto& vertices : mesh.elements) {
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto& vertices = mesh.elements[e];
     const LinearElement<D> s = checked_element(mesh, vertices, model.origin);
-    if (!law.constant()) material = law.at(site<D>(centroid<D>(mesh, vertices), model.t));
+    if (!law.constant()) material = law.at(site_in(mesh, e, model.t));
     for (int a = 0; a <= D; ++a) {
       const Index p = vertices[a];
       add_block<D>(material, s.measure, s.gradient[a], s.gradient[a], out.A.at(out.A.row[p]));

@@ -18,10 +18,12 @@ class ScalarAssembler {
         rows_(mesh.vertices(), mesh.points.size() + 2 * estimated_edges(mesh)) {}
 
   BlockMatrix<1> assemble() {
-    if (mesh_.families.empty())
-      add(mesh_.elements, simplex_edges<D>(), [this](const Simplex<D>& v) { return element(v); });
+    if (mesh_.families.empty() || !mesh_.region.empty())
+      add(mesh_.elements, simplex_edges<D>(), [this](const Simplex<D>& v, std::size_t e) {
+        return element(v, mesh_.region.empty() ? -1 : mesh_.region[e]);
+      });
     else
-      add(mesh_.families, child_edges<D>(), [this](const Family<D>& v) { return family(v); });
+      add(mesh_.families, child_edges<D>(), [this](const Family<D>& v, std::size_t) { return family(v); });
     return rows_.take();
   }
 
@@ -31,14 +33,15 @@ class ScalarAssembler {
     for (std::size_t i = 0; i < patches.size(); ++i)
       for (const Index p : patches[i]) rows_.announce(static_cast<Index>(i), p);
     for (std::size_t i = 0; i < patches.size(); ++i)
-      rows_.add(static_cast<Index>(i), patches[i], ends, stiffness(patches[i]));
+      rows_.add(static_cast<Index>(i), patches[i], ends, stiffness(patches[i], i));
   }
 
-  ElementStiffness<D> element(const Simplex<D>& vertices) const {
+  ElementStiffness<D> element(const Simplex<D>& vertices, Index region = -1) const {
     const LinearElement<D> s = checked_element(mesh_, vertices, model_.origin);
-    const double diffusion =
-        law_.at(law_.constant() ? Site{} : site<D>(centroid<D>(mesh_, vertices), model_.t)).diffusion;
-    return element_stiffness(s, s.measure * diffusion);
+    Site where;
+    if (!law_.constant()) where = site<D>(centroid<D>(mesh_, vertices), model_.t);
+    where.region = region;
+    return element_stiffness(s, s.measure * law_.at(where).diffusion);
   }
 
   FamilyStiffness<D> family(const Family<D>& vertices) const {

@@ -30,9 +30,10 @@ std::vector<Stress> element_stress(const Mesh<D>& mesh, const Model<D>& model, c
   const MaterialLaw<D> law(model);
   std::vector<Stress> out;
   out.reserve(mesh.elements.size());
-  for (const Simplex<D>& vertices : mesh.elements) {
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const Simplex<D>& vertices = mesh.elements[e];
     const Gradient<D, D> g = gradient<D, D>(linear_element(mesh, vertices), vertices, u);
-    const Material<D> material = law.at(site<D>(centroid<D>(mesh, vertices), model.t));
+    const Material<D> material = law.at(site_in(mesh, e, model.t));
     out.push_back(stress<D>(material, g, model.plane == Plane::stress));
   }
   return out;

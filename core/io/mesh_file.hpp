@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,7 +19,7 @@ struct FileGroups {
     std::size_t faces;      ///< in the group
     std::size_t elsewhere;  ///< of these, inside the mesh or of no element
   };
-  std::vector<std::string> of_elements;  ///< names of groups of elements, in alphabetical order
+  std::map<std::string, std::vector<Index>> of_elements;  ///< elements of the mesh by the name of their group
   std::vector<OffBoundary> off_boundary;
 };
 

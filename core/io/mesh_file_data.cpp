@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "core/base/error.hpp"
 #include "core/mesh/build.hpp"
@@ -13,14 +12,16 @@
 namespace signorini {
 namespace {
 
-/// Names of the groups of all cells.
+/// The numbers of the cells by the names of their groups.
 template <int Corners>
-std::vector<std::string> all_names(const FileCells<Corners>& cells, const GroupNames& names) {
-  const std::set<Index> entities(cells.group.begin(), cells.group.end());
-  std::set<std::string> all;
-  for (const Index entity : entities)
-    for (const std::string& name : names(Corners - 1, entity)) all.insert(name);
-  return {all.begin(), all.end()};
+std::map<std::string, std::vector<Index>> by_name(const FileCells<Corners>& cells, const GroupNames& names) {
+  std::map<Index, std::vector<Index>> of_entity;
+  for (std::size_t c = 0; c < cells.group.size(); ++c) of_entity[cells.group[c]].push_back(static_cast<Index>(c));
+  std::map<std::string, std::vector<Index>> all;
+  for (const auto& [entity, numbers] : of_entity)
+    for (const std::string& name : names(Corners - 1, entity))
+      all[name].insert(all[name].end(), numbers.begin(), numbers.end());
+  return all;
 }
 
 template <int D>
@@ -50,7 +51,7 @@ std::vector<FileGroups::OffBoundary> off_boundary(const std::vector<FaceGroup<D>
 template <int D>
 Mesh<D> build(std::vector<Point<D>> points, FileCells<D + 1> cells, const FileCells<D>& faces, const GroupNames& names,
               std::string_view place, FileGroups* file_groups) {
-  if (file_groups) file_groups->of_elements = all_names(cells, names);
+  if (file_groups) file_groups->of_elements = by_name(cells, names);
   RawMesh<D> raw{std::move(points), std::move(cells.vertices), std::move(cells.label), {}};
   std::map<Index, std::vector<std::size_t>> groups_of;  // per entity, positions in raw.groups
   for (std::size_t f = 0; f < faces.vertices.size(); ++f) {

@@ -124,6 +124,7 @@ class Refiner {
         element[i] = node[child[i]];
       }
       refinement_.father.push_back(father);
+      if (!coarse_.region.empty()) fine_.region.push_back(coarse_.region[father]);
     }
   }
 

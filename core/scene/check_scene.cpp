@@ -36,6 +36,29 @@ bool scalar(const Scene& scene, const std::string& body) {
   return scene.body(body).equation == Scene::Equation::diffusion;
 }
 
+// What the equation takes, and nothing else.
+void check_materials(const Scene& scene) {
+  for (const Scene::Material& m : scene.materials) {
+    const bool diffusion = scalar(scene, m.body);
+    const auto check = [&](const char* key, bool given, bool wanted) {
+      const char* equation = diffusion ? "diffusion" : "elasticity";
+      if (given && !wanted)
+        input_error(m.source.of(key), fmt::format("'{}' has no meaning for equation = '{}'", key, equation));
+      if (!given && wanted)
+        input_error(m.source.table, fmt::format("missing key '{}', required for equation = '{}'", key, equation));
+    };
+    check("young", m.young.has_value(), !diffusion);
+    check("poisson", m.poisson.has_value(), !diffusion);
+    check("diffusion", m.diffusion.has_value(), diffusion);
+    if (!std::holds_alternative<Scene::MeshFile>(scene.body(m.body).shape))
+      input_error(
+          m.source.of("volume"),
+          fmt::format("body '{}' is not read from a mesh file: it has no volumes; expressions in x, y and z may "
+                      "tell materials apart",
+                      m.body));
+  }
+}
+
 void check_fixes(const Scene& scene) {
   for (const Scene::Fix& fix : scene.fixes) {
     if (std::none_of(fix.value.begin(), fix.value.end(), [](const auto& component) { return component.has_value(); }))
@@ -134,6 +157,8 @@ void check_scene(const Scene& scene, const std::string& place) {
   if (scene.bodies.empty()) input_error(place, "there is no [[body]]");
   check_unique(scene.bodies);
   check_unique(scene.probes);
+  check_bodies(scene, scene.materials);
+  check_materials(scene);
   check_bodies(scene, scene.fixes);
   check_bodies(scene, scene.loads);
   check_bodies(scene, scene.obstacles);

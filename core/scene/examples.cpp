@@ -58,6 +58,27 @@ holds a node along the obstacle's normal is not determined. What presses there i
 `undetermined_nodes` counts such nodes.
 )";
 
+constexpr const char* material_details = R"(
+A rubber pad in a part of steel, where the mesh file calls its tetrahedra `pad`:
+
+```
+[[body]]
+name = "part"
+mesh = "part.msh"
+young = 210000
+poisson = 0.3
+
+[[material]]
+body = "part"
+volume = "pad"
+young = 5
+poisson = 0.4
+```
+
+A volume belongs to one material. Stresses in the VTU are averages at the nodes, between materials too. A body without a
+mesh file takes an expression: `young = "x < 1 ? 5 : 210000"`.
+)";
+
 constexpr TableText texts[] = {
     {"", R"(title = "A block pressed on a ball")", ""},
     {"body", R"([[body]]
@@ -69,6 +90,7 @@ cells = [8, 4, 4]
 young = 210000
 poisson = 0.3)",
      ""},
+    {"material", "", material_details},
     {"fix", R"([[fix]]
 body = "block"
 on = "top"

@@ -5,6 +5,16 @@
 
 namespace signorini {
 
+Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("material")->keys, folder);
+  reader.check_keys();
+  const auto field = [&](const char* key) {
+    return reader.given(key) ? std::optional<Field>(reader.field(key)) : std::nullopt;
+  };
+  return {reader.text("body"), reader.text("volume"), field("young"),
+          field("poisson"),    field("diffusion"),    reader.source()};
+}
+
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("fix")->keys, folder);
   reader.check_keys();

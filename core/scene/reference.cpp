@@ -132,7 +132,8 @@ A value that is not finite where it is used is an error.
 {}{})md";
 
 std::string example_of(std::string_view table) {
-  return fmt::format("```toml\n{}\n```\n\n", table_text(table).example);
+  const std::string_view example = table_text(table).example;
+  return example.empty() ? "" : fmt::format("```toml\n{}\n```\n\n", example);
 }
 
 }  // namespace

@@ -111,6 +111,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   const TableReader top(document.top, top_keys(), folder);
   scene.title = top.text("title");
   scene.bodies = read_all(document, "body", folder, read_body);
+  scene.materials = read_all(document, "material", folder, read_material);
   scene.fixes = read_all(document, "fix", folder, read_fix);
   scene.loads = read_all(document, "load", folder, read_load);
   for (const Scene::Body& body : scene.bodies)

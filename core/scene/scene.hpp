@@ -58,6 +58,13 @@ struct Scene {
     Source source;
   };
 
+  /// Of a physical group of elements, in place of the body's own. What the body's equation has no use for is empty.
+  struct Material {
+    std::string body, volume;
+    std::optional<Field> young, poisson, diffusion;
+    Source source;
+  };
+
   struct Fix {
     std::string body;
     Selection on;
@@ -142,6 +149,7 @@ struct Scene {
   std::string title;
   int dimension = 0;  ///< 2 or 3 by the bodies' shapes; 0 when only mesh files tell
   std::vector<Body> bodies;
+  std::vector<Material> materials;
   std::vector<Fix> fixes;
   std::vector<Load> loads;
   std::vector<Obstacle> obstacles;

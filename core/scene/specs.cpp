@@ -53,6 +53,14 @@ constexpr ShapeSpec shapes[] = {
     {"solid", 3, "part `boundary`", solid},
 };
 
+constexpr KeySpec material[] = {
+    {"body", text, nullptr, "", "", "name of a body that is read from a mesh file"},
+    {"volume", text, nullptr, "", "", "a physical group of its tetrahedra (2D: triangles)"},
+    {"young", field, "", "(0, inf)", "", "Young's modulus there; required for elasticity"},
+    {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio there; required for elasticity"},
+    {"diffusion", field, "", "(0, inf)", "", "coefficient there; required for diffusion equations"},
+};
+
 constexpr const char* on_help = "a named part or a physical group of the mesh; \"boundary\" is all of it";
 constexpr const char* where_help =
     "picks the boundary faces all of whose vertices satisfy the expression; those of the coarsest mesh, finer ones "
@@ -200,6 +208,8 @@ constexpr TableSpec tables[] = {
      "The body to be deformed, or the domain of a scalar equation. There may be several: they are solved one after the "
      "other, are not coupled, and have one report.",
      body},
+    {"material", true, "What a part of a body is made of that the mesh file names; elsewhere the body's own holds.",
+     material},
     {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
      fix},
     {"load", true, "A force that pulls or pushes.", load},

@@ -1,0 +1,64 @@
+#include "driver/materials.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ranges>
+
+#include "core/base/error.hpp"
+#include "driver/numbers.hpp"
+
+namespace signorini {
+namespace {
+
+std::string known(const FileGroups& groups, const char* elements) {
+  if (groups.of_elements.empty()) return fmt::format("the mesh file has no physical group of {}", elements);
+  return fmt::format("the physical groups of {} are: {}", elements,
+                     fmt::join(std::views::keys(groups.of_elements), ", "));
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Index> regions(const Scene& scene, const Scene::Body& body, const Mesh<D>& mesh, const FileGroups& groups) {
+  const char* elements = D == 2 ? "triangles" : "tetrahedra";
+  const std::vector<int> numbers = numbers_of(scene.materials, body);
+  if (numbers.empty()) return {};
+  std::vector<Index> out(mesh.elements.size(), -1);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Scene::Material& material = scene.materials[numbers[k]];
+    const auto group = groups.of_elements.find(material.volume);
+    if (group == groups.of_elements.end())
+      input_error(material.source.of("volume"),
+                  fmt::format("there is no volume '{}'; {}", material.volume, known(groups, elements)));
+    for (const Index e : group->second) {
+      if (out[e] >= 0 && out[e] != static_cast<Index>(k))
+        input_error(material.source.of("volume"),
+                    fmt::format("'{}' shares {} with '{}', which has a material, too; expected one material each",
+                                material.volume, elements, scene.materials[numbers[out[e]]].volume));
+      out[e] = static_cast<Index>(k);
+    }
+  }
+  return out;
+}
+
+Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
+                  std::optional<Field> Scene::Material::*others) {
+  std::vector<Field> of_region{own};
+  std::string text = own.text();
+  bool uses_t = own.uses_t();
+  for (const int k : numbers_of(scene.materials, body)) {
+    const Scene::Material& material = scene.materials[k];
+    of_region.push_back((material.*others).value_or(own));
+    text += fmt::format("; {}: {}", material.volume, of_region.back().text());
+    uses_t = uses_t || of_region.back().uses_t();
+  }
+  if (of_region.size() == 1) return own;
+  return {[of_region](const Site& site) { return of_region[static_cast<std::size_t>(site.region + 1)](site); },
+          text, body.source.table, false, uses_t};
+}
+
+template std::vector<Index> regions(const Scene&, const Scene::Body&, const Mesh<2>&, const FileGroups&);
+template std::vector<Index> regions(const Scene&, const Scene::Body&, const Mesh<3>&, const FileGroups&);
+
+}  // namespace signorini
