@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/scene/examples.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
 
