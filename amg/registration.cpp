@@ -1,9 +1,9 @@
 #include "amg/registration.hpp"
 
-#include "amg/amg_cg.hpp"
-#include "amg/cholmod_solver.hpp"
-#include "amg/coarse_newton.hpp"
-#include "amg/metis_aggregates.hpp"
+#include "amg/coarse/coarse_newton.hpp"
+#include "amg/coarsening/metis_aggregates.hpp"
+#include "amg/linear/amg_cg.hpp"
+#include "amg/linear/cholmod_solver.hpp"
 #include "core/scene/specs.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"

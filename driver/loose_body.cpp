@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amg/cone.hpp"
+#include "amg/coarse/cone.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"

@@ -11,6 +11,7 @@ declare -A allowed=(
   [transfer]="core"
   [smoothers]="core"
   [amg]="core transfer smoothers"
+  [c]="core amg"
   [estimators]="core transfer smoothers"
   [obstacles]="core"
   [driver]="core transfer smoothers amg estimators"
@@ -92,19 +93,21 @@ selftest() {
   trap 'rm -rf "$scratch"' EXIT
   try good core/a.cpp '#include "core/base/types.hpp"'
   try good amg/a.cpp '#include "transfer/a.hpp"'
+  try good c/a.cpp '#include "amg/a.hpp"'
   try good driver/a.cpp '#include "amg/a.hpp"'
   try good apps/a.cpp '#include "driver/a.hpp"'
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
   try good apps/bench/peers/a.cpp '#include <Eigen/CholmodSupport>'
   try good core/a.cpp '// frame/wo''rk/home is no path'
-  for folder in transfer smoothers amg estimators obstacles driver apps tests; do
+  for folder in transfer smoothers amg c estimators obstacles driver apps tests; do
     try wrong core/a.cpp "#include \"$folder/a.hpp\""
   done
   for folder in core transfer smoothers amg estimators driver; do
     try wrong "$folder/a.hpp" '  #  include "obstacles/contact/a.hpp"'
   done
   try wrong amg/a.cpp '#include "driver/a.hpp"'
+  try wrong amg/a.cpp '#include "c/a.h"'
   try wrong driver/a.cpp '#include "apps/signorini/a.hpp"'
   try wrong transfer/a.cpp '#include <smoothers/a.hpp>'
   try wrong smoothers/a.cpp '#include "transfer/a.hpp"'
