@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/algebra/local_coordinates.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fem/field.hpp"
+#include "core/input/field.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mesh/simplex.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 #include "core/scene/scene.hpp"
 
 /// One reader per table of a scene; each validates the table by itself. `folder` is what file names are relative to.

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 #include "core/scene/override.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/table_reader.hpp"

@@ -1,4 +1,4 @@
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
-#include "scenes.hpp"
+#include "tests/core/scene/scenes.hpp"
 
 namespace signorini {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fem/field.hpp"
-#include "core/scene/raw.hpp"
+#include "core/input/field.hpp"
+#include "core/input/raw.hpp"
 
 /// From raw values to typed ones. Each throws Error(Exit::input) naming the value's origin, what was found and what was
 /// expected: another type, or a value outside `range` ("" for any; the grammar is that of OptionSpec::range). Used for

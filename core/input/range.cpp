@@ -1,4 +1,4 @@
-#include "core/scene/range.hpp"
+#include "core/input/range.hpp"
 
 #include <fmt/format.h>
 

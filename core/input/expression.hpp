@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fem/field.hpp"
+#include "core/input/field.hpp"
 
 namespace signorini {
 

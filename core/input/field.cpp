@@ -1,4 +1,4 @@
-#include "core/fem/field.hpp"
+#include "core/input/field.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/scene/expression_scan.hpp"
+#include "core/input/expression_scan.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 
 namespace signorini {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/scene/values.hpp"
+#include "core/input/values.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
-#include "core/scene/range.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/range.hpp"
 
 namespace signorini {
 namespace {

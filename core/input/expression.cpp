@@ -1,4 +1,4 @@
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 
 #include <fmt/format.h>
 #include <muParserBase.h>
@@ -12,7 +12,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression_scan.hpp"
+#include "core/input/expression_scan.hpp"
 
 namespace signorini {
 namespace {
