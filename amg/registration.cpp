@@ -4,22 +4,23 @@
 #include "amg/coarsening/metis_aggregates.hpp"
 #include "amg/linear/amg_cg.hpp"
 #include "amg/linear/cholmod_solver.hpp"
-#include "core/scene/specs.hpp"
+#include "core/scene/solver_keys.hpp"
+#include "core/solver/option_table.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
 
 namespace signorini {
 namespace {
 
-/// Keys of [solver] that concern algebraic levels.
+/// Those of the solver that concern levels chosen by the matrix.
 std::vector<OptionSpec> options_of_levels() {
   std::vector<OptionSpec> out;
-  const auto keys = find_table("solver")->keys;
-  for (const char* name : {"coarsening", "aggregates", "reassemble", "reach", "interpolate", "rotate"}) {
-    const KeySpec& key = *find_key(keys, name);
-    const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
-    out.push_back({key.name, type, key.fallback, key.range, key.help});
-  }
+  for (const auto& row : option_table())
+    if (row.of_levels) {
+      const KeySpec& key = *find_key(solver_keys(), row.name);
+      const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
+      out.push_back({key.name, type, key.fallback, key.range, key.help});
+    }
   return out;
 }
 

@@ -6,7 +6,7 @@
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "core/component/plugin_loader.hpp"
-#include "core/scene/specs.hpp"
+#include "core/scene/solver_keys.hpp"
 #include "driver/components.hpp"
 
 namespace signorini {
@@ -68,7 +68,7 @@ constexpr const char* solver = "solver";  // no component: what puts the compone
 
 void print_solver() {
   fmt::print("{}\n  {:<16} {}\n", solver, "[solver]", "keys of the scene's table, --set solver.KEY=VALUE");
-  for (const KeySpec& key : find_table(solver)->keys) print_option(key);
+  for (const KeySpec& key : solver_keys()) print_option(key);
 }
 }  // namespace
 

@@ -11,7 +11,6 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
 Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder);
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder);
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder);
-Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder);
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder);
 
 /// Dimension of a body by its shape; 0 when only the mesh file tells.
