@@ -7,7 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "amg/black_box/direction.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
@@ -191,7 +190,7 @@ double affordable_operations(Offset entries) {
   return std::max(few, per_entry * static_cast<double>(entries));
 }
 
-void refuse_if_negative(const DirectionEnergy& energy, Offset row) {
+void refuse_if_negative(const EnergyAlong& energy, Offset row) {
   if (!(energy.of_matrix < -rounding_of_energy * energy.of_diagonal)) return;
   input_error("matrix",
               fmt::format("indefinite: d'Ad is {:.3g} times d'Dd, D its diagonal, for a direction d with the largest "

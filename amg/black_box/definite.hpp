@@ -1,6 +1,6 @@
 #pragma once
-#include "amg/black_box/direction.hpp"
 #include "amg/coarsening/hierarchy.hpp"
+#include "core/algebra/energy_along.hpp"
 
 namespace signorini {
 
@@ -9,7 +9,7 @@ inline constexpr double rounding_of_energy = 1e-12;
 
 /// Error(Exit::input) where the energy along a direction is negative by more than rounding.
 /// @param row of the direction's largest entry, for the message
-void refuse_if_negative(const DirectionEnergy& energy, Offset row);
+void refuse_if_negative(const EnergyAlong& energy, Offset row);
 
 /// What a factorisation may take without being seen beside a set-up, for a lower triangle with so many entries.
 double affordable_operations(Offset entries);

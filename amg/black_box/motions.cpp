@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "amg/black_box/definite.hpp"
-#include "amg/coarse/cone.hpp"
+#include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 
@@ -297,7 +297,7 @@ typename Motions<B>::Fall Motions<B>::fall(const std::vector<double>& b, const C
 template <int B>
 Eigen::VectorXd Motions<B>::falling_direction(const Basis& basis, const std::vector<double>& b,
                                               const Constraints<B>& constraints, bool& certain) {
-  const Eigen::Index n = basis.value.rows(), count = basis.value.cols();
+  const Eigen::Index n = basis.value.rows();
   Eigen::VectorXd force(n);
   for (Eigen::Index k = 0; k < n; ++k)
     force[k] = basis.scale[k] * b[static_cast<std::size_t>(basis.row[static_cast<std::size_t>(k)])];
@@ -308,32 +308,18 @@ Eigen::VectorXd Motions<B>::falling_direction(const Basis& basis, const std::vec
   if ((work.cwiseAbs().array() <= small * terms.array() + error).all()) return {};
 
   const double least = negligible * basis.value.cwiseAbs().maxCoeff();
-  std::vector<Eigen::Index> lower, upper;  // unknowns that move and have such a bound
+  AllowedMotions allowed(basis.value.cols());
   for (Eigen::Index k = 0; k < n; ++k) {
     const Interval bounds = bounds_of(constraints, basis.row[static_cast<std::size_t>(k)]);
     if (bounds.lower == -infinity && bounds.upper == infinity) continue;
-    if (!(basis.value.row(k).cwiseAbs().maxCoeff() > least)) continue;
-    if (bounds.lower > -infinity) lower.push_back(k);
-    if (bounds.upper < infinity) upper.push_back(k);
+    if (basis.value.row(k).cwiseAbs().maxCoeff() > least) allowed.bound(basis.value.row(k), bounds.lower, bounds.upper);
   }
-  if (count == 1) {
-    const double sign = work[0] > 0 ? 1 : -1;
-    const auto ends = [&](Eigen::Index k, double way) { return way * sign * basis.value(k, 0) > 0; };
-    if (std::ranges::any_of(lower, [&](Eigen::Index k) { return ends(k, -1); }) ||
-        std::ranges::any_of(upper, [&](Eigen::Index k) { return ends(k, 1); }))
-      return {};
-    return sign * basis.value.col(0);
-  }
-  Eigen::MatrixXd conditions(static_cast<Eigen::Index>(lower.size() + upper.size()), count);
-  Eigen::Index next = 0;
-  for (const Eigen::Index k : lower) conditions.row(next++) = basis.value.row(k).normalized();
-  for (const Eigen::Index k : upper) conditions.row(next++) = -basis.value.row(k).normalized();
-  if (next == 0) return basis.value * work;
-  const Eigen::VectorXd allowed = project_onto_cone(conditions, work);
-  const double size = allowed.norm();
+  if (allowed.all()) return basis.value * work;
+  const Eigen::VectorXd falling = allowed.nearest(work);
+  const double size = falling.norm();
   if (!(size > std::max(rounding_of_projections * work.norm(), small * terms.norm() + error))) return {};
   // Little of the forces may be left: whether it is more than rounding, the conditions themselves tell.
-  if ((conditions * allowed).minCoeff() >= -negligible * size) return basis.value * allowed;
+  if (allowed.least_rate(falling) >= -negligible * size) return basis.value * falling;
   certain = false;
   return {};
 }

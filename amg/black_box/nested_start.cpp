@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "amg/linear/masked_cg.hpp"
-#include "core/algebra/products.hpp"
+#include "core/algebra/energy_along.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/nested.hpp"
@@ -178,12 +178,7 @@ double rough_energy(const DiscreteProblem<B>& problem, const Prolongation& P, co
     }
   });
   apply_mask<B>(problem.fixed, d);
-  double sum = 0, Ad[B];
-  for (Index p = 0; p < problem.A.size(); ++p) {
-    row_product(problem.A, p, d.data(), Ad);
-    for (int k = 0; k < B; ++k) sum += d[Offset{p} * B + k] * Ad[k];
-  }
-  return sum;
+  return energy_along(problem.A, d).of_matrix;
 }
 
 }  // namespace

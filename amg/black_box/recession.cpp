@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amg/black_box/direction.hpp"
+#include "core/algebra/energy_along.hpp"
 
 namespace signorini {
 namespace {
@@ -33,7 +33,7 @@ bool falls_forever(const DiscreteProblem<B>& problem, const std::vector<double>&
     largest = std::max(largest, std::abs(d[i]));
   }
   if (!(work > negligible * terms) || meets_a_bound(problem.constraints, d, negligible * largest)) return false;
-  const DirectionEnergy energy = energy_along(problem.A, d);
+  const EnergyAlong energy = energy_along(problem.A, d);
   return energy.of_matrix <= rounding * energy.of_diagonal;
 }
 

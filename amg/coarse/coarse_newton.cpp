@@ -5,7 +5,7 @@
 
 #include <Eigen/QR>
 
-#include "amg/coarse/cone.hpp"
+#include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
@@ -249,20 +249,15 @@ bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
   const Eigen::MatrixXd motions = this->motions();
   if (motions.cols() == 0) return false;
   const Eigen::VectorXd g = motions.transpose() * Eigen::Map<const Eigen::VectorXd>(r_.data(), motions.rows());
-  std::vector<Eigen::VectorXd> conditions;
-  const auto require = [&](const Eigen::VectorXd& row) {
-    if (row.norm() > rounding / std::sqrt(static_cast<double>(motions.rows()))) conditions.push_back(row.normalized());
-  };
+  AllowedMotions allowed(g.size());
+  const double nothing = rounding / std::sqrt(static_cast<double>(motions.rows()));
   for (Index slot = 0; slot < level.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Bound<B> bound(level, slot, k);
-      const Eigen::VectorXd row = motions.row(Offset{level.constraints.vector[slot]} * B + k);
-      if (bound.lower > -infinity) require(row);
-      if (bound.upper < infinity) require(-row);
+      const auto row = motions.row(Offset{level.constraints.vector[slot]} * B + k);
+      if (row.norm() > nothing) allowed.bound(row, bound.lower, bound.upper);
     }
-  Eigen::MatrixXd G(static_cast<Eigen::Index>(conditions.size()), g.size());
-  for (std::size_t k = 0; k < conditions.size(); ++k) G.row(static_cast<Eigen::Index>(k)) = conditions[k];
-  return (conditions.empty() ? g : project_onto_cone(G, g)).norm() > rounding * g.norm();
+  return allowed.nearest(g).norm() > rounding * g.norm();
 }
 
 // The full step cut off component by component where that lowers the energy, else shorter ones, else as far as the

@@ -8,6 +8,7 @@
 #include "amg/coarsening/mode_aggregation.hpp"
 #include "amg/coarsening/reach.hpp"
 #include "amg/coarsening/smoothed_aggregation.hpp"
+#include "core/algebra/fill_in.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/multigrid.hpp"
 
@@ -17,22 +18,15 @@ namespace {
 
 constexpr double progress = 0.8;  // coarse over fine vectors above which coarsening has ended
 
-/// The values of a matrix at its places in the wider pattern of the product that it is.
+/// @param product the Galerkin product that the matrix is
 template <int B>
-void fill_in(const BlockMatrix<B>& known, BlockMatrix<B>& product) {
-  for (Index q = 0; q < known.size(); ++q) {
-    Offset m = product.row[q];
-    const Offset end = product.row[q + 1];
-    for (Offset k = known.row[q]; k < known.row[q + 1]; ++k) {
-      while (m < end && product.column[m] != known.column[k]) ++m;
-      if (m == end)
-        input_error(
-            fmt::format("coarse matrix of {} rows", known.size() * B),
-            fmt::format("rows {} and {} are coupled, but not in the Galerkin product P'AP of the next finer one",
-                        q * B + 1, known.column[k] * B + 1));
-      std::copy_n(known.at(k), B * B, product.at(m));
-    }
-  }
+void adopt(const BlockMatrix<B>& known, BlockMatrix<B>& product) {
+  std::vector<Offset> position(static_cast<std::size_t>(product.size()), -1);
+  fill_in(known, product, position, [&](Index q, Index r) {
+    input_error(fmt::format("coarse matrix of {} rows", known.size() * B),
+                fmt::format("rows {} and {} are coupled, but not in the Galerkin product P'AP of the next finer one",
+                            q * B + 1, r * B + 1));
+  });
 }
 
 /// Goes down from level to level.
@@ -55,7 +49,7 @@ class Descent {
     if (known) {
       transfer.prepare(level_, P, true, coarse);
       coarse.clear_phases();
-      fill_in(*known, coarse.own_matrix);
+      adopt(*known, coarse.own_matrix);
     } else {
       transfer.prepare_assembled(level_, P, true, coarse);
     }

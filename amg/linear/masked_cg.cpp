@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/algebra/dot.hpp"
+#include "core/base/dot.hpp"
 #include "core/algebra/products.hpp"
 #include "core/solver/rounding.hpp"
 

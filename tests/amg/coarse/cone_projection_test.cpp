@@ -1,5 +1,5 @@
 // The projection onto a polyhedral cone satisfies the conditions of a nearest point.
-#include "amg/coarse/cone.hpp"
+#include "amg/coarse/cone_projection.hpp"
 
 #include <gtest/gtest.h>
 

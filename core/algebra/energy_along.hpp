@@ -6,14 +6,14 @@
 namespace signorini {
 
 /// d'Ad, and d'Dd with the diagonal D of A: the scale that tells a small energy from rounding.
-struct DirectionEnergy {
+struct EnergyAlong {
   double of_matrix = 0, of_diagonal = 0;
 };
 
 /// @param d B per vector
 template <int B>
-DirectionEnergy energy_along(const BlockMatrix<B>& A, const std::vector<double>& d) {
-  DirectionEnergy out;
+EnergyAlong energy_along(const BlockMatrix<B>& A, const std::vector<double>& d) {
+  EnergyAlong out;
   for (Index p = 0; p < A.size(); ++p) {
     double Ad[B];
     row_product(A, p, d.data(), Ad);

@@ -1,4 +1,4 @@
-#include "amg/coarse/cone.hpp"
+#include "amg/coarse/cone_projection.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
