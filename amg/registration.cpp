@@ -57,20 +57,20 @@ void register_linear_solvers(Registry& registry) {
                              [] { return std::make_unique<AmgConjugateGradients>(); });
 }
 
-void register_coarsenings(Registry& registry) {
-  const std::string file = file_of(reinterpret_cast<const void*>(&register_coarsenings));
-  registry.add<>({"amg",
-                  "classical",
-                  "strength of connection and extended interpolation from some of the vectors",
-                  options_of_levels(),
-                  file,
-                  {}});
-  registry.add<>({"amg",
-                  "aggregation",
-                  "smoothed aggregation, which represents a near null space such as rigid body modes",
-                  options_of_levels(),
-                  file,
-                  {}});
+std::vector<Entry> coarsenings() {
+  const std::string file = file_of(reinterpret_cast<const void*>(&coarsenings));
+  return {{"amg",
+           "aggregation",
+           "smoothed aggregation, which represents a near null space such as rigid body modes",
+           options_of_levels(),
+           file,
+           {}},
+          {"amg",
+           "classical",
+           "strength of connection and extended interpolation from some of the vectors",
+           options_of_levels(),
+           file,
+           {}}};
 }
 
 void register_aggregators(Registry& registry) {
@@ -88,7 +88,6 @@ Registry solver_components() {
   register_transfers(registry);
   register_coarse_solvers(registry);
   register_linear_solvers(registry);
-  register_coarsenings(registry);
   register_aggregators(registry);
   return registry;
 }

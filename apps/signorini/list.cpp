@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
@@ -84,7 +86,8 @@ const std::vector<std::string>& listable_kinds() {
 void list_command(const std::string& kinds) {
   Registry registry = solver_components();
   PluginLoader loader(registry);
-  const Catalogue all = catalogue(registry, loader);
+  Catalogue all = catalogue(registry, loader);
+  std::ranges::copy(coarsenings(), std::back_inserter(all.entries));
   if (kinds.empty() || kinds == solver) print_solver();
   for (const Kind& kind : kinds_table)
     if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);
