@@ -1,7 +1,8 @@
+#include "core/mesh/hanging.hpp"
+
 #include <cmath>
 
 #include "core/base/dot.hpp"
-#include "core/mesh/joints.hpp"
 #include "core/mesh/point_tree.hpp"
 #include "core/mesh/simplex.hpp"
 

@@ -5,16 +5,6 @@
 
 namespace signorini {
 
-/// Where elements of a valid mesh hang together by less than a face.
-struct Hinges {
-  std::vector<Index> vertices;              ///< around which the elements are not all joined by faces that hold them
-  std::vector<std::array<Index, 2>> edges;  ///< the same; 3D only. Their ends are not among `vertices`.
-};
-
-/// O(n log n) in the number of boundary faces; linear in that of elements where there are hinges at vertices.
-Hinges find_hinges(const Mesh<2>& mesh);
-Hinges find_hinges(const Mesh<3>& mesh);
-
 /// A boundary vertex inside a boundary face (or, in 3D, an edge of one) that it is no vertex of: there the elements do
 /// not meet face to face, or the body touches itself.
 struct HangingVertex {

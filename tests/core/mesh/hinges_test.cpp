@@ -1,4 +1,5 @@
-#include "core/mesh/joints.hpp"
+#include "core/mesh/hinges.hpp"
+#include "core/mesh/hanging.hpp"
 
 #include "core/mesh/build.hpp"
 #include "core/mesh/structured.hpp"
