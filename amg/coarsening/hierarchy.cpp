@@ -6,7 +6,7 @@
 
 #include "amg/coarsening/classical.hpp"
 #include "amg/coarsening/mode_aggregation.hpp"
-#include "amg/coarsening/reach.hpp"
+#include "amg/coarsening/reach_from_twins.hpp"
 #include "amg/coarsening/smoothed_aggregation.hpp"
 #include "core/algebra/fill_in.hpp"
 #include "core/base/error.hpp"

@@ -6,7 +6,7 @@
 
 #include "amg/black_box.hpp"
 #include "amg/coarsening/hierarchy.hpp"
-#include "amg/coarsening/reach.hpp"
+#include "amg/coarsening/reach_from_twins.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/configuration.hpp"

@@ -1,4 +1,4 @@
-#include "amg/coarsening/reach.hpp"
+#include "amg/coarsening/reach_from_twins.hpp"
 
 #include <utility>
 
