@@ -1,4 +1,4 @@
-#include "amg/black_box/recession.hpp"
+#include "amg/black_box/falls_forever.hpp"
 
 #include <algorithm>
 #include <cmath>
