@@ -8,7 +8,6 @@
 
 #include "amg/black_box/block_rows.hpp"
 #include "amg/black_box/box.hpp"
-#include "amg/black_box/definite.hpp"
 #include "amg/black_box/falls_forever.hpp"
 #include "amg/black_box/given_levels.hpp"
 #include "amg/black_box/held_rows.hpp"
@@ -16,6 +15,7 @@
 #include "amg/black_box/nested_start.hpp"
 #include "amg/black_box/recognise_block.hpp"
 #include "amg/black_box/refinement.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "amg/black_box/definite.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
 #include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/unit_diagonal.hpp"

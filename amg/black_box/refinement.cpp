@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "amg/black_box/definite.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
 #include "amg/black_box/two_doubles.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/unit_diagonal.hpp"

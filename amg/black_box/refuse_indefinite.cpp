@@ -1,4 +1,4 @@
-#include "amg/black_box/definite.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // Matrices with a negative eigenvalue are refused however small it is; semidefinite ones, as rounding leaves them,
 // pass.
-#include "amg/black_box/definite.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
