@@ -13,11 +13,11 @@ struct Interval {
 };
 
 /// The bounds of n unknowns; empty spans: none.
-class Box {
+class GivenBounds {
  public:
   /// Error(Exit::input) for sizes that do not fit and for NaN, Error(Exit::no_solution) where no number lies between
   /// the bounds of a row, counted from 1.
-  Box(std::size_t n, std::span<const double> lower, std::span<const double> upper);
+  GivenBounds(std::size_t n, std::span<const double> lower, std::span<const double> upper);
 
   Interval operator[](std::size_t i) const {
     return {lower_.empty() ? -infinity : lower_[i], upper_.empty() ? infinity : upper_[i]};
@@ -30,6 +30,6 @@ class Box {
 /// The bounds of the unknowns in blocks of size B that are not held.
 /// @param held per block
 template <int B>
-Constraints<B> constraints(const Box& bounds, const std::vector<Flags>& held);
+Constraints<B> constraints(const GivenBounds& bounds, const std::vector<Flags>& held);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "amg/black_box/box.hpp"
+#include "amg/black_box/given_bounds.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ void check(const char* what, std::span<const double> bounds, std::size_t n) {
       input_error(what, fmt::format("found NaN in row {}, expected a number, inf or -inf", i + 1));
 }
 
-void refuse_empty(const Box& bounds, std::size_t n) {
+void refuse_empty(const GivenBounds& bounds, std::size_t n) {
   constexpr std::size_t most = 5;  // rows in the message
   std::size_t count = 0;
   std::string rows;
@@ -32,14 +32,15 @@ void refuse_empty(const Box& bounds, std::size_t n) {
 
 }  // namespace
 
-Box::Box(std::size_t n, std::span<const double> lower, std::span<const double> upper) : lower_(lower), upper_(upper) {
+GivenBounds::GivenBounds(std::size_t n, std::span<const double> lower, std::span<const double> upper)
+    : lower_(lower), upper_(upper) {
   check("lower", lower, n);
   check("upper", upper, n);
   refuse_empty(*this, n);
 }
 
 template <int B>
-Constraints<B> constraints(const Box& bounds, const std::vector<Flags>& held) {
+Constraints<B> constraints(const GivenBounds& bounds, const std::vector<Flags>& held) {
   Constraints<B> out;
   out.slot.assign(held.size(), -1);
   for (Index p = 0; p < static_cast<Index>(held.size()); ++p) {
@@ -60,8 +61,8 @@ Constraints<B> constraints(const Box& bounds, const std::vector<Flags>& held) {
   return out;
 }
 
-template Constraints<1> constraints(const Box&, const std::vector<Flags>&);
-template Constraints<2> constraints(const Box&, const std::vector<Flags>&);
-template Constraints<3> constraints(const Box&, const std::vector<Flags>&);
+template Constraints<1> constraints(const GivenBounds&, const std::vector<Flags>&);
+template Constraints<2> constraints(const GivenBounds&, const std::vector<Flags>&);
+template Constraints<3> constraints(const GivenBounds&, const std::vector<Flags>&);
 
 }  // namespace signorini
