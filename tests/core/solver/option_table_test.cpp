@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <fstream>
 #include <limits>
+#include <map>
+#include <regex>
+#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/input/range.hpp"
@@ -103,6 +107,22 @@ TEST(OptionTable, EnumeratorsAreInTheOrderOfTheChoices) {
   EXPECT_TRUE(algebraic_settings(with("reach", "twins")).only_twins);
   EXPECT_FALSE(algebraic_settings(with("interpolate", "global")).local);
   EXPECT_TRUE(algebraic_settings(with("interpolate", "local")).local);
+}
+
+// docs/scene.md is written from the table; docs/solver.md explains the keys in its own words.
+TEST(OptionTable, IsExplainedWithItsDefaultsInTheDocumentation) {
+  std::ifstream page(SIGNORINI_SOURCE_DIR "/docs/solver.md");
+  std::map<std::string, std::string> defaults;
+  bool within = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) within = line.starts_with("## Options");
+    std::smatch row;
+    if (!within || !std::regex_match(line, row, std::regex(R"re(\| (`.*?`) \| "?(.*?)"? \|.*)re"))) continue;
+    std::istringstream names(row[1]);
+    for (std::string name; std::getline(names, name, '`') && std::getline(names, name, '`');) defaults[name] = row[2];
+  }
+  for (const KeySpec& key : solver_keys()) EXPECT_EQ(defaults[key.name], key.fallback) << key.name;
+  EXPECT_EQ(defaults.size(), solver_keys().size());
 }
 
 }  // namespace
