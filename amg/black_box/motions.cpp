@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "amg/black_box/given_bounds.hpp"
 #include "amg/black_box/refuse_indefinite.hpp"
 #include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/held_cholesky.hpp"
@@ -42,14 +43,10 @@ Dominance dominance(const BlockMatrix<B>& A, Index p, int i) {
   return excess > small ? Dominance::strict : excess >= -small ? Dominance::weak : Dominance::none;
 }
 
-struct Interval {
-  double lower = -infinity, upper = infinity;
-};
-
 template <int B>
 Interval bounds_of(const Constraints<B>& c, Offset i) {
   const Index slot = c.slot.empty() ? -1 : c.slot[static_cast<std::size_t>(i / B)];
-  if (slot < 0) return {};
+  if (slot < 0) return {-infinity, infinity};
   return {c.lower[Offset{slot} * B + i % B], c.upper[Offset{slot} * B + i % B]};
 }
 
@@ -311,7 +308,7 @@ Eigen::VectorXd Motions<B>::falling_direction(const Basis& basis, const std::vec
   AllowedMotions allowed(basis.value.cols());
   for (Eigen::Index k = 0; k < n; ++k) {
     const Interval bounds = bounds_of(constraints, basis.row[static_cast<std::size_t>(k)]);
-    if (bounds.lower == -infinity && bounds.upper == infinity) continue;
+    if (bounds.all()) continue;
     if (basis.value.row(k).cwiseAbs().maxCoeff() > least) allowed.bound(basis.value.row(k), bounds.lower, bounds.upper);
   }
   if (allowed.all()) return basis.value * work;
