@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/dot.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/rounding.hpp"
 
 namespace signorini {

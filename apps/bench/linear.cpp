@@ -6,8 +6,8 @@
 #include "amg/coarsening/hierarchy.hpp"
 #include "amg/linear/algebraic_cycle.hpp"
 #include "amg/registration.hpp"
-#include "core/base/dot.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/solver/convergence.hpp"
 
