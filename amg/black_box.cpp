@@ -6,17 +6,17 @@
 #include <cmath>
 #include <optional>
 
-#include "amg/block_rows.hpp"
-#include "amg/box.hpp"
-#include "amg/definite.hpp"
-#include "amg/given_levels.hpp"
-#include "amg/held_rows.hpp"
-#include "amg/hierarchy.hpp"
-#include "amg/motions.hpp"
-#include "amg/nested_start.hpp"
-#include "amg/recession.hpp"
-#include "amg/recognise_block.hpp"
-#include "amg/refinement.hpp"
+#include "amg/black_box/block_rows.hpp"
+#include "amg/black_box/falls_forever.hpp"
+#include "amg/black_box/given_bounds.hpp"
+#include "amg/black_box/given_levels.hpp"
+#include "amg/black_box/held_rows.hpp"
+#include "amg/black_box/motions.hpp"
+#include "amg/black_box/nested_start.hpp"
+#include "amg/black_box/recognise_block.hpp"
+#include "amg/black_box/refinement.hpp"
+#include "amg/black_box/refuse_indefinite.hpp"
+#include "amg/coarsening/hierarchy.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -147,7 +147,7 @@ class BlackBox::BlockSolver final : public Solver {
     check_size("b", b, n);
     check_finite("b", b);
     problem_.b.assign(b.begin(), b.end());
-    const Box bounds(n, lower, upper);
+    const GivenBounds bounds(n, lower, upper);
     check_start(start);
     hold(held_by(bounds));
     problem_.constraints = constraints<B>(bounds, problem_.fixed);
@@ -186,7 +186,7 @@ class BlackBox::BlockSolver final : public Solver {
   }
 
   /// Components whose row of the matrix is zero or whose bounds are equal.
-  std::vector<Flags> held_by(const Box& bounds) const {
+  std::vector<Flags> held_by(const GivenBounds& bounds) const {
     std::vector<Flags> out = zero_rows_;
     for (std::size_t i = 0; i < problem_.b.size(); ++i)
       if (bounds[i].lower == bounds[i].upper) out[i / B] |= static_cast<Flags>(1u << (i % B));

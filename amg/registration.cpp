@@ -1,25 +1,26 @@
 #include "amg/registration.hpp"
 
-#include "amg/amg_cg.hpp"
-#include "amg/cholmod_solver.hpp"
-#include "amg/coarse_newton.hpp"
-#include "amg/metis_aggregates.hpp"
-#include "core/scene/specs.hpp"
+#include "amg/coarse/coarse_newton.hpp"
+#include "amg/coarsening/metis_aggregates.hpp"
+#include "amg/linear/amg_cg.hpp"
+#include "amg/linear/cholmod_solver.hpp"
+#include "core/scene/solver_keys.hpp"
+#include "core/solver/option_table.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
 
 namespace signorini {
 namespace {
 
-/// Keys of [solver] that concern algebraic levels.
+/// Those of the solver that concern levels chosen by the matrix.
 std::vector<OptionSpec> options_of_levels() {
   std::vector<OptionSpec> out;
-  const auto keys = find_table("solver")->keys;
-  for (const char* name : {"coarsening", "aggregates", "reassemble", "reach", "interpolate", "rotate"}) {
-    const KeySpec& key = *find_key(keys, name);
-    const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
-    out.push_back({key.name, type, key.fallback, key.range, key.help});
-  }
+  for (const auto& row : option_table())
+    if (row.of_levels) {
+      const KeySpec& key = *find_key(solver_keys(), row.name);
+      const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
+      out.push_back({key.name, type, key.fallback, key.range, key.help});
+    }
   return out;
 }
 
@@ -56,20 +57,20 @@ void register_linear_solvers(Registry& registry) {
                              [] { return std::make_unique<AmgConjugateGradients>(); });
 }
 
-void register_coarsenings(Registry& registry) {
-  const std::string file = file_of(reinterpret_cast<const void*>(&register_coarsenings));
-  registry.add<>({"amg",
-                  "classical",
-                  "strength of connection and extended interpolation from some of the vectors",
-                  options_of_levels(),
-                  file,
-                  {}});
-  registry.add<>({"amg",
-                  "aggregation",
-                  "smoothed aggregation, which represents a near null space such as rigid body modes",
-                  options_of_levels(),
-                  file,
-                  {}});
+std::vector<Entry> coarsenings() {
+  const std::string file = file_of(reinterpret_cast<const void*>(&coarsenings));
+  return {{"amg",
+           "aggregation",
+           "smoothed aggregation, which represents a near null space such as rigid body modes",
+           options_of_levels(),
+           file,
+           {}},
+          {"amg",
+           "classical",
+           "strength of connection and extended interpolation from some of the vectors",
+           options_of_levels(),
+           file,
+           {}}};
 }
 
 void register_aggregators(Registry& registry) {
@@ -87,7 +88,6 @@ Registry solver_components() {
   register_transfers(registry);
   register_coarse_solvers(registry);
   register_linear_solvers(registry);
-  register_coarsenings(registry);
   register_aggregators(registry);
   return registry;
 }

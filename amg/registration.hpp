@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "core/component/registry.hpp"
 
 namespace signorini {
@@ -9,13 +11,14 @@ void register_coarse_solvers(Registry& registry);
 /// Adds what solves the linear systems of active sets: cholmod, amg_cg.
 void register_linear_solvers(Registry& registry);
 
-/// Adds how levels are chosen by the matrix, for `signorini list`: classical, aggregation. Nothing creates them.
-void register_coarsenings(Registry& registry);
+/// How levels are chosen by the matrix, for `signorini list`: the choices of the option `coarsening`. No components,
+/// and in no registry.
+std::vector<Entry> coarsenings();
 
 /// Adds what makes the aggregates of smoothed aggregation: greedy, metis.
 void register_aggregators(Registry& registry);
 
-/// All smoothers, transfers, coarse and linear solvers, coarsenings and aggregators: what a solve is composed from.
+/// All smoothers, transfers, coarse and linear solvers and aggregators: what a solve is composed from.
 Registry solver_components();
 
 }  // namespace signorini

@@ -31,7 +31,11 @@ install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
 install(DIRECTORY core driver ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
   COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE PATTERN cairo EXCLUDE)
-install(FILES amg/black_box.hpp amg/near_null_space.hpp amg/signorini.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
+install(FILES amg/black_box.hpp amg/near_null_space.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
+# Once more where it was before it had a folder of its own.
+foreach(folder c amg)
+  install(FILES c/signorini.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/${folder} COMPONENT sdk)
+endforeach()
 
 configure_file(cmake/signorini_c.pc.in ${PROJECT_BINARY_DIR}/signorini_c.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/signorini_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT sdk)

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <cmath>
 #include <utility>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/build_model.hpp"
@@ -89,9 +89,7 @@ namespace {
 /// Loads far smaller than stiffness times displacement are lost in rounding, and in the tolerance.
 void add_balance_warning(const StepReport& report, std::vector<std::string>& warnings) {
   constexpr double noticeable = 0.01;
-  const auto size = [](const std::vector<double>& v) {
-    return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
-  };
+  const auto size = [](const std::vector<double>& v) { return std::sqrt(dot(v, v)); };
   for (const BalanceReport& balance : report.balance) {
     const double applied = size(balance.applied), left = size(balance.sum());
     if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;

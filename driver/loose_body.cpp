@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amg/cone.hpp"
+#include "amg/coarse/allowed_motions.hpp"
+#include "amg/coarse/cone_projection.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
@@ -141,16 +142,12 @@ template <int D, int B>
 void LooseBody<D, B>::require_minimum() const {
   const double enough = negligible * most_work_;
   if (free_.cols() == 0 || !(work_.norm() > enough)) return;
-  std::vector<Eigen::RowVectorXd> ends;
-  for (const Room& room : rooms(discretization_.problem.start)) {
-    if (room.lower > -infinity) ends.push_back(room.row.normalized());
-    if (room.upper < infinity) ends.push_back(-room.row.normalized());
-  }
-  const Eigen::MatrixXd G = stacked(ends, free_.cols());
+  AllowedMotions allowed(free_.cols());
+  for (const Room& room : rooms(discretization_.problem.start)) allowed.bound(room.row, room.lower, room.upper);
   // What is left of the loads is a direction only if it is one by itself, too, and not rounding.
-  const Eigen::VectorXd left = project_onto_cone(G, work_);
+  const Eigen::VectorXd left = allowed.nearest(work_);
   if (!(left.norm() > enough)) return;
-  const Eigen::VectorXd motion = project_onto_cone(G, left.normalized());
+  const Eigen::VectorXd motion = allowed.nearest(left.normalized());
   if (!(work_.dot(motion) - resistance(free_ * motion) > enough * motion.norm())) return;
   throw Error(Exit::no_solution,
               fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "

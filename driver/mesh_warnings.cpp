@@ -6,7 +6,8 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/mesh/joints.hpp"
+#include "core/mesh/hanging.hpp"
+#include "core/mesh/hinges.hpp"
 #include "driver/numbers.hpp"
 
 namespace signorini {

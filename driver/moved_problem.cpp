@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/algebra/local_coordinates.hpp"
+#include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "amg/hierarchy.hpp"
-#include "amg/nested_start.hpp"
+#include "amg/coarsening/hierarchy.hpp"
+#include "amg/black_box/nested_start.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"

@@ -30,7 +30,6 @@ class BlockTransfer : public Transfer<B> {
   void give_slots(const Level<B>& fine, Level<B>& coarse) const;
   void sum_terms(const Level<B>& fine, Level<B>& coarse) const;
   void adopt(const GalerkinMatrix<B>& known, bool complete, Level<B>& coarse);
-  void fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void transpose_weights();
   void begin_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);

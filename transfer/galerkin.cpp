@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/algebra/fill_in.hpp"
 #include "core/solver/weights.hpp"
 #include "transfer/block_transfer.hpp"
 #include "transfer/modifier.hpp"
@@ -49,22 +50,10 @@ void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, bool complete, Leve
   if (complete)
     coarse.own_matrix = known.A;
   else
-    fill_in(known.A, coarse.own_matrix);
+    fill_in(known.A, coarse.own_matrix, position_, [](Index, Index) { assert(!"a product that is narrower"); });
   coarse.off = prescribed_ = known.off;
   for (Index q = 0; q < coarse.vectors; ++q) invert_diagonal(coarse, q);
   assembled_ = true;
-}
-
-// The values of a matrix at its places in a wider pattern.
-template <int B>
-void BlockTransfer<B>::fill_in(const BlockMatrix<B>& A, BlockMatrix<B>& coarse) {
-  for (Index q = 0; q < coarse.size(); ++q) {
-    for (Offset k = coarse.row[q]; k < coarse.row[q + 1]; ++k) position_[coarse.column[k]] = k;
-    for (Offset k = A.row[q]; k < A.row[q + 1]; ++k) {
-      assert(position_[A.column[k]] >= coarse.row[q] && coarse.column[position_[A.column[k]]] == A.column[k]);
-      std::copy_n(A.at(k), B * B, coarse.at(position_[A.column[k]]));
-    }
-  }
 }
 
 template <int B>

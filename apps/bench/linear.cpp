@@ -2,12 +2,12 @@
 
 #include <cmath>
 
-#include "amg/algebraic_cycle.hpp"
-#include "amg/block_rows.hpp"
-#include "amg/hierarchy.hpp"
+#include "amg/black_box/block_rows.hpp"
+#include "amg/coarsening/hierarchy.hpp"
+#include "amg/linear/algebraic_cycle.hpp"
 #include "amg/registration.hpp"
-#include "core/algebra/dot.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/solver/convergence.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "amg/aggregates.hpp"
+#include "amg/coarsening/aggregates.hpp"
 #include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"

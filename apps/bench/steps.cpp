@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "apps/scenes/tables.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
 
@@ -11,29 +12,9 @@ namespace signorini::bench {
 namespace {
 
 // An oblique plane rises against a block that is held at its top: the contact grows in every step.
-constexpr const char* block = R"(
-[[body]]
-name = "block"
-shape = "box"
-from = [0, 0, 0]
-to = [1, 1, 1.25]
-cells = [4, 4, 5]
-young = 1
-poisson = 0.3
-[[fix]]
-body = "block"
-on = "top"
-value = [0, 0, 0]
-[[obstacle]]
-type = "contact"
-body = "block"
-on = "bottom"
-shape = "plane"
-point = [0.5, 0.5, "-0.04 + 0.08 * t"]
-normal = [0.1, 0, 1]
-[steps]
-count = 20
-)";
+const std::string block =
+    tables::block("block", "[0, 0, 0]", "[1, 1, 1.25]", "[4, 4, 5]") + tables::fix("block", "top", "[0, 0, 0]") +
+    tables::plane("block", "bottom", "[0.5, 0.5, '-0.04 + 0.08 * t']", "[0.1, 0, 1]") + "[steps]\ncount = 20\n";
 
 }  // namespace
 

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "core/component/plugin_loader.hpp"
-#include "core/scene/specs.hpp"
+#include "core/scene/solver_keys.hpp"
 #include "driver/components.hpp"
 
 namespace signorini {
@@ -68,7 +70,7 @@ constexpr const char* solver = "solver";  // no component: what puts the compone
 
 void print_solver() {
   fmt::print("{}\n  {:<16} {}\n", solver, "[solver]", "keys of the scene's table, --set solver.KEY=VALUE");
-  for (const KeySpec& key : find_table(solver)->keys) print_option(key);
+  for (const KeySpec& key : solver_keys()) print_option(key);
 }
 }  // namespace
 
@@ -84,7 +86,8 @@ const std::vector<std::string>& listable_kinds() {
 void list_command(const std::string& kinds) {
   Registry registry = solver_components();
   PluginLoader loader(registry);
-  const Catalogue all = catalogue(registry, loader);
+  Catalogue all = catalogue(registry, loader);
+  std::ranges::copy(coarsenings(), std::back_inserter(all.entries));
   if (kinds.empty() || kinds == solver) print_solver();
   for (const Kind& kind : kinds_table)
     if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);

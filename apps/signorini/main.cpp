@@ -14,6 +14,9 @@
 #include "core/base/heap.hpp"
 #include "core/base/version.hpp"
 #include "core/component/crash.hpp"
+#include "core/input/range.hpp"
+#include "core/scene/solver_keys.hpp"
+#include "core/solver/option_table.hpp"
 
 namespace signorini {
 namespace {
@@ -76,6 +79,31 @@ auto one_of(std::vector<std::string> names) {
   };
 }
 
+/// An option with the range and the default of a key of [solver].
+void as_in_table(CLI::Option& option, const char* key) {
+  const KeySpec& spec = *find_key(solver_keys(), key);
+  const Range range(spec.range);
+  option.default_str(spec.fallback);
+  if (!range.choices().empty())
+    option.check(one_of(range.choices()));
+  else
+    option.check([range](const std::string& found) {
+      const bool within = range.contains(std::strtod(found.c_str(), nullptr));
+      return within ? "" : fmt::format("found '{}', expected {}", found, range.expected("a number"));
+    });
+}
+
+/// The keys of [solver] that need no mesh, with range and default, one per line.
+std::string solver_options_text() {
+  std::string text = "\n\nOptions for --set, with range and default; `signorini list solver` explains them:";
+  for (const auto& row : option_table()) {
+    const KeySpec& key = *find_key(solver_keys(), row.name);
+    text +=
+        fmt::format("\n  solver.{:<15} {} ({})", key.name, *key.range ? key.range : type_name(key.type), key.fallback);
+  }
+  return text;
+}
+
 void add_scene(CLI::App& command, Arguments& arguments) {
   command.add_option("SCENE", arguments.solve.scene, "the scene, a TOML file")->required();
   command
@@ -128,22 +156,16 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
       ->default_str("what the matrix looks like");
-  command->add_option("--tol", qp.tolerance, "bound for the residual and the algebraic error, both relative")
-      ->check([](const std::string& found) {
-        const double tolerance = std::strtod(found.c_str(), nullptr);
-        return tolerance > 0 && tolerance < 1 ? "" : "found '" + found + "', expected a number between 0 and 1";
-      })
-      ->default_str("1e-08");
-  command->add_option("--method", qp.method, "see docs/solver.md")
-      ->check(one_of({"auto", "monotone", "tnnmg", "pgs", "pdas"}))
-      ->default_str("auto");
+  as_in_table(
+      *command->add_option("--tol", qp.tolerance, "bound for the residual and the algebraic error, both relative"),
+      "tolerance");
+  as_in_table(*command->add_option("--method", qp.method, "see docs/solver.md"), "method");
   command
-      ->add_option(
-          "--set", qp.settings,
-          "further options of the solver, such as solver.reassemble=false; may be repeated; see docs/solver.md")
+      ->add_option("--set", qp.settings,
+                   "further options of the solver, such as solver.reassemble=false; may be repeated; listed below")
       ->type_name("solver.KEY=VALUE")
       ->allow_extra_args(false);
-  command->footer(std::string(solve_notes) + qp_notes);
+  command->footer(std::string(solve_notes) + qp_notes + solver_options_text());
   return command;
 }
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "amg/black_box.hpp"
-#include "amg/recognise_block.hpp"
+#include "amg/black_box/recognise_block.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/interrupt.hpp"

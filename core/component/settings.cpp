@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/fem/field.hpp"
-#include "core/scene/values.hpp"
+#include "core/input/field.hpp"
+#include "core/input/values.hpp"
 
 namespace signorini {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 #include "core/sdk/settings.hpp"
 
 namespace signorini {

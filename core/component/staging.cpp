@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/component/settings.hpp"
-#include "core/scene/range.hpp"
+#include "core/input/range.hpp"
 
 namespace signorini {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/algebra/local_coordinates.hpp"
+#include "core/algebra/local_basis.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
 #include "core/component/settings.hpp"

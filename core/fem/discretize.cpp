@@ -4,13 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "core/algebra/local_coordinates.hpp"
+#include "core/algebra/local_basis.hpp"
 #include "core/algebra/products.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/magnitude.hpp"
 #include "core/fem/same.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {

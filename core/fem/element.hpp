@@ -2,7 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fem/field.hpp"
+#include "core/base/dot.hpp"
+#include "core/input/field.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -20,17 +21,6 @@ struct LinearElement {
   double measure;
   std::array<Point<D>, D + 1> gradient;
 };
-
-template <std::size_t N>
-inline double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
-  double s = 0;
-  for (std::size_t i = 0; i < N; ++i) s += a[i] * b[i];
-  return s;
-}
-
-inline Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 inline LinearElement<2> linear_element(const Mesh<2>& mesh, const Simplex<2>& v) {
   const Point<2> a = difference<2>(mesh.points[v[1]], mesh.points[v[0]]);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/field.hpp"
+#include "core/input/field.hpp"
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/settings.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/algebra/products.hpp"
+#include "core/algebra/energy_along.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/weights.hpp"
 
@@ -15,16 +15,6 @@ namespace {
 // Energies of a random vector agree that well where only rounding tells the matrices apart. On curved boundaries, or
 // with coefficients that vary, they differ far more.
 constexpr double rounding = 1e-11;
-
-template <int B>
-double energy(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
-  double sum = 0, Ax[B];
-  for (Index p = 0; p < problem.A.size(); ++p) {
-    row_product(problem.A, p, x.data(), Ax);
-    for (int k = 0; k < B; ++k) sum += x[Offset{p} * B + k] * Ax[k];
-  }
-  return sum;
-}
 
 template <int B>
 void clear_fixed(const DiscreteProblem<B>& problem, std::vector<double>& x) {
@@ -101,7 +91,7 @@ bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongat
   clear_fixed(coarse, z);
   std::vector<double> Pz = interpolate(coarse, z, prolongation, fine);
   clear_fixed(fine, Pz);
-  const double below = energy(coarse, z), above = energy(fine, Pz);
+  const double below = energy_along(coarse.A, z).of_matrix, above = energy_along(fine.A, Pz).of_matrix;
   return std::abs(above - below) <= rounding * below;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/algebra/local_coordinates.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 using Vector = std::vector<Field>;
 
-double dot(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
 Point<3> scaled(double s, const Point<3>& a) { return {s * a[0], s * a[1], s * a[2]}; }
 Point<3> minus(const Point<3>& a, const Point<3>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/field.hpp"
+#include "core/input/field.hpp"
 #include "core/sdk/settings.hpp"
 
 /// Rigid obstacles with a closed form of their distance. Vectors have an entry per dimension; in 2D the third is zero.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/dot.hpp"
+
 namespace signorini {
 namespace {
 
@@ -11,12 +13,6 @@ using Vector = std::array<double, 3>;
 constexpr std::size_t edges_up_to = 1500;  ///< more triangles than this are drawn without their edges
 constexpr double edge_width = 0.45;        ///< pixels on each side
 constexpr std::array<int, 3> edge_colour{0x60, 0x60, 0x60};
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 Vector normalised(Vector a) {
   const double length = std::sqrt(dot(a, a));

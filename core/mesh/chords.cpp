@@ -5,19 +5,13 @@
 #include <map>
 #include <numbers>
 
+#include "core/base/dot.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr double rounding = 1e-6, edge = std::numbers::pi / 6;  // angles
-
-template <int D>
-double dot(const Point<D>& a, const Point<D>& b) {
-  double sum = 0;
-  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 /// From what is opposite to a corner of a face to that corner, the shortest way.
 Point<2> across(const Mesh<2>& mesh, const Face<2>& face, int tip) {

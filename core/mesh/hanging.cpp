@@ -1,6 +1,8 @@
+#include "core/mesh/hanging.hpp"
+
 #include <cmath>
 
-#include "core/mesh/joints.hpp"
+#include "core/base/dot.hpp"
 #include "core/mesh/point_tree.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -8,13 +10,6 @@ namespace signorini {
 namespace {
 
 constexpr double tolerance = 1e-9;
-
-template <int D>
-double dot(const Point<D>& a, const Point<D>& b) {
-  double sum = 0;
-  for (int k = 0; k < D; ++k) sum += a[k] * b[k];
-  return sum;
-}
 
 /// A boundary face in units of its longest edge, its first corner at the origin: free of overflow.
 template <int D>

@@ -1,7 +1,8 @@
+#include "core/mesh/hinges.hpp"
+
 #include <algorithm>
 #include <utility>
 
-#include "core/mesh/joints.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 #include "core/scene/read_tables.hpp"
 
 namespace signorini {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 #include "core/scene/specs.hpp"
 #include "core/scene/toml.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 
 namespace signorini {
 

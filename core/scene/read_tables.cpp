@@ -36,38 +36,6 @@ Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder
   return load;
 }
 
-Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder) {
-  const TableReader reader(table, find_table("solver")->keys, folder);
-  reader.check_keys();
-  Scene::Solver solver;
-  solver.tolerance = reader.number("tolerance");
-  solver.max_iterations = reader.integer("max_iterations");
-  solver.method = reader.text("method");
-  solver.cycle = reader.text("cycle");
-  solver.pre = reader.integer("pre");
-  solver.post = reader.integer("post");
-  solver.smoother = reader.text("smoother");
-  solver.relaxation = reader.number("relaxation");
-  solver.transfer = reader.text("transfer");
-  solver.coarse = reader.text("coarse");
-  solver.truncate = reader.text("truncate");
-  solver.cut = reader.number("cut");
-  solver.rotate = reader.text("rotate");
-  solver.algebraic = reader.flag("algebraic");
-  solver.hierarchy = reader.text("hierarchy");
-  solver.reassemble = reader.flag("reassemble");
-  solver.reach = reader.text("reach");
-  solver.interpolate = reader.text("interpolate");
-  solver.coarsening = reader.text("coarsening");
-  solver.aggregates = reader.text("aggregates");
-  solver.krylov = reader.flag("krylov");
-  solver.start = reader.text("start");
-  solver.threads = reader.integer("threads");
-  solver.source = reader.source();
-  if (solver.pre + solver.post == 0) input_error(reader.origin("post"), "'pre' and 'post' are both 0: nothing smooths");
-  return solver;
-}
-
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("probe")->keys, folder);
   reader.check_keys();

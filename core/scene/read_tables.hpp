@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 #include "core/scene/scene.hpp"
 
 /// One reader per table of a scene; each validates the table by itself. `folder` is what file names are relative to.
@@ -12,7 +12,6 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
 Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder);
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder);
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder);
-Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder);
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder);
 
 /// Dimension of a body by its shape; 0 when only the mesh file tells.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
+#include "core/input/expression.hpp"
 #include "core/scene/examples.hpp"
-#include "core/scene/expression.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
 

@@ -7,9 +7,10 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
+#include "core/input/expression.hpp"
 #include "core/scene/override.hpp"
 #include "core/scene/read_tables.hpp"
+#include "core/scene/solver_keys.hpp"
 #include "core/scene/table_reader.hpp"
 #include "core/scene/toml.hpp"
 

@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "core/fem/field.hpp"
 #include "core/fem/model.hpp"
 #include "core/geometry/geometry.hpp"
-#include "core/scene/raw.hpp"
+#include "core/input/field.hpp"
+#include "core/input/raw.hpp"
 #include "core/solver/options.hpp"
 
 namespace signorini {

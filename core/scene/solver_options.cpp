@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/override.hpp"
-#include "core/scene/read_tables.hpp"
+#include "core/scene/solver_keys.hpp"
 
 namespace signorini {
 
@@ -27,7 +27,7 @@ SolverOptions solver_options(std::span<const std::string> assignments) {
         solver = table;
       else
         for (const auto& [key, value] : table.entries) refuse(value, "solver.KEY=VALUE");
-  for (const char* key : {"start", "algebraic", "hierarchy"})
+  for (const char* key : solver_keys_of_scenes())
     if (const RawValue* value = solver.find(key)) refuse(*value, "another key: this one needs meshes");
   return read_solver(solver, {});
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/solver_keys.hpp"
+
 namespace signorini {
 namespace {
 
@@ -126,54 +128,6 @@ constexpr ShapeSpec rigid_shapes[] = {
     {"expression", 0, "given by its distance function", expression_obstacle},
 };
 
-constexpr KeySpec solver[] = {
-    {"tolerance", number, "1e-8", "(0, 1)", "", "for the relative algebraic error and for the natural residual"},
-    {"max_iterations", integer, "200", "[1, 1000000]", "",
-     "limit on the number of steps of all methods together: cycles, and the linear solves of others"},
-    {"method", text, "auto", "auto | monotone | tnnmg | pgs | pdas", "",
-     "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
-     "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while phases rest, pdas where cycles "
-     "are slow and unknowns no more than 150000 or scalar"},
-    {"cycle", text, "V", "V | W | F", "", "shape of the cycle"},
-    {"pre", integer, "2", "[0, 100]", "", "smoothing steps before the coarse correction"},
-    {"post", integer, "2", "[0, 100]", "", "smoothing steps after the coarse correction"},
-    {"smoother", text, "forward", "", "", "a smoother of `signorini list smoothers`"},
-    {"relaxation", number, "1.2", "(0, 2)", "",
-     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel"},
-    {"transfer", text, "min_merge", "", "", "a monotone restriction of `signorini list transfers`"},
-    {"coarse", text, "newton", "", "", "a coarse solver of `signorini list coarse`"},
-    {"truncate", text, "normal", "none | normal | tangential", "",
-     "directions in contact taken out of the interpolation; tangential: all directions of a vector in contact"},
-    {"cut", number, "0", "[0, 100]", "",
-     "also truncate where less is left than this part of the last cycle's largest change"},
-    {"rotate", text, "all", "all | not_coarsest | meshes | none", "",
-     "levels on which contact vectors use their local basis; meshes: not the algebraic ones"},
-    {"algebraic", boolean, "true", "", "",
-     "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
-    {"hierarchy", text, "auto", "auto | meshes | matrix", "",
-     "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
-     "auto: "
-     "the meshes, but the matrix where cells are stretched and algebraic levels are allowed"},
-    {"reassemble", boolean, "true", "", "",
-     "renew the matrices of algebraic levels where phases have changed; false: search along their corrections"},
-    {"reach", text, "all", "all | twins", "",
-     "what corrects constrained vectors from algebraic levels: all coarse vectors, which then have bounds, or the "
-     "twins "
-     "of constrained ones; other weights are truncated"},
-    {"interpolate", text, "global", "global | local", "",
-     "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases"},
-    {"coarsening", text, "auto", "auto | classical | aggregation", "",
-     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
-     "for "
-     "elastic bodies"},
-    {"aggregates", text, "greedy", "", "",
-     "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`"},
-    {"krylov", boolean, "true", "", "", "accelerate the cycles while the phases rest"},
-    {"start", text, "nested", "nested | zero", "", "nested: from the solution on the next coarser mesh"},
-    {"threads", integer, "1", "[1, 4096]", "",
-     "threads of the cycles, for large problems; results do not depend on them"},
-};
-
 constexpr KeySpec refine[] = {
     {"uniform", integer, "0", "[0, 30]", "", "uniform refinements of the coarsest mesh"},
     {"adaptive", boolean, "false", "false", "true", "refine where the estimated error is large"},
@@ -203,25 +157,28 @@ constexpr KeySpec output[] = {
     {"convergence", boolean, "true", "", "", "write the convergence table"},
 };
 
-constexpr TableSpec tables[] = {
-    {"body", true,
-     "The body to be deformed, or the domain of a scalar equation. There may be several: they are solved one after the "
-     "other, are not coupled, and have one report.",
-     body},
-    {"material", true, "What a part of a body is made of that the mesh file names; elsewhere the body's own holds.",
-     material},
-    {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
-     fix},
-    {"load", true, "A force that pulls or pushes.", load},
-    {"obstacle", true, "What the body may not penetrate.", obstacle},
-    {"solver", false, "How the algebraic problem is solved.", solver},
-    {"refine", false, "How the mesh is refined.", refine},
-    {"steps", false,
-     "Quasi-static loading: several solves, one after the other. Numbers may depend on the step by `t`.", steps},
-    {"probe", true, "A point whose result is reported.", probe},
-    {"plugins", false, "Where obstacle plugins are found.", plugins},
-    {"output", false, "Which files are written beside the report.", output},
-};
+const std::vector<TableSpec>& tables() {
+  static const std::vector<TableSpec> all = {
+      {"body", true,
+       "The body to be deformed, or the domain of a scalar equation. There may be several: they are solved one after "
+       "the other, are not coupled, and have one report.",
+       body},
+      {"material", true, "What a part of a body is made of that the mesh file names; elsewhere the body's own holds.",
+       material},
+      {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
+       fix},
+      {"load", true, "A force that pulls or pushes.", load},
+      {"obstacle", true, "What the body may not penetrate.", obstacle},
+      {"solver", false, "How the algebraic problem is solved.", solver_keys()},
+      {"refine", false, "How the mesh is refined.", refine},
+      {"steps", false,
+       "Quasi-static loading: several solves, one after the other. Numbers may depend on the step by `t`.", steps},
+      {"probe", true, "A point whose result is reported.", probe},
+      {"plugins", false, "Where obstacle plugins are found.", plugins},
+      {"output", false, "Which files are written beside the report.", output},
+  };
+  return all;
+}
 
 template <class Spec>
 const Spec* find(std::span<const Spec> specs, std::string_view name) {
@@ -239,11 +196,11 @@ std::vector<std::string> names(std::span<const Spec> specs) {
 }  // namespace
 
 std::span<const KeySpec> top_keys() { return top; }
-std::span<const TableSpec> table_specs() { return tables; }
+std::span<const TableSpec> table_specs() { return tables(); }
 std::span<const ShapeSpec> body_shapes() { return shapes; }
 std::span<const ShapeSpec> obstacle_shapes() { return rigid_shapes; }
 
-const TableSpec* find_table(std::string_view name) { return find<TableSpec>(tables, name); }
+const TableSpec* find_table(std::string_view name) { return find<TableSpec>(tables(), name); }
 const KeySpec* find_key(std::span<const KeySpec> keys, std::string_view name) { return find(keys, name); }
 const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view name) { return find(all, name); }
 std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }

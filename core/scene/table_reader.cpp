@@ -5,10 +5,10 @@
 #include <cassert>
 
 #include "core/base/error.hpp"
-#include "core/scene/expression.hpp"
-#include "core/scene/range.hpp"
+#include "core/input/expression.hpp"
+#include "core/input/range.hpp"
+#include "core/input/values.hpp"
 #include "core/scene/toml.hpp"
-#include "core/scene/values.hpp"
 
 namespace signorini {
 namespace {

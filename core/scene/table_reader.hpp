@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fem/field.hpp"
 #include "core/fem/model.hpp"
-#include "core/scene/raw.hpp"
+#include "core/input/field.hpp"
+#include "core/input/raw.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/input/expression.hpp"
 #include "core/scene/check_toml.hpp"
-#include "core/scene/expression.hpp"
 
 namespace signorini {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/scene/raw.hpp"
+#include "core/input/raw.hpp"
 
 namespace signorini {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/solver/option_table.hpp"
 
 namespace signorini {
 
@@ -12,55 +13,27 @@ void require(bool holds, const char* key, const std::string& found, const char* 
   if (!holds) input_error(fmt::format("solver.{}", key), fmt::format("found '{}', expected {}", found, expected));
 }
 
-// The value that a name stands for.
-template <class T>
-T choice(const char* key, const std::string& found, std::initializer_list<std::pair<const char*, T>> known) {
-  std::string names;
-  for (const auto& [name, value] : known) {
-    if (found == name) return value;
-    names += fmt::format("{}'{}'", names.empty() ? "" : " or ", name);
-  }
-  require(false, key, found, names.c_str());
-  return {};
-}
+enum class Reach { all, twins };
+enum class Interpolate { global, local };
 
-Truncation truncation_of(const SolverOptions& o) {
-  return choice<Truncation>(
-      "truncate", o.truncate,
-      {{"none", Truncation::none}, {"normal", Truncation::normal}, {"tangential", Truncation::tangential}});
-}
+Truncation truncation_of(const SolverOptions& o) { return choice<Truncation>(o, &SolverOptions::truncate); }
 
-bool only_twins(const SolverOptions& o) { return choice<bool>("reach", o.reach, {{"all", false}, {"twins", true}}); }
+bool only_twins(const SolverOptions& o) { return choice<Reach>(o, &SolverOptions::reach) == Reach::twins; }
 
 bool local_components(const SolverOptions& o) {
-  return choice<bool>("interpolate", o.interpolate, {{"global", false}, {"local", true}});
+  return choice<Interpolate>(o, &SolverOptions::interpolate) == Interpolate::local;
 }
 
 }  // namespace
 
-Coarsening coarsening_of(const SolverOptions& o) {
-  return choice<Coarsening>("coarsening", o.coarsening,
-                            {{"auto", Coarsening::automatic},
-                             {"classical", Coarsening::classical},
-                             {"aggregation", Coarsening::aggregation}});
-}
+Coarsening coarsening_of(const SolverOptions& o) { return choice<Coarsening>(o, &SolverOptions::coarsening); }
 
 Method check_options(const SolverOptions& o) {
-  require(o.pre >= 0 && o.post >= 0 && o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post),
-          "pre, post >= 0 and at least one smoothing step");
-  require(o.tolerance > 0 && o.tolerance < 1, "tolerance", fmt::format("{}", o.tolerance), "a number in (0, 1)");
-  require(o.max_iterations >= 1, "max_iterations", fmt::format("{}", o.max_iterations), "at least 1");
-  require(o.cut >= 0 && o.cut <= 100, "cut", fmt::format("{}", o.cut), "a number in [0, 100]");
+  check_ranges(o);
+  require(o.pre + o.post > 0, "pre", fmt::format("{}' and '{}", o.pre, o.post), "at least one smoothing step");
   require(o.cut == 0 || truncation_of(o) != Truncation::none, "cut", fmt::format("{}", o.cut),
           "0 with truncate 'none'");
-  require(o.relaxation > 0 && o.relaxation < 2, "relaxation", fmt::format("{}", o.relaxation), "a number in (0, 2)");
-  require(o.threads >= 1 && o.threads <= 4096, "threads", fmt::format("{}", o.threads), "a number from 1 to 4096");
-  const auto method = choice<Method>("method", o.method,
-                                     {{"auto", Method::automatic},
-                                      {"monotone", Method::monotone},
-                                      {"tnnmg", Method::tnnmg},
-                                      {"pgs", Method::pgs},
-                                      {"pdas", Method::pdas}});
+  const auto method = choice<Method>(o, &SolverOptions::method);
   require(method != Method::tnnmg || truncation_of(o) != Truncation::none, "truncate", o.truncate,
           "'normal' or 'tangential' with method 'tnnmg', whose coarse corrections have no bounds");
   require(method == Method::tnnmg || o.transfer != "none", "transfer", o.transfer,
@@ -84,13 +57,9 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& o) {
   check_options(o);
   return {o.pre,
           o.post,
-          choice<Cycle>("cycle", o.cycle, {{"V", Cycle::V}, {"W", Cycle::W}, {"F", Cycle::F}}),
+          choice<Cycle>(o, &SolverOptions::cycle),
           truncation_of(o),
-          choice<Rotate>("rotate", o.rotate,
-                         {{"all", Rotate::all},
-                          {"not_coarsest", Rotate::not_coarsest},
-                          {"meshes", Rotate::meshes},
-                          {"none", Rotate::none}}),
+          choice<Rotate>(o, &SolverOptions::rotate),
           o.reassemble,
           o.relaxation,
           o.threads};

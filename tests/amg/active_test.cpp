@@ -1,26 +1,11 @@
-// Multipliers are zero off contact, and active sets are those of the solution: in C++ and in C.
+// Multipliers are zero off contact, and active sets are those of the solution.
 #include <gtest/gtest.h>
 
 #include "amg/black_box.hpp"
-#include "amg/signorini.h"
-#include "tests/amg/matrices.hpp"
+#include "tests/amg/membrane.hpp"
 
 namespace signorini::test {
 namespace {
-
-/// A membrane between a floor and a ceiling, pressed to one here and to the other there; some values are prescribed by
-/// equal bounds.
-struct Membrane {
-  Eigen::SparseMatrix<double> A = laplacian(40);
-  std::size_t n = static_cast<std::size_t>(A.rows());
-  std::vector<double> b = std::vector<double>(n), lower = std::vector<double>(n, -0.01),
-                      upper = std::vector<double>(n, 0.01);
-
-  Membrane() {
-    for (std::size_t i = 0; i < n; ++i) b[i] = (i < n / 2 ? -1.0 : 1.0) / 1600;
-    for (const std::size_t i : {100, 500, 1400}) lower[i] = upper[i] = 0.005;
-  }
-};
 
 TEST(Active, MultipliersAreZeroOffContactAndHaveTheSignOfTheirBound) {
   const Membrane m;
@@ -64,27 +49,6 @@ TEST(Active, ZeroRowsGoToTheirBounds) {
   const BlackBox::Result result = BlackBox(A).solve(std::vector<double>{3, 2, -5}, lower, upper);
   EXPECT_EQ(result.multiplier, (std::vector<double>{-3, 0, 5}));
   EXPECT_EQ(result.active, (std::vector<signed char>{1, 0, -1}));
-}
-
-TEST(Active, SetsInC) {
-  const Membrane m;
-  const SparseRows A = m.A;
-  signorini_solver* solver = nullptr;
-  ASSERT_EQ(signorini_create64(A.rows, A.row.data(), A.column.data(), A.value.data(), 1, &solver), SIGNORINI_SOLVED);
-  std::vector<double> x(m.n), multiplier(m.n);
-  std::vector<signed char> active(m.n, 9);
-  EXPECT_EQ(signorini_active(solver, active.data()), SIGNORINI_BAD_INPUT) << "nothing was solved";
-  signorini_summary summary;
-  ASSERT_EQ(signorini_solve(solver, m.b.data(), m.lower.data(), m.upper.data(), nullptr, 1e-8, x.data(),
-                            multiplier.data(), &summary),
-            SIGNORINI_SOLVED);
-  ASSERT_EQ(signorini_active(solver, active.data()), SIGNORINI_SOLVED);
-  const BlackBox::Result expected = BlackBox(m.A).solve(m.b, m.lower, m.upper);
-  EXPECT_EQ(active, expected.active);
-  EXPECT_EQ(multiplier, expected.multiplier);
-  EXPECT_EQ(summary.limited_by_rounding, 0);
-  EXPECT_EQ(signorini_active(solver, nullptr), SIGNORINI_BAD_INPUT);
-  signorini_destroy(solver);
 }
 
 }  // namespace

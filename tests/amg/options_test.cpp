@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "amg/black_box.hpp"
-#include "amg/hierarchy.hpp"
-#include "amg/reach.hpp"
+#include "amg/coarsening/hierarchy.hpp"
+#include "amg/coarsening/reach_from_twins.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/configuration.hpp"

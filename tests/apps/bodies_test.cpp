@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "apps/scenes/tables.hpp"
 #include "program.hpp"
 
 namespace signorini::test {
@@ -11,49 +12,12 @@ using testing::UnorderedElementsAre;
 class Bodies : public Program {};
 
 /// A membrane and an elastic sheet beside it.
-const std::string two = R"(title = "two"
-[[body]]
-name = "membrane"
-shape = "rectangle"
-from = [0, 0]
-to = [1, 1]
-cells = [4, 4]
-equation = "diffusion"
-[[fix]]
-body = "membrane"
-on = "boundary"
-value = 0
-[[load]]
-body = "membrane"
-value = "-8 * t"
-[[obstacle]]
-type = "scalar"
-body = "membrane"
-lower = -0.2
-[[body]]
-name = "sheet"
-shape = "rectangle"
-from = [2, 0]
-to = [3, 1]
-cells = [4, 4]
-young = 1
-poisson = 0.3
-[[fix]]
-body = "sheet"
-on = "top"
-value = [0, "-0.01 * t"]
-[[obstacle]]
-type = "contact"
-body = "sheet"
-on = "bottom"
-shape = "plane"
-point = [0, 0]
-normal = [0, 1]
-[[probe]]
-name = "side"
-body = "sheet"
-at = [3, 0.5]
-)";
+const std::string two =
+    "title = 'two'\n" + tables::block("membrane", "[0, 0]", "[1, 1]", "[4, 4]", "equation = 'diffusion'\n") +
+    tables::fix("membrane", "boundary", "0") + tables::load("membrane", "'-8 * t'") +
+    tables::floor("membrane", "-0.2") + tables::block("sheet", "[2, 0]", "[3, 1]", "[4, 4]") +
+    tables::fix("sheet", "top", "[0, '-0.01 * t']") + tables::plane("sheet", "bottom", "[0, 0]", "[0, 1]") +
+    tables::probe("side", "sheet", "[3, 0.5]");
 
 TEST_F(Bodies, EachHasFilesOfItsOwnThatAreListedTogether) {
   write("two.toml", two);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "apps/scenes/tables.hpp"
 #include "program.hpp"
 
 namespace signorini::test {
@@ -196,15 +197,8 @@ TEST_F(Solve, IterationLimitWritesResultsMarkedAsNotConverged) {
 }
 
 /// A block that slides along walls, pressed on a plane under it.
-const char* const block_on_plane = R"(
-[[body]]
-name = "b"
-shape = "box"
-from = [0, 0, 0]
-to = [1, 1, 1]
-cells = [2, 2, 2]
-young = 1.0
-poisson = 0.25
+const std::string block_on_plane =
+    tables::block("b", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]", "young = 1.0\npoisson = 0.25\n") + R"(
 [[fix]]
 body = "b"
 where = "x == 0 || x == 1"
@@ -213,18 +207,8 @@ value = [0, "free", "free"]
 body = "b"
 where = "y == 0 || y == 1"
 value = ["free", 0, "free"]
-[[load]]
-body = "b"
-on = "top"
-value = [0, 0, -0.01]
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "bottom"
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-)";
+)" + tables::load("b", "[0, 0, -0.01]", "top") +
+    tables::plane("b", "bottom", "[0, 0, 0]", "[0, 0, 1]");
 
 TEST_F(Solve, SaysThatABodyStartsInsideAnObstacle) {
   write("block.toml", block_on_plane);

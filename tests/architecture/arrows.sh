@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
-# Guards what the compiler cannot: which folder may include which (docs/architecture.md), who may include libraries
-# under the GPL, and that no path of somebody's machine is in a file.
+# Guards what the compiler cannot: which folder may include which (the table in docs/architecture.md), who may include
+# libraries under the GPL, and that no path of somebody's machine is in a file.
 #   arrows.sh check ROOT      lists the violations under ROOT, fails if there are any
 #   arrows.sh selftest ROOT   the check accepts a good tree and catches every kind of violation
 set -euo pipefail
 
-# Folder -> the folders it may include besides itself.
-declare -A allowed=(
-  [core]=""
-  [transfer]="core"
-  [smoothers]="core"
-  [amg]="core transfer smoothers"
-  [estimators]="core transfer smoothers"
-  [obstacles]="core"
-  [driver]="core transfer smoothers amg estimators"
-)
+# "FOLDER: FOLDER..." for each row of the table "Folders and arrows" on a page: who may include whom.
+table() {
+  awk -F'|' '/^## / { on = $0 == "## Folders and arrows" }
+    on && /^\| `/ {
+      gsub(/[`,]/, " ", $2); gsub(/\/NAME|\/ /, " ", $2); gsub(/[`,]/, " ", $(NF - 1))
+      rows = split($2, row, " "); others = split($(NF - 1), other, " ")
+      for (i = 1; i <= rows; ++i) {
+        printf "%s:", row[i]
+        for (k = 1; k <= others; ++k) printf " %s%s", row[i] ~ /^core\// ? "core/" : "", other[k]
+        print ""
+      }
+    }' "$1"
+}
 
 # "FILE:LINE:HEADER" of every #include below a folder.
 includes() {
@@ -22,15 +25,62 @@ includes() {
     sed -E 's/:[[:space:]]*#[[:space:]]*include[[:space:]]*["<]([^">]*)[">].*/:\1/'
 }
 
-check_arrows() {
-  local folder others
-  for folder in "${!allowed[@]}"; do
-    [ -d "$folder" ] || continue
-    # What is named here may not be included; a header beside the file or of a library matches none of these.
-    others=$(printf '%s\n' "${!allowed[@]}" apps tests | grep -vxE "$(tr ' ' '|' <<<"$folder ${allowed[$folder]}")" |
-      paste -sd'|')
-    includes "$folder" | grep -E ":(\.\./.*|($others)/.*)$" | sed "s|$| may not be included in $folder/|" || true
+all_includes() {
+  local folder
+  for folder in */; do
+    case "$folder" in
+      build*/ | out/) ;;
+      *) includes "${folder%/}" || true ;;
+    esac
   done
+}
+
+# compare TABLE INCLUDES [whole]: the includes that no row allows; where these are all of a project, also the arrows
+# between folders of core that no file has, and the cycles among them.
+compare() {
+  awk -F: -v whole="${3:-}" '
+    # The row that a path belongs to: that of its innermost folder.
+    function owner(path) {
+      while (!(path in row) && sub(/\/[^\/]*$/, "", path)) {}
+      return path in row ? path : ""
+    }
+    function allows(from, to) {
+      return from == to || (from, to) in arrow || (from, "everything") in arrow ||
+             (to ~ /^core\// && (from, "core") in arrow)
+    }
+    FNR == NR {
+      row[$1]
+      count = split($2, other, " ")
+      for (i = 1; i <= count; ++i) arrow[$1, other[i]]
+      next
+    }
+    {
+      from = owner($1); to = owner($3); top = $3; sub(/\/.*/, "", top)
+      used[from, to]
+      if ($3 ~ /^\.\.\//) print $0 " leaves its folder"
+      else if (from == "") print $0 " is in a folder without a row in docs/architecture.md"
+      else if (to == "" && top == "core") print $0 " has no row in docs/architecture.md"
+      else if (to != "" && !allows(from, to)) print $0 " may not be included in " from "/"
+    }
+    END {
+      if (!whole) exit
+      for (pair in arrow) {
+        split(pair, end, SUBSEP)
+        if (end[1] !~ /^core\//) continue
+        if (!(pair in used)) print "docs/architecture.md: " end[1] " includes nothing of " end[2]
+        reach[pair]
+      }
+      for (via in row) for (from in row) for (to in row)
+        if ((from, via) in reach && (via, to) in reach) reach[from, to]
+      for (folder in row)
+        if ((folder, folder) in reach) print "docs/architecture.md: " folder " includes itself through others"
+    }' "$1" "$2"
+}
+
+# check_arrows [whole]
+check_arrows() {
+  local folder
+  compare "$arrows" <(all_includes) "$@"
   # An obstacle is a library of its own.
   for folder in obstacles/*/; do
     [ -d "$folder" ] || continue
@@ -51,7 +101,7 @@ check_gpl() {
         echo "$file:$line:$header (GPL) belongs in amg/ only"
         ;;
     esac
-  done < <(for folder in "${!allowed[@]}" apps tests; do [ ! -d "$folder" ] || includes "$folder"; done)
+  done < <(all_includes)
 }
 
 check_paths() {
@@ -61,12 +111,13 @@ check_paths() {
 
 violations() (
   cd "$1"
-  { check_arrows; check_gpl; check_paths; } | sort
+  { check_arrows "${@:2}"; check_gpl; check_paths; } | sort
 )
 
+# check ROOT [whole]
 check() {
   local found
-  found=$(violations "$1")
+  found=$(violations "$@")
   [ -z "$found" ] && return
   printf '%s\n' "$found"
   return 1
@@ -85,35 +136,69 @@ try() {
   fi
 }
 
+# try_table KIND ROWS FILE LINE: includes against a table that is to have just these arrows.
+try_table() {
+  local tree found
+  tree=$(mktemp -d "$scratch/XXXX")
+  # shellcheck disable=SC2016
+  { printf '## Folders and arrows\n'; printf '%s\n' "$2"; printf '## Another table\n| `core/z` | | a |\n'; } >"$tree/page"
+  table "$tree/page" >"$tree/arrows"
+  printf '%s:1:%s\n' "${@:3}" >"$tree/includes"
+  found=$(compare "$tree/arrows" "$tree/includes" whole)
+  if [ -z "$found" ]; then
+    [ "$1" = good ] || { echo "missed: $2"; failed=1; }
+  else
+    [ "$1" = wrong ] || { echo "false alarm: $2: $found"; failed=1; }
+  fi
+}
+
 selftest() {
   local folder
   failed=0
-  scratch=$(mktemp -d)
-  trap 'rm -rf "$scratch"' EXIT
-  try good core/a.cpp '#include "core/base/types.hpp"'
+  try good core/fem/a.cpp '#include "core/base/types.hpp"'
+  try good core/geometry/cgal/a.cpp '#include "core/geometry/a.hpp"'
+  try good transfer/a.cpp '#include "core/fem/a.hpp"'
   try good amg/a.cpp '#include "transfer/a.hpp"'
+  try good c/a.cpp '#include "amg/a.hpp"'
   try good driver/a.cpp '#include "amg/a.hpp"'
   try good apps/a.cpp '#include "driver/a.hpp"'
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
   try good apps/bench/peers/a.cpp '#include <Eigen/CholmodSupport>'
-  try good core/a.cpp '// frame/wo''rk/home is no path'
-  for folder in transfer smoothers amg estimators obstacles driver apps tests; do
-    try wrong core/a.cpp "#include \"$folder/a.hpp\""
+  try good core/fem/a.cpp '// frame/wo''rk/home is no path'
+  for folder in transfer smoothers amg c estimators obstacles driver apps tests; do
+    try wrong core/base/a.cpp "#include \"$folder/a.hpp\""
   done
   for folder in core transfer smoothers amg estimators driver; do
     try wrong "$folder/a.hpp" '  #  include "obstacles/contact/a.hpp"'
   done
+  try wrong core/base/a.cpp '#include "core/fem/a.hpp"'
+  try wrong core/algebra/a.hpp '#include "core/solver/a.hpp"'
+  try wrong core/geometry/cgal/a.cpp '#include "core/fem/a.hpp"'
+  try wrong core/elsewhere/a.cpp '#include <vector>'
+  try wrong elsewhere/a.cpp '#include <vector>'
+  try wrong amg/a.cpp '#include "core/elsewhere/a.hpp"'
   try wrong amg/a.cpp '#include "driver/a.hpp"'
+  try wrong amg/a.cpp '#include "c/a.h"'
   try wrong driver/a.cpp '#include "apps/signorini/a.hpp"'
   try wrong transfer/a.cpp '#include <smoothers/a.hpp>'
   try wrong smoothers/a.cpp '#include "transfer/a.hpp"'
   try wrong smoothers/a.cpp '#include "../transfer/a.hpp"'
   try wrong obstacles/contact/a.cpp '#include "obstacles/scalar/a.hpp"'
-  try wrong core/a.cpp '#include <CGAL/Mesh_3.h>'
+  try wrong core/fem/a.cpp '#include <CGAL/Mesh_3.h>'
   try wrong apps/a.cpp '#include <cholmod.h>'
   try wrong docs/a.md "see /""home/somebody/notes"
+  # shellcheck disable=SC2016
+  local a='| `core/a` | words | |' b='| `core/b`, `c/` | words | a |' both='| `core/a` | words | b |'
+  try_table good "$a"$'\n'"$b" core/b/f.hpp core/a/g.hpp
+  try_table wrong "$a" core/a/f.hpp core/b/g.hpp
+  try_table wrong "$a"$'\n'"$b" core/b/f.hpp core/b/g.hpp
+  try_table wrong "$both"$'\n'"$b" core/b/f.hpp core/a/g.hpp core/a/f.hpp core/b/g.hpp
   return "$failed"
 }
 
-"$1" "$2"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+arrows=$scratch/arrows
+table "$2/docs/architecture.md" >"$arrows"
+"$1" "$2" whole

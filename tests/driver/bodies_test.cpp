@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "apps/scenes/tables.hpp"
 #include "driver/driver.hpp"
 
 // Bodies that are not coupled, in one scene: each has the results that it has alone, under the scene's numbers.
@@ -15,114 +16,20 @@ struct Part {
   std::string body, fix, load, obstacle, probe;
 };
 
-const Part block{R"(
-[[body]]
-name = "block"
-shape = "box"
-from = [0, 0, 0]
-to = [1, 1, 1]
-cells = [2, 2, 2]
-young = 1
-poisson = 0.3
-)",
-                 R"(
-[[fix]]
-body = "block"
-on = "top"
-value = [0, 0, -0.01]
-)",
-                 R"(
-[[load]]
-body = "block"
-on = "right"
-value = [0.02, 0, "0.01 * t"]
-)",
-                 R"(
-[[obstacle]]
-type = "contact"
-body = "block"
-on = "bottom"
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-)",
-                 R"(
-[[probe]]
-name = "corner"
-body = "block"
-at = [1, 1, 0]
-)"};
+const Part block{tables::block("block", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]"),
+                 tables::fix("block", "top", "[0, 0, -0.01]"), tables::load("block", "[0.02, 0, '0.01 * t']", "right"),
+                 tables::plane("block", "bottom", "[0, 0, 0]", "[0, 0, 1]"),
+                 tables::probe("corner", "block", "[1, 1, 0]")};
 
-const Part film{R"(
-[[body]]
-name = "film"
-shape = "box"
-from = [2, 0, 0]
-to = [3, 1, 1]
-cells = [11, 10, 12]
-equation = "diffusion"
-diffusion = 2
-)",
-                R"(
-[[fix]]
-body = "film"
-on = "boundary"
-value = 0
-)",
-                R"(
-[[load]]
-body = "film"
-value = "-20 * t"
-)",
-                R"(
-[[obstacle]]
-type = "scalar"
-body = "film"
-lower = -0.2
-)",
-                R"(
-[[probe]]
-name = "middle"
-body = "film"
-at = [2.5, 0.5, 0.5]
-)"};
+const Part film{
+    tables::block("film", "[2, 0, 0]", "[3, 1, 1]", "[11, 10, 12]", "equation = 'diffusion'\ndiffusion = 2\n"),
+    tables::fix("film", "boundary", "0"), tables::load("film", "'-20 * t'"), tables::floor("film", "-0.2"),
+    tables::probe("middle", "film", "[2.5, 0.5, 0.5]")};
 
-const Part soft{R"(
-[[body]]
-name = "soft"
-shape = "box"
-from = [0, 2, 0]
-to = [2, 3, 1]
-cells = [4, 2, 2]
-young = 0.1
-poisson = 0.2
-)",
-                R"(
-[[fix]]
-body = "soft"
-on = "left"
-value = [0, 0, 0]
-)",
-                R"(
-[[load]]
-body = "soft"
-value = [0, 0, -0.001]
-)",
-                R"(
-[[obstacle]]
-type = "contact"
-body = "soft"
-on = "bottom"
-shape = "plane"
-point = [0, 0, -0.01]
-normal = [0, 0, 1]
-)",
-                R"(
-[[probe]]
-name = "end"
-body = "soft"
-at = [2, 2, 0]
-)"};
+const Part soft{tables::block("soft", "[0, 2, 0]", "[2, 3, 1]", "[4, 2, 2]", "young = 0.1\npoisson = 0.2\n"),
+                tables::fix("soft", "left", "[0, 0, 0]"), tables::load("soft", "[0, 0, -0.001]"),
+                tables::plane("soft", "bottom", "[0, 0, -0.01]", "[0, 0, 1]"),
+                tables::probe("end", "soft", "[2, 2, 0]")};
 
 const std::string settings = "[refine]\nuniform = 1\n[steps]\ncount = 2\n";
 
@@ -207,20 +114,8 @@ void expect_refused(const std::string& text, const std::string& message) {
 
 TEST(Bodies, are_all_held_and_have_as_many_dimensions) {
   expect_refused(block.body + block.fix + film.body, "body.1: there is neither [[fix]] nor [[obstacle]]");
-  expect_refused(block.body + block.fix + R"(
-[[body]]
-name = "flat"
-shape = "rectangle"
-from = [0, 0]
-to = [1, 1]
-cells = [2, 2]
-young = 1
-poisson = 0
-[[fix]]
-body = "flat"
-on = "left"
-value = [0, 0]
-)",
+  expect_refused(block.body + block.fix + tables::block("flat", "[0, 0]", "[1, 1]", "[2, 2]") +
+                     tables::fix("flat", "left", "[0, 0]"),
                  "a body with 2 dimensions, expected 3 as the bodies before it");
 }
 

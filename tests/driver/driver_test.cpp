@@ -5,31 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/scenes/tables.hpp"
+
 namespace signorini::test {
 namespace {
 
-const std::string elastic = R"(
-[[body]]
-name = "block"
-shape = "box"
-from = [0, 0, 0]
-to = [1, 1, 1]
-cells = [2, 2, 2]
-young = 1
-poisson = 0.3
-[[fix]]
-body = "block"
-on = "top"
-value = [0, 0, 0]
+const std::string elastic = tables::block("block", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]") +
+                            tables::fix("block", "top", "[0, 0, 0]") + R"(
 [[fix]]
 body = "block"
 on = "left"
 frame = "normal"
 value = [0.001, "free", "free"]
-[[load]]
-body = "block"
-on = "right"
-value = [0, 0, -0.02]
+)" + tables::load("block", "[0, 0, -0.02]", "right") +
+                            R"(
 [[obstacle]]
 type = "contact"
 body = "block"
@@ -43,30 +32,10 @@ tolerance = 1e-11
 uniform = 2
 )";
 
-const std::string scalar = R"(
-[[body]]
-name = "membrane"
-shape = "rectangle"
-from = [-1, -1]
-to = [1, 1]
-cells = [36, 36]
-equation = "diffusion"
-[[fix]]
-body = "membrane"
-on = "boundary"
-value = "0.1 * x"
-[[load]]
-body = "membrane"
-value = "-2 - x"
-[[obstacle]]
-type = "scalar"
-body = "membrane"
-lower = "-0.3 + 0.1 * x^2"
-[solver]
-tolerance = 1e-11
-[refine]
-uniform = 1
-)";
+const std::string scalar = tables::block("membrane", "[-1, -1]", "[1, 1]", "[36, 36]", "equation = 'diffusion'\n") +
+                           tables::fix("membrane", "boundary", "'0.1 * x'") + tables::load("membrane", "'-2 - x'") +
+                           tables::floor("membrane", "'-0.3 + 0.1 * x^2'") +
+                           "[solver]\ntolerance = 1e-11\n[refine]\nuniform = 1\n";
 
 Scene scene_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_scene(text, "test.toml", ".", overrides);

@@ -1,7 +1,7 @@
 // Smoothers that need to know their level: surface first, and patches.
 #include <gtest/gtest.h>
 
-#include "core/algebra/local_coordinates.hpp"
+#include "core/solver/local_coordinates.hpp"
 #include "core/solver/multigrid.hpp"
 #include "smoothers/patch.hpp"
 #include "smoothers/surface_first.hpp"

@@ -1,4 +1,5 @@
 // Where the matrix of a coarser mesh is the Galerkin product of the finer one's, the solver takes it over.
+#include "apps/scenes/tables.hpp"
 #include "core/fem/nested.hpp"
 #include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
@@ -48,19 +49,9 @@ TEST(NestedMatrices, AreNoneOnCurvedMeshesAndWithVaryingCoefficients) {
 // Faces are picked on the coarsest mesh: common vertices have the same frames, but where those are others.
 TEST(NestedMatrices, AreNoneInOtherFrames) {
   const auto picked = [](const std::string& where, const std::string& normal = "[0, 0, 1]") {
-    return TwoMeshes<3, 3>(parse_scene(fmt::format(R"(
-[[body]]
-name = "cube"
-shape = "box"
-from = [0, 0, 0]
-to = [1, 1, 1]
-cells = [4, 4, 4]
-young = 1
-poisson = 0.3
-[[fix]]
-body = "cube"
-on = "top"
-value = [0, 0, -0.05]
+    const std::string cube =
+        tables::block("cube", "[0, 0, 0]", "[1, 1, 1]", "[4, 4, 4]") + tables::fix("cube", "top", "[0, 0, -0.05]");
+    return TwoMeshes<3, 3>(parse_scene(cube + fmt::format(R"(
 [[obstacle]]
 type = "contact"
 body = "cube"
@@ -70,7 +61,7 @@ point = [0, 0, 0]
 normal = {}
 [refine]
 uniform = 2)",
-                                                   where, normal),
+                                                          where, normal),
                                        "test.toml", ".", {}));
   };
   EXPECT_TRUE(picked("x < 0.6").galerkin());

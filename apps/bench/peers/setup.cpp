@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "amg/algebraic_cycle.hpp"
-#include "amg/block_rows.hpp"
+#include "amg/black_box/block_rows.hpp"
+#include "amg/linear/algebraic_cycle.hpp"
 #include "apps/bench/peers/model_matrices.hpp"
 #include "apps/bench/peers/petsc.hpp"
 #include "apps/bench/peers/run.hpp"

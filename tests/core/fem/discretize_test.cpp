@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/algebra/local_coordinates.hpp"
+#include "core/algebra/local_basis.hpp"
 #include "core/base/error.hpp"
 #include "tests/core/fem/support.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "../mesh/mesh_checks.hpp"
 #include "core/mesh/structured.hpp"
 #include "msh_samples.hpp"
+#include "tests/core/mesh/mesh_checks.hpp"
 
 namespace signorini {
 namespace {

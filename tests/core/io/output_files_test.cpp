@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "../mesh/mesh_checks.hpp"
+#include "tests/core/mesh/mesh_checks.hpp"
 #include "tests/support/folder.hpp"
 
 namespace signorini {

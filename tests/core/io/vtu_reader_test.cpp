@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "../mesh/mesh_checks.hpp"
 #include "core/mesh/structured.hpp"
+#include "tests/core/mesh/mesh_checks.hpp"
 #include "vtu_samples.hpp"
 
 namespace signorini {

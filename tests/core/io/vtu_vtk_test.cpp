@@ -11,10 +11,10 @@
 #include <functional>
 #include <sstream>
 
-#include "../mesh/mesh_checks.hpp"
 #include "core/io/mesh_file.hpp"
 #include "core/io/vtu_writer.hpp"
 #include "core/mesh/structured.hpp"
+#include "tests/core/mesh/mesh_checks.hpp"
 #include "tests/support/folder.hpp"
 
 namespace signorini {

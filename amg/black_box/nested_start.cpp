@@ -1,0 +1,269 @@
+#include "amg/black_box/nested_start.hpp"
+
+#include <optional>
+
+#include "amg/linear/masked_cg.hpp"
+#include "core/algebra/energy_along.hpp"
+#include "core/base/clock.hpp"
+#include "core/base/error.hpp"
+#include "core/fem/nested.hpp"
+#include "core/solver/admissible.hpp"
+#include "core/solver/multigrid.hpp"
+#include "core/solver/weights.hpp"
+
+namespace signorini {
+
+namespace {
+
+template <int B>
+void inherit_bounds(const DiscreteProblem<B>& fine, const std::vector<Index>& twin, Constraints<B>& coarse) {
+  const Constraints<B>& c = fine.constraints;
+  coarse.slot.assign(twin.size(), -1);
+  for (std::size_t q = 0; q < twin.size(); ++q) {
+    const Index slot = twin[q] < 0 || c.slot.empty() ? -1 : c.slot[twin[q]];
+    if (slot < 0) continue;
+    coarse.slot[q] = coarse.size();
+    coarse.vector.push_back(static_cast<Index>(q));
+    const auto from = Offset{slot} * B;
+    coarse.lower.insert(coarse.lower.end(), c.lower.begin() + from, c.lower.begin() + from + B);
+    coarse.upper.insert(coarse.upper.end(), c.upper.begin() + from, c.upper.begin() + from + B);
+  }
+}
+
+/// Coarse vectors are in the order of their twins: runs of one obstacle stay runs.
+template <int B>
+std::vector<Segment<B>> inherit_obstacles(const DiscreteProblem<B>& fine, const std::vector<Index>& twin) {
+  std::vector<Segment<B>> out;
+  Index first = 0;
+  const auto end = static_cast<Index>(twin.size());
+  for (const Segment<B>& s : fine.segments) {
+    Index last = first;
+    while (last < end && twin[last] < s.last) ++last;
+    if (last > first) out.push_back({first, last, s.obstacle});
+    first = last;
+  }
+  if (!out.empty()) out.back().last = end;
+  return out;
+}
+
+/// Forces on the free components, those of prescribed values included.
+template <int B>
+std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
+  std::vector<double> r = problem.b;
+  for (std::size_t k = 0; k < r.size(); ++k)
+    if (problem.fixed[k / B] >> (k % B) & 1u) r[k] = 0;
+  return r;
+}
+
+/// Relaxes the vectors between the twins while these rest. Interpolation knows no forces, and next to prescribed
+/// values, which are forces here, nothing else gives the solution. Blocks are interpolated by weights that sum to one
+/// there too, and this would make their corrections worse.
+template <int B>
+void relax_between_twins(const DiscreteProblem<B>& problem, const std::vector<Index>& twin,
+                         const std::vector<double>& forces, std::vector<double>& x) {
+  if (B > 1) return;
+  std::vector<Flags> resting = problem.fixed;
+  for (const Index p : twin)
+    if (p >= 0) resting[p] = (1u << B) - 1;
+  symmetric_gauss_seidel<B>(problem.A, resting, forces, x);
+}
+
+/// @param forces on the free components
+/// @param base what coarse corrections are added to
+template <int B>
+DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolongation& P,
+                                  const std::vector<Index>& twin, Transfer<B>& transfer,
+                                  const std::vector<double>& forces, const std::vector<double>& base) {
+  Level<B> fine = finest_level(problem), coarse;
+  if (!problem.galerkin.empty()) coarse.galerkin = &problem.galerkin.back();
+  transfer.prepare(fine, P, true, coarse);
+  fine.clear_phases();
+  coarse.clear_phases();
+  transfer.assemble(fine, coarse);
+  std::vector<double> r(forces.size());
+  residual<B>(problem.A, base.data(), forces.data(), r.data());
+  transfer.begin_restriction(coarse);
+  transfer.restrict_residual(fine, 0, fine.vectors, r.data(), coarse);
+  transfer.end_restriction(coarse);
+
+  DiscreteProblem<B> out;
+  out.A = std::move(coarse.own_matrix);
+  if (coarse.galerkin) out.galerkin = problem.galerkin.first(problem.galerkin.size() - 1);
+  out.b = std::move(coarse.own_b);
+  out.fixed = std::move(coarse.off);
+  out.start.assign(out.b.size(), 0.0);
+  for (std::size_t k = 0; k < out.b.size(); ++k)
+    if (const Index p = twin[k / B]; out.fixed[k / B] >> (k % B) & 1u)
+      out.b[k] = out.start[k] = p < 0 ? 0 : problem.start[Offset{p} * B + k % B];
+  out.frames = std::move(coarse.frames);
+  inherit_bounds(problem, twin, out.constraints);
+  // A functional scales with the mesh: coarse starts go without it.
+  if (!has_functional(problem.segments)) out.segments = inherit_obstacles(problem, twin);
+  return out;
+}
+
+/// A sweep to either side.
+template <int B>
+void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
+  Level<B> level = finest_level(problem);
+  level.x = x.data();
+  level.sweep(Order::forward);
+  level.sweep(Order::backward);
+}
+
+/// The start that a coarser level gave, where it is better than none: a body that a coarser level hardly holds may have
+/// been carried away there. What is merely rough is smoothed. Nothing where it is worse.
+template <int B>
+std::optional<std::vector<double>> better_start(const DiscreteProblem<B>& problem, std::vector<double> x) {
+  std::vector<double> none = problem.start, admissible = x;
+  make_admissible(problem, none);
+  make_admissible(problem, admissible);
+  if (lowers(problem, admissible, none)) return x;
+  Level<B> level = finest_level(problem);
+  level.x = admissible.data();
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    level.sweep(Order::forward);
+    level.sweep(Order::backward);
+    if (lowers(problem, admissible, none)) return x;
+  }
+  return {};
+}
+
+/// Makes a problem that for the difference of its solution to x, and puts it back in the end.
+template <int B>
+class Difference {
+ public:
+  Difference(DiscreteProblem<B>& problem, const std::vector<double>& x)
+      : problem_(problem),
+        b_(problem.b),
+        start_(problem.start),
+        lower_(problem.constraints.lower),
+        upper_(problem.constraints.upper) {
+    residual<B>(problem.A, x.data(), b_.data(), problem.b.data());
+    for (std::size_t k = 0; k < x.size(); ++k)
+      if (problem.fixed[k / B] >> (k % B) & 1u) problem.start[k] -= x[k];
+    Constraints<B>& c = problem.constraints;
+    for (std::size_t at = 0; at < c.lower.size(); ++at) {
+      const double from = x[Offset{c.vector[at / B]} * B + at % B];
+      c.lower[at] -= from;
+      c.upper[at] -= from;
+    }
+  }
+  Difference(const Difference&) = delete;
+  Difference& operator=(const Difference&) = delete;
+  ~Difference() {
+    problem_.b.swap(b_);
+    problem_.start.swap(start_);
+    problem_.constraints.lower.swap(lower_);
+    problem_.constraints.upper.swap(upper_);
+  }
+
+ private:
+  DiscreteProblem<B>& problem_;
+  std::vector<double> b_, start_, lower_, upper_;
+};
+
+/// What coarser levels cannot represent of x: d'Ad of the free components d of x less its interpolation from the twins.
+template <int B>
+double rough_energy(const DiscreteProblem<B>& problem, const Prolongation& P, const std::vector<double>& x) {
+  std::vector<double> coarse(Offset{P.coarse} * B, 0.0), d = x;
+  const std::vector<Index> twin = P.twins();
+  for (Index q = 0; q < P.coarse; ++q)
+    if (twin[q] >= 0) std::copy_n(x.begin() + Offset{twin[q]} * B, B, coarse.begin() + Offset{q} * B);
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Index p = 0; p < P.fine(); ++p) {
+      double value[B] = {};
+      weights::interpolate<B>(P, weight, p, coarse.data(), value);
+      for (int k = 0; k < B; ++k) d[Offset{p} * B + k] -= value[k];
+    }
+  });
+  apply_mask<B>(problem.fixed, d);
+  return energy_along(problem.A, d).of_matrix;
+}
+
+}  // namespace
+
+Stage dropped_start(double seconds, const std::string& reason) {
+  Stage stage;
+  stage.method = "nested start";
+  stage.seconds = seconds;
+  stage.reason = reason;
+  stage.kept = false;
+  return stage;
+}
+
+template <int B>
+std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
+                                 const SolverOptions& options, const Registry& registry, const Monitor& monitor,
+                                 std::vector<Stage>* dropped) {
+  if (prolongations.empty()) return problem.start;
+  const double begin = seconds();
+  const auto none = [&](const std::string& reason) {
+    if (dropped) dropped->push_back(dropped_start(seconds() - begin, reason));
+    return problem.start;
+  };
+  const std::size_t below = prolongations.size() - 1;
+  const Prolongation& P = prolongations[below];
+  try {
+    const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
+    const std::vector<Index> twin = P.twins();
+    const std::vector<double> forces = free_forces(problem);
+    std::vector<double> base(forces.size(), 0.0);
+    relax_between_twins(problem, twin, forces, base);
+    const DiscreteProblem<B> coarse = coarse_problem(problem, P, twin, *transfer, forces, base);
+    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor, dropped);
+    const Summary summary =
+        solve(coarse, prolongations.first(below), x, for_a_start<B>(options, below > 0), registry, monitor);
+    if (summary.outcome == Outcome::unbounded) return none(summary.reason);
+    x = interpolate(coarse, x, P, problem);
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += base[k];
+    relax_between_twins(problem, twin, forces, x);
+    auto better = better_start(problem, std::move(x));
+    return better ? std::move(*better) : none("its energy is above that of no start");
+  } catch (const Error& error) {
+    // What fails on a coarse level may well hold on the finest one, which alone decides.
+    if (error.status() == Exit::interrupted) throw;
+    return none(error.what());
+  }
+}
+
+template <int B>
+std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
+                                      std::span<const Prolongation> prolongations, const SolverOptions& options,
+                                      const Registry& registry, const Monitor& monitor, std::vector<Stage>* dropped) {
+  constexpr double small = 0.1;  // part of what coarser levels get wrong
+  if (prolongations.empty()) return given;
+  std::vector<double> x;
+  {
+    const Difference<B> difference(problem, given);
+    x = nested_start(problem, prolongations, options, registry, monitor, dropped);
+  }
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += given[k];
+  make_admissible(problem, x);
+  sweep(problem, x);
+  std::vector<double> correction = x;
+  for (std::size_t k = 0; k < x.size(); ++k) correction[k] -= given[k];
+  const Prolongation& P = prolongations.back();
+  if (rough_energy(problem, P, correction) <= small * small * rough_energy(problem, P, x)) return x;
+  std::vector<double> none = nested_start(problem, prolongations, options, registry, monitor, dropped);
+  make_admissible(problem, none);
+  return lowers(problem, x, none) ? x : none;
+}
+
+template std::vector<double> nested_start(const DiscreteProblem<1>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
+template std::vector<double> nested_start(const DiscreteProblem<2>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
+template std::vector<double> nested_start(const DiscreteProblem<3>&, std::span<const Prolongation>,
+                                          const SolverOptions&, const Registry&, const Monitor&, std::vector<Stage>*);
+
+#define SIGNORINI_INSTANTIATE(B)                                                                                       \
+  template std::vector<double> nested_start_from(const std::vector<double>&, DiscreteProblem<B>&,                      \
+                                                 std::span<const Prolongation>, const SolverOptions&, const Registry&, \
+                                                 const Monitor&, std::vector<Stage>*);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,210 @@
+#include "amg/black_box/refuse_indefinite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "amg/linear/held_cholesky.hpp"
+#include "amg/linear/masked_cg.hpp"
+#include "amg/linear/unit_diagonal.hpp"
+#include "core/base/error.hpp"
+#include "core/solver/weights.hpp"
+
+namespace signorini {
+namespace {
+
+using Vector = std::vector<double>;  // B per vector of a level
+
+constexpr int steps_on_coarsest = 40, steps_on_finest = 8;  // of conjugate gradients
+constexpr int inverse_iterations = 4;
+
+template <int B>
+Vector interpolated(const Prolongation& P, const Vector& coarse) {
+  Vector fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Index p = 0; p < P.fine(); ++p)
+      weights::interpolate<B>(P, weight, p, coarse.data(), fine.data() + Offset{p} * B);
+  });
+  return fine;
+}
+
+Vector random_vector(std::size_t size) {
+  std::mt19937_64 random;
+  Vector out(size);
+  for (double& value : out) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
+  return out;
+}
+
+/// The levels of a matrix, the finest last.
+template <int B>
+class Search {
+ public:
+  Search(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels)
+      : A_(A), levels_(levels), nothing_off_(static_cast<std::size_t>(A.size()), 0) {}
+
+  void run() const {
+    Vector smooth = smoothest_on_coarsest();
+    for (std::size_t k = 0; k <= levels_.matrices.size(); ++k) {
+      if (k < levels_.matrices.size()) check_lost(k);
+      if (k > 0) smooth = interpolated<B>(levels_.prolongations[k - 1], smooth);
+      check(k, solution(k, random_vector(smooth.size()), steps(k)));
+      if (k > 0) check(k, smooth = solution(k, times_diagonal(k, smooth), steps(k)));
+    }
+  }
+
+ private:
+  const BlockMatrix<B>& matrix(std::size_t k) const { return k < levels_.matrices.size() ? levels_.matrices[k].A : A_; }
+  const std::vector<Flags>& off(std::size_t k) const {
+    return k < levels_.matrices.size() ? levels_.matrices[k].off : nothing_off_;
+  }
+
+  // Up to rounding, Galerkin's matrices tell what the finest one will.
+  void check(std::size_t level, Vector d) const {
+    if (energy_along(matrix(level), d).of_matrix < 0) check_on_finest(level, std::move(d));
+  }
+
+  void check_on_finest(std::size_t level, Vector d) const {
+    for (std::size_t k = level; k < levels_.prolongations.size(); ++k) d = interpolated<B>(levels_.prolongations[k], d);
+    const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    refuse_if_negative(energy_along(A_, d), std::max_element(d.begin(), d.end(), larger) - d.begin());
+  }
+
+  /// More on coarser levels, where they cost less.
+  int steps(std::size_t k) const {
+    return k == 0 ? steps_on_coarsest : std::min(steps_on_finest << (levels_.matrices.size() - k), steps_on_coarsest);
+  }
+
+  /// By conjugate gradients; where they meet a direction without energy, or with less, that one. For the diagonal
+  /// times a smooth direction this is a step of inverse iteration, and whatever falls in the space it searches is met.
+  Vector solution(std::size_t k, Vector r, int steps) const {
+    const BlockMatrix<B>& A = matrix(k);
+    const Precondition by_diagonal = [&](const Vector& from, Vector& z) {
+      for_each_diagonal(A, [&](Offset i, double diagonal) { z[i] = from[i] / diagonal; });
+    };
+    Vector d;
+    apply_mask<B>(off(k), r);
+    masked_cg<B>(A, off(k), by_diagonal, {.iterations = steps}, r, d);
+    scale_to_one(d);
+    return d;
+  }
+
+  Vector times_diagonal(std::size_t k, Vector d) const {
+    for_each_diagonal(matrix(k), [&](Offset i, double diagonal) { d[i] *= diagonal; });
+    return d;
+  }
+
+  template <class Visit>
+  static void for_each_diagonal(const BlockMatrix<B>& A, const Visit& visit) {
+    for (Index p = 0; p < A.size(); ++p)
+      for (int i = 0; i < B; ++i) visit(Offset{p} * B + i, A.diagonal(p)[i * B + i]);
+  }
+
+  static void scale_to_one(Vector& d) {
+    double largest = 0;
+    for (const double value : d) largest = std::max(largest, std::abs(value));
+    if (largest > 0)
+      for (double& value : d) value /= largest;
+  }
+
+  /// A direction of about the least energy there, or one that falls.
+  Vector smoothest_on_coarsest() const {
+    const BlockMatrix<B>& A = matrix(0);
+    std::vector<double> scale;
+    const Eigen::SparseMatrix<double> S = with_unit_diagonal(A, off(0), scale);
+    HeldCholesky factor;
+    Vector out = random_vector(scale.size());
+    if (!factor.factorise(S, affordable_operations(S.nonZeros()))) return solution(0, out, steps_on_coarsest);
+    Eigen::Map<Eigen::VectorXd> d(out.data(), S.rows());
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (scale[i] == 0) out[i] = 0;
+    if (const Eigen::VectorXd falling = factor.falling_direction(); falling.size() > 0)
+      d = falling;
+    else
+      for (int step = 0; step < inverse_iterations; ++step) d = factor.solve(d.normalized());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] *= scale[i];
+    scale_to_one(out);
+    check(0, out);
+    return out;
+  }
+
+  // A component is decoupled when its diagonal entry, the energy of its function, is not positive.
+  void check_lost(std::size_t k) const {
+    const Vector energy = energy_of_lost(k);
+    const auto least = std::min_element(energy.begin(), energy.end());
+    if (least == energy.end() || *least >= 0) return;
+    Vector d(energy.size(), 0.0);
+    d[static_cast<std::size_t>(least - energy.begin())] = 1;
+    check_on_finest(k, std::move(d));
+  }
+
+  /// d'Ad for the function d of each component that is off on level k, zero for the others; empty where none is off.
+  Vector energy_of_lost(std::size_t k) const {
+    const std::vector<Flags>& lost = off(k);
+    if (std::ranges::all_of(lost, [](Flags flags) { return flags == 0; })) return {};
+    const Prolongation& P = levels_.prolongations[k];
+    const BlockMatrix<B>& A = matrix(k + 1);
+    const std::vector<Flags>& gone = off(k + 1);
+    Vector energy(lost.size() * B, 0.0);
+    weights::with<B>(P, [&](const auto& weight) {
+      for (Index p = 0; p < A.size(); ++p)
+        for (Offset c = P.row[p]; c < P.row[p + 1]; ++c)
+          for (int i = 0; i < B; ++i) {
+            const Index q = P.column[c];
+            if (!(lost[q] >> i & 1u)) continue;
+            double unit[B] = {}, d[B] = {}, Ad[B] = {};
+            unit[i] = 1;
+            weight(c).add_value(unit, d);
+            add_product_with(A, P, weight, p, q, unit, Ad);
+            for (int j = 0; j < B; ++j)
+              if (!(gone[p] >> j & 1u)) energy[Offset{q} * B + i] += d[j] * Ad[j];
+          }
+    });
+    return energy;
+  }
+
+  /// Adds (Ad)_p with the function d of a unit vector at q.
+  template <class Weight>
+  static void add_product_with(const BlockMatrix<B>& A, const Prolongation& P, const Weight& weight, Index p, Index q,
+                               const double* unit, double* Ad) {
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+      for (Offset m = P.row[A.column[k]]; m < P.row[A.column[k] + 1]; ++m)
+        if (P.column[m] == q) {
+          double d[B] = {};
+          weight(m).add_value(unit, d);
+          block::add_product<B>(A.at(k), d, Ad);
+        }
+  }
+
+  const BlockMatrix<B>& A_;
+  const AlgebraicLevels<B>& levels_;
+  const std::vector<Flags> nothing_off_;
+};
+
+}  // namespace
+
+double affordable_operations(Offset entries) {
+  constexpr double few = 1e7, per_entry = 600;
+  return std::max(few, per_entry * static_cast<double>(entries));
+}
+
+void refuse_if_negative(const EnergyAlong& energy, Offset row) {
+  if (!(energy.of_matrix < -rounding_of_energy * energy.of_diagonal)) return;
+  input_error("matrix",
+              fmt::format("indefinite: d'Ad is {:.3g} times d'Dd, D its diagonal, for a direction d with the largest "
+                          "entry in row {}; expected a positive semidefinite matrix",
+                          energy.of_matrix / energy.of_diagonal, row + 1));
+}
+
+template <int B>
+void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
+  Search<B>(A, levels).run();
+}
+
+template void refuse_indefinite(const BlockMatrix<1>&, const AlgebraicLevels<1>&);
+template void refuse_indefinite(const BlockMatrix<2>&, const AlgebraicLevels<2>&);
+template void refuse_indefinite(const BlockMatrix<3>&, const AlgebraicLevels<3>&);
+
+}  // namespace signorini

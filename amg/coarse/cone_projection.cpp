@@ -1,0 +1,61 @@
+#include "amg/coarse/cone_projection.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <vector>
+
+namespace signorini {
+
+namespace {
+
+constexpr double tolerance = 1e-12;  // part of |g| by which a condition may be missed
+
+/// Columns G_j' of the conditions that hold as equalities.
+Eigen::MatrixXd columns(const Eigen::MatrixXd& G, const std::vector<Eigen::Index>& active) {
+  Eigen::MatrixXd out(G.cols(), static_cast<Eigen::Index>(active.size()));
+  for (std::size_t k = 0; k < active.size(); ++k) out.col(static_cast<Eigen::Index>(k)) = G.row(active[k]).transpose();
+  return out;
+}
+
+/// Goes from the multipliers towards the best ones as far as none turns negative; conditions with a zero one leave.
+/// Returns whether the best ones were reached.
+bool advance(std::vector<Eigen::Index>& active, std::vector<double>& multiplier, const Eigen::VectorXd& best) {
+  double step = 1;
+  for (std::size_t k = 0; k < active.size(); ++k)
+    if (const double to = best[static_cast<Eigen::Index>(k)]; to <= 0)
+      step = std::min(step, multiplier[k] / (multiplier[k] - to));
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    const double value = multiplier[k] + step * (best[static_cast<Eigen::Index>(k)] - multiplier[k]);
+    if (step < 1 && value <= 1e-15 * std::abs(multiplier[k])) continue;
+    active[kept] = active[k];
+    multiplier[kept++] = value;
+  }
+  const bool all = step == 1;
+  active.resize(kept);
+  multiplier.resize(kept);
+  return all;
+}
+
+}  // namespace
+
+Eigen::VectorXd project_onto_cone(const Eigen::MatrixXd& G, const Eigen::VectorXd& g) {
+  std::vector<Eigen::Index> active;
+  std::vector<double> multiplier;
+  Eigen::VectorXd c = g;
+  for (Eigen::Index round = 0; round < 3 * G.rows(); ++round) {
+    Eigen::Index worst = 0;
+    if (!((G * c).minCoeff(&worst) < -tolerance * g.norm()) || std::ranges::count(active, worst)) break;
+    active.push_back(worst);
+    multiplier.push_back(0);
+    Eigen::VectorXd best;
+    do {
+      if (active.empty()) return g;
+      best = columns(G, active).colPivHouseholderQr().solve(-g);
+    } while (!advance(active, multiplier, best));
+    c = g + columns(G, active) * best;
+  }
+  return c;
+}
+
+}  // namespace signorini

@@ -1,0 +1,104 @@
+#include "core/scene/solver_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <type_traits>
+
+#include "core/base/error.hpp"
+#include "core/scene/table_reader.hpp"
+#include "core/solver/option_table.hpp"
+
+namespace signorini {
+namespace {
+
+using Solver = Scene::Solver;
+
+constexpr OptionRow<Solver> of_scenes[] = {
+    {"algebraic", &Solver::algebraic, "",
+     "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
+    {"hierarchy", &Solver::hierarchy, "auto | meshes | matrix",
+     "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
+     "auto: the meshes, but the matrix where cells are stretched and algebraic levels are allowed"},
+    {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh"},
+};
+
+// As TOML: 1e-8, not 1e-08.
+std::string written(double value) {
+  std::string text = fmt::format("{}", value);
+  if (const std::size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  return text;
+}
+std::string written(bool value) { return value ? "true" : "false"; }
+std::string written(int value) { return fmt::format("{}", value); }
+std::string written(const std::string& value) { return value; }
+
+constexpr KeyType type_of(bool) { return KeyType::boolean; }
+constexpr KeyType type_of(int) { return KeyType::integer; }
+constexpr KeyType type_of(double) { return KeyType::number; }
+KeyType type_of(const std::string&) { return KeyType::text; }
+
+/// The keys with their defaults, which no table of constants holds.
+struct Keys {
+  std::deque<std::string> defaults;
+  std::vector<KeySpec> all;
+
+  template <class Options>
+  void add(std::span<const OptionRow<Options>> rows) {
+    const Options fresh;
+    for (const OptionRow<Options>& row : rows)
+      std::visit(
+          [&](auto member) {
+            defaults.push_back(written(fresh.*member));
+            all.push_back({row.name, type_of(fresh.*member), defaults.back().c_str(), row.range, "", row.help});
+          },
+          row.member);
+  }
+};
+
+const Keys& keys() {
+  static const Keys made = [] {
+    Keys all;
+    all.add(option_table());
+    all.add(std::span<const OptionRow<Solver>>(of_scenes));
+    return all;
+  }();
+  return made;
+}
+
+void read(const TableReader& reader, const char* key, bool& value) { value = reader.flag(key); }
+void read(const TableReader& reader, const char* key, int& value) { value = reader.integer(key); }
+void read(const TableReader& reader, const char* key, double& value) { value = reader.number(key); }
+void read(const TableReader& reader, const char* key, std::string& value) { value = reader.text(key); }
+
+template <class Options>
+void read_all(const TableReader& reader, std::span<const OptionRow<Options>> rows, Options& options) {
+  for (const OptionRow<Options>& row : rows)
+    std::visit([&](auto member) { read(reader, row.name, options.*member); }, row.member);
+}
+
+}  // namespace
+
+std::span<const KeySpec> solver_keys() { return keys().all; }
+
+std::span<const char* const> solver_keys_of_scenes() {
+  static const auto names = [] {
+    std::vector<const char*> all;
+    for (const OptionRow<Solver>& row : of_scenes) all.push_back(row.name);
+    return all;
+  }();
+  return names;
+}
+
+Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, solver_keys(), folder);
+  reader.check_keys();
+  Scene::Solver solver;
+  read_all<SolverOptions>(reader, option_table(), solver);
+  read_all<Solver>(reader, of_scenes, solver);
+  solver.source = reader.source();
+  if (solver.pre + solver.post == 0) input_error(reader.origin("post"), "'pre' and 'post' are both 0: nothing smooths");
+  return solver;
+}
+
+}  // namespace signorini

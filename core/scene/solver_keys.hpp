@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <span>
+
+#include "core/scene/scene.hpp"
+#include "core/scene/specs.hpp"
+
+namespace signorini {
+
+/// The keys of `[solver]`: the options of the solver, and those that only a scene has.
+std::span<const KeySpec> solver_keys();
+
+/// The names of the latter, which need meshes.
+std::span<const char* const> solver_keys_of_scenes();
+
+Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder);
+
+}  // namespace signorini

@@ -1,0 +1,92 @@
+#include "core/solver/option_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/base/error.hpp"
+#include "core/input/range.hpp"
+
+namespace signorini {
+namespace {
+
+using S = SolverOptions;
+
+constexpr bool of_levels = true;
+
+constexpr OptionRow<S> table[] = {
+    {"tolerance", &S::tolerance, "(0, 1)", "for the relative algebraic error and for the natural residual"},
+    {"max_iterations", &S::max_iterations, "[1, 1000000]",
+     "limit on the number of steps of all methods together: cycles, and the linear solves of others"},
+    {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas",
+     "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
+     "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while phases rest, pdas where cycles "
+     "are slow and unknowns no more than 150000 or scalar"},
+    {"cycle", &S::cycle, "V | W | F", "shape of the cycle"},
+    {"pre", &S::pre, "[0, 100]", "smoothing steps before the coarse correction"},
+    {"post", &S::post, "[0, 100]", "smoothing steps after the coarse correction"},
+    {"smoother", &S::smoother, "", "a smoother of `signorini list smoothers`"},
+    {"relaxation", &S::relaxation, "(0, 2)",
+     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel"},
+    {"transfer", &S::transfer, "", "a monotone restriction of `signorini list transfers`"},
+    {"coarse", &S::coarse, "", "a coarse solver of `signorini list coarse`"},
+    {"truncate", &S::truncate, "none | normal | tangential",
+     "directions in contact taken out of the interpolation; tangential: all directions of a vector in contact"},
+    {"cut", &S::cut, "[0, 100]", "also truncate where less is left than this part of the last cycle's largest change"},
+    {"rotate", &S::rotate, "all | not_coarsest | meshes | none",
+     "levels on which contact vectors use their local basis; meshes: not the algebraic ones", of_levels},
+    {"reassemble", &S::reassemble, "",
+     "renew the matrices of algebraic levels where phases have changed; false: search along their corrections",
+     of_levels},
+    {"reach", &S::reach, "all | twins",
+     "what corrects constrained vectors from algebraic levels: all coarse vectors, which then have bounds, or the "
+     "twins of constrained ones; other weights are truncated",
+     of_levels},
+    {"interpolate", &S::interpolate, "global | local",
+     "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases", of_levels},
+    {"coarsening", &S::coarsening, "auto | classical | aggregation",
+     "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
+     "for elastic bodies",
+     of_levels},
+    {"aggregates", &S::aggregates, "",
+     "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels},
+    {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest"},
+    {"threads", &S::threads, "[1, 4096]", "threads of the cycles, for large problems; results do not depend on them"},
+};
+
+[[noreturn]] void refuse(const char* name, const std::string& found, const Range& range, const char* kind) {
+  input_error(fmt::format("solver.{}", name), fmt::format("found '{}', expected {}{}", found, range.expected(kind),
+                                                          did_you_mean(found, range.choices())));
+}
+
+void check(const char*, const Range&, bool) {}
+void check(const char* name, const Range& range, int value) {
+  if (!range.contains(static_cast<double>(value))) refuse(name, fmt::format("{}", value), range, "a whole number");
+}
+void check(const char* name, const Range& range, double value) {
+  if (!range.contains(value)) refuse(name, fmt::format("{}", value), range, "a number");
+}
+void check(const char* name, const Range& range, const std::string& value) {
+  if (!range.contains(std::string_view(value))) refuse(name, value, range, "a text");
+}
+
+}  // namespace
+
+std::span<const OptionRow<SolverOptions>> option_table() { return table; }
+
+void check_ranges(const SolverOptions& options) {
+  for (const auto& row : table)
+    std::visit([&](auto member) { check(row.name, Range(row.range), options.*member); }, row.member);
+}
+
+int position_among_choices(const SolverOptions& options, std::string SolverOptions::*member) {
+  const auto* const row = std::ranges::find(table, decltype(OptionRow<S>::member)(member), &OptionRow<S>::member);
+  assert(row != std::end(table));
+  const Range range(row->range);
+  check(row->name, range, options.*member);
+  const auto& choices = range.choices();
+  return static_cast<int>(std::ranges::find(choices, options.*member) - choices.begin());
+}
+
+}  // namespace signorini

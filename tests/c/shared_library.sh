@@ -1,0 +1,40 @@
+#!/bin/sh
+# The installed libsignorini_c.so exports what c/signorini.h declares and nothing else, pkg-config finds it for a C
+# compiler, and the examples of docs/black_box.md in C and in Python, by ctypes, print the same.
+#   shared_library.sh CMAKE BUILD SOURCE SCRATCH
+set -eu
+cmake=$1 build=$2 source=$3 scratch=$4
+here=$source/tests/c
+
+rm -rf "$scratch"
+"$cmake" --install "$build" --prefix "$scratch/prefix" --component sdk >/dev/null
+PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name signorini_c.pc)")
+export PKG_CONFIG_PATH
+libraries=$(pkg-config --variable=libdir signorini_c)
+library=$libraries/libsignorini_c.so.1
+
+nm -D --defined-only --format=just-symbols "$library" | sort >"$scratch/exported"
+grep -o 'signorini_[a-z0-9_]*(' "$source/c/signorini.h" | grep -v '^signorini_monitor(' | tr -d '(' | sort -u >"$scratch/declared"
+diff "$scratch/exported" "$scratch/declared"
+readelf -d "$library" | grep -q 'SONAME.*\[libsignorini_c\.so\.1\]'
+
+# shellcheck disable=SC2046
+cc "$here/outside/membrane.c" -o "$scratch/membrane" $(pkg-config --cflags --libs signorini_c) -Wl,-rpath,"$libraries"
+"$scratch/membrane" >"$scratch/from_c"
+# Programs may call the header by the name it had before.
+# shellcheck disable=SC2046
+printf '#include "amg/signorini.h"\n#include "c/signorini.h"\n' | cc -fsyntax-only $(pkg-config --cflags signorini_c) -x c -
+PYTHONMALLOC=debug python3 "$here/membrane.py" "$library" >"$scratch/from_python"
+diff "$scratch/from_c" "$scratch/from_python"
+test "$(grep -c carries "$scratch/from_c")" = 3
+python3 - "$here/membrane.py" "$source/docs/black_box.md" "$source/c/signorini.h" <<'EOF'
+import re
+import sys
+example, page, header = (open(name).read() for name in sys.argv[1:])
+struct = re.search(r"typedef struct \{([^}]*)\} signorini_summary;", re.sub(r"/\*.*?\*/", "", header, flags=re.S)).group(1)
+declared = re.findall(r"(\w+)\s*[,;]", struct)
+shown = re.findall(r'\("(\w+)", c_\w+\)', example)
+if declared != shown:
+    sys.exit(f"Summary in membrane.py has {shown}, signorini_summary {declared}")
+sys.exit(0 if example in page else "docs/black_box.md does not show membrane.py as it is tested")
+EOF
