@@ -22,7 +22,7 @@
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 #include "core/solver/convergence.hpp"
 
 namespace signorini {

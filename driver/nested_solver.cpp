@@ -15,7 +15,7 @@
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
 

@@ -11,9 +11,9 @@
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 #include "core/solver/prolongation.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "core/solver/summary.hpp"
 
 namespace signorini {

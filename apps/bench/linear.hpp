@@ -4,7 +4,7 @@
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini::bench {

@@ -10,7 +10,7 @@
 #include "amg/nested_start.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/multigrid.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "core/solver/weights.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"

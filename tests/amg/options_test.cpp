@@ -9,9 +9,9 @@
 #include "amg/reach.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 #include "core/solver/multigrid.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 

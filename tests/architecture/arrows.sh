@@ -10,10 +10,11 @@ declare -A allowed=(
   [core]=""
   [transfer]="core"
   [smoothers]="core"
-  [amg]="core transfer smoothers"
+  [methods]="core"
+  [amg]="core transfer smoothers methods"
   [estimators]="core transfer smoothers"
   [obstacles]="core"
-  [driver]="core transfer smoothers amg estimators"
+  [driver]="core transfer smoothers methods amg estimators"
 )
 
 # "FILE:LINE:HEADER" of every #include below a folder.
@@ -93,15 +94,17 @@ selftest() {
   try good core/a.cpp '#include "core/base/types.hpp"'
   try good amg/a.cpp '#include "transfer/a.hpp"'
   try good driver/a.cpp '#include "amg/a.hpp"'
+  try good amg/a.cpp '#include "methods/a.hpp"'
+  try wrong methods/a.cpp '#include "amg/a.hpp"'
   try good apps/a.cpp '#include "driver/a.hpp"'
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
   try good apps/bench/peers/a.cpp '#include <Eigen/CholmodSupport>'
   try good core/a.cpp '// frame/wo''rk/home is no path'
-  for folder in transfer smoothers amg estimators obstacles driver apps tests; do
+  for folder in transfer smoothers methods amg estimators obstacles driver apps tests; do
     try wrong core/a.cpp "#include \"$folder/a.hpp\""
   done
-  for folder in core transfer smoothers amg estimators driver; do
+  for folder in core transfer smoothers methods amg estimators driver; do
     try wrong "$folder/a.hpp" '  #  include "obstacles/contact/a.hpp"'
   done
   try wrong amg/a.cpp '#include "driver/a.hpp"'

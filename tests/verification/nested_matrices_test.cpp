@@ -1,6 +1,6 @@
 // Where the matrix of a coarser mesh is the Galerkin product of the finer one's, the solver takes it over.
 #include "core/fem/nested.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 #include "core/solver/multigrid.hpp"
 #include "run.hpp"
 #include "tests/support/dense.hpp"
