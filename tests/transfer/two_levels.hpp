@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "core/solver/multigrid.hpp"
 #include "tests/support/random_problem.hpp"
 #include "transfer/merge.hpp"
@@ -31,7 +33,7 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
       for (int i = 0; i < B * B; ++i)
         W(i / B, i % B) = P.block.empty() ? W(i / B, i % B) * P.weight[k] : P.block[k * B * B + i];
       T.block(p * B, q * B, B, B) =
-          kept(fine.removed[p]) * basis(fine, p).inverse() * W * basis(coarse, q) * kept(coarse.off[q]);
+          kept(fine.removed(p)) * basis(fine, p).inverse() * W * basis(coarse, q) * kept(coarse.off[q]);
     }
   return T;
 }
@@ -40,10 +42,8 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
 template <int B>
 void truncate(Level<B>& level, const std::vector<Flags>& critical) {
   for (Index p = 0; p < level.vectors; ++p) {
-    const Flags removed = level.off[p] | critical[p];
-    if (removed == level.removed[p]) continue;
-    level.removed[p] = removed;
-    level.changed.push_back(p);
+    const Flags before = std::exchange(level.phases.truncated[p], critical[p] & static_cast<Flags>(~level.off[p]));
+    if (level.phases.truncated[p] != before) level.outdated.changed.push_back(p);
   }
 }
 
@@ -87,13 +87,13 @@ struct TwoLevels {
     fine.clear_phases();
     transfer.prepare(fine, P, rotate, coarse);
     coarse.clear_phases();
-    for (std::size_t i = 0; i < fine.lower.size(); ++i) {
+    for (std::size_t i = 0; i < fine.phases.lower.size(); ++i) {
       const auto [lower, upper] = random_interval(random, 0, 1);
-      fine.lower[i] = std::min(lower, 0.0);
-      fine.upper[i] = std::max(upper, 0.0);
+      fine.phases.lower[i] = std::min(lower, 0.0);
+      fine.phases.upper[i] = std::max(upper, 0.0);
     }
-    fine.constraints.lower = fine.lower;
-    fine.constraints.upper = fine.upper;
+    fine.constraints.lower = fine.phases.lower;
+    fine.constraints.upper = fine.phases.upper;
   }
 
   /// coarse.b from a residual on the whole fine level.
