@@ -6,6 +6,8 @@ namespace signorini::automatic {
 
 namespace {
 
+// On which problems each constant was chosen: docs/variants.md, "Constants".
+
 // Vectors on a single level, and where so many are coupled to each on the coarsest one, above which a cycle's Newton
 // steps, up to a dozen, are too dear to be tried first.
 constexpr Index many_vectors = 1000, fewer_vectors = 400, many_couplings = 100;

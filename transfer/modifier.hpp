@@ -58,8 +58,7 @@ inline void block_to_global(const Level<B>& level, const Frames<B>& frames, Inde
   const Flags removed_p = level.removed(p), removed_r = level.removed(r);
   double T[B * B];
   for (int i = 0; i < B; ++i)
-    for (int j = 0; j < B; ++j)
-      T[i * B + j] = (removed_p >> i & 1u) || (removed_r >> j & 1u) ? 0 : A[i * B + j];
+    for (int j = 0; j < B; ++j) T[i * B + j] = (removed_p >> i & 1u) || (removed_r >> j & 1u) ? 0 : A[i * B + j];
   const double *Np = frames.dual_at(p), *Nr = frames.dual_at(r);
   double S[B * B];
   if (Np)

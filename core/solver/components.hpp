@@ -68,7 +68,7 @@ template <int B>
 Index reassemble(Transfer<B>& transfer, Level<B>& fine, Level<B>& coarse) {
   const std::vector<Index>& rows = transfer.assemble(fine, coarse);
   fine.outdated.clear();
-  coarse.outdated.renewed.insert(coarse.outdated.renewed.end(), rows.begin(), rows.end());
+  coarse.renew(rows);
   return static_cast<Index>(rows.size());
 }
 

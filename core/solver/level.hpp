@@ -52,9 +52,11 @@ struct Phases {
   std::vector<Flags> critical;       ///< per slot: directions in contact
   std::vector<Flags> phase;          ///< per slot: the critical flags of the last visit
   std::vector<Flags> truncated;      ///< per vector: components that do not interpolate though they are not off
+  std::vector<Flags> removed;        ///< per vector: off or truncated, which interpolation asks for
 
-  void clear(Index vectors, std::size_t slots) {
-    truncated.assign(static_cast<std::size_t>(vectors), 0);
+  void clear(const std::vector<Flags>& off, std::size_t slots) {
+    truncated.assign(off.size(), 0);
+    removed = off;
     critical.assign(slots, 0);
     phase.assign(slots, 0);
     lower.assign(slots * B, -infinity);
@@ -99,12 +101,28 @@ struct Level : LevelSystem<B> {
   Outdated outdated;
 
   /// Components of vector p that do not interpolate: off or truncated.
-  Flags removed(Index p) const { return this->off[p] | phases.truncated[p]; }
+  Flags removed(Index p) const { return phases.removed[p]; }
+
+  /// Truncates these components of vector p and no others. Returns whether that is a change.
+  bool truncate(Index p, Flags components) {
+    phases.truncated[p] = components & static_cast<Flags>(~this->off[p]);
+    const Flags now = components | this->off[p];
+    if (now == phases.removed[p]) return false;
+    phases.removed[p] = now;
+    outdated.changed.push_back(p);
+    return true;
+  }
+
+  /// Says that these rows of the matrix, and with them components that are off, have been recomputed.
+  void renew(const std::vector<Index>& rows) {
+    for (const Index p : rows) phases.removed[p] = this->off[p] | phases.truncated[p];
+    outdated.renewed.insert(outdated.renewed.end(), rows.begin(), rows.end());
+  }
 
   /// No direction in contact, no distances; once slots and prescribed components are known.
   void clear_phases() {
     const auto slots = static_cast<std::size_t>(this->constraints.size());
-    phases.clear(this->vectors, slots);
+    phases.clear(this->off, slots);
     if (nonlinear) piece.clear(slots);
   }
 

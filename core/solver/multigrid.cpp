@@ -354,13 +354,10 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     const Flags critical = level.phases.critical[slot] & static_cast<Flags>(~level.off[p]);
     report.critical += critical != 0;
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
-    const Flags now = truncated(level, slot, critical) & static_cast<Flags>(~level.off[p]);
-    const bool same = now == (level.phases.truncated[p] & ~level.off[p]);
-    report.changed += critical != level.phases.phase[slot] || !same;
+    const bool differs = level.truncate(p, truncated(level, slot, critical));
+    report.changed += critical != level.phases.phase[slot] || differs;
     level.phases.phase[slot] = critical;
     if (level.nonlinear) renew_curvature(level, slot);
-    level.phases.truncated[p] = now;
-    if (!same) level.outdated.changed.push_back(p);
   }
 }
 
@@ -387,11 +384,11 @@ bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, Le
     return false;
   const Flags kept = settings_.truncate == Truncation::none ? 0 : (1u << B) - 1;
   const Flags *critical = level.phases.critical.data(), *phase = level.phases.phase.data();
-  const Flags *off = level.off.data(), *truncated = level.phases.truncated.data();
+  const Flags *off = level.off.data(), *removed = level.phases.removed.data();
   Flags different = 0;
   for (Index p = from; p < to; ++p) {
     const Flags now = critical[p] & static_cast<Flags>(~off[p]);
-    different |= static_cast<Flags>((now ^ phase[p]) | ((truncated[p] & ~off[p]) ^ (now & kept)));
+    different |= static_cast<Flags>((now ^ phase[p]) | (removed[p] ^ (off[p] | (now & kept))));
   }
   if (different) return false;
   for (Index p = from; p < to; ++p) report.critical += phase[p] != 0;

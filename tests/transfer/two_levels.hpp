@@ -1,6 +1,4 @@
 #pragma once
-#include <utility>
-
 #include "core/solver/multigrid.hpp"
 #include "tests/support/random_problem.hpp"
 #include "transfer/merge.hpp"
@@ -41,10 +39,7 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
 /// New truncation flags of a level, listed as changed where they differ.
 template <int B>
 void truncate(Level<B>& level, const std::vector<Flags>& critical) {
-  for (Index p = 0; p < level.vectors; ++p) {
-    const Flags before = std::exchange(level.phases.truncated[p], critical[p] & static_cast<Flags>(~level.off[p]));
-    if (level.phases.truncated[p] != before) level.outdated.changed.push_back(p);
-  }
+  for (Index p = 0; p < level.vectors; ++p) level.truncate(p, critical[p]);
 }
 
 template <int B>
