@@ -14,9 +14,9 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/solver/admissible.hpp"
-#include "methods/stages.hpp"
 #include "core/solver/convergence.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/stages.hpp"
 
 namespace signorini {
 namespace {

@@ -1,7 +1,7 @@
 // Where the matrix of a coarser mesh is the Galerkin product of the finer one's, the solver takes it over.
 #include "core/fem/nested.hpp"
-#include "methods/configuration.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/configuration.hpp"
 #include "run.hpp"
 #include "tests/support/dense.hpp"
 
