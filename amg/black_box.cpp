@@ -22,8 +22,8 @@
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/convergence.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini {
 namespace {

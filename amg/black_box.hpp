@@ -6,7 +6,7 @@
 #include "amg/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/solver/options.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 
 namespace signorini {
 

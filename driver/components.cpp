@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/component/plugin_loader.hpp"
 #include "core/scene/specs.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini {
 namespace {

@@ -15,9 +15,9 @@
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
-#include "core/solver/solve.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
+#include "methods/solve.hpp"
 
 namespace signorini {
 namespace {
@@ -65,8 +65,8 @@ bool is_stretched(const Mesh<D>& mesh, int block) {
   return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
 }
 
-/// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with the
-/// residual r in the middle between them, all in one pass over the matrix.
+/// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with
+/// the residual r in the middle between them, all in one pass over the matrix.
 template <int B>
 std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
   const std::vector<double>& first = vectors.front();

@@ -5,16 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "driver/progress.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/prolongation.hpp"
-#include "core/solver/solve.hpp"
 #include "core/solver/summary.hpp"
+#include "driver/progress.hpp"
+#include "methods/configuration.hpp"
+#include "methods/solve.hpp"
 
 namespace signorini {
 

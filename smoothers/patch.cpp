@@ -52,7 +52,7 @@ class PatchSweeps final : public LevelSmoother<B> {
   // The first time all, then those with rows that are new since the last visit.
   void renew_factors() {
     std::vector<char> renewed(number_.size(), factorised_ ? 0 : 1);
-    for (const Index p : level_.renewed) renewed[p] = 1;
+    for (const Index p : level_.outdated.renewed) renewed[p] = 1;
     for (PatchOfVectors& patch : patches_)
       if (std::ranges::any_of(patch.vectors, [&](Index p) { return renewed[p] != 0; })) factorise(patch);
     factorised_ = true;

@@ -9,7 +9,8 @@
 namespace signorini {
 
 template <int B>
-void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
+void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
+                               LevelSystem<B>& coarse) {
   begin(fine, prolongation, rotate, coarse);
   const GalerkinMatrix<B>* known = coarse.galerkin;
   // A product of fewer couplings than the finer level has here lacks some as well.
@@ -22,15 +23,15 @@ void BlockTransfer<B>::prepare(const Level<B>& fine, const Prolongation& prolong
 
 template <int B>
 void BlockTransfer<B>::prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
-                                         Level<B>& coarse) {
+                                         LevelSystem<B>& coarse) {
   begin(fine, prolongation, rotate, coarse);
-  coarse.clear_phases();
   create(fine, coarse);
   coarse.chunks = divide(coarse.own_matrix);
 }
 
 template <int B>
-void BlockTransfer<B>::begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) {
+void BlockTransfer<B>::begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
+                             LevelSystem<B>& coarse) {
   assert(prolongation.fine() == fine.vectors);
   P_ = &prolongation;
   const auto n = static_cast<std::size_t>(prolongation.coarse);
@@ -51,7 +52,7 @@ void BlockTransfer<B>::begin(const Level<B>& fine, const Prolongation& prolongat
 // A frame, and what is prescribed in it, passes from a vector to its coarse twin. Without the frame nothing can be
 // prescribed there: then the fine rows alone see to it.
 template <int B>
-void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const {
+void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, LevelSystem<B>& coarse) const {
   coarse.off.assign(static_cast<std::size_t>(coarse.vectors), 0);
   const std::vector<Index> twins = P_->twins();
   for (Index q = 0; q < coarse.vectors; ++q) {
@@ -69,7 +70,7 @@ void BlockTransfer<B>::inherit_twins(const Level<B>& fine, bool rotate, Level<B>
 
 // Every coarse vector that reaches a constrained one gets bounds: no coarse correction leaves the admissible set.
 template <int B>
-void BlockTransfer<B>::give_slots(const Level<B>& fine, Level<B>& coarse) const {
+void BlockTransfer<B>::give_slots(const Level<B>& fine, LevelSystem<B>& coarse) const {
   Constraints<B>& c = coarse.constraints;
   c.slot.assign(static_cast<std::size_t>(coarse.vectors), -1);
   for (const Index p : fine.constraints.vector)
@@ -85,7 +86,7 @@ void BlockTransfer<B>::give_slots(const Level<B>& fine, Level<B>& coarse) const 
 
 // Whatever is truncated: energies far below these are rounding.
 template <int B>
-void BlockTransfer<B>::sum_terms(const Level<B>& fine, Level<B>& coarse) const {
+void BlockTransfer<B>::sum_terms(const Level<B>& fine, LevelSystem<B>& coarse) const {
   const auto terms_at = [&](Index p) {
     if (!fine.terms.empty()) return fine.terms[p];
     double largest = 0;
@@ -106,14 +107,14 @@ void BlockTransfer<B>::sum_terms(const Level<B>& fine, Level<B>& coarse) const {
 }
 
 template <int B>
-void BlockTransfer<B>::begin_restriction(Level<B>& coarse) const {
+void BlockTransfer<B>::begin_restriction(LevelSystem<B>& coarse) const {
   std::fill(coarse.own_b.begin(), coarse.own_b.end(), 0.0);
   std::fill(coarse.own_x.begin(), coarse.own_x.end(), 0.0);
 }
 
 template <int B>
 void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
-                                         Level<B>& coarse) const {
+                                         LevelSystem<B>& coarse) const {
   weights::with<B>(*P_, [&](const auto& weight) {
     for (Index p = first; p < last; ++p, r += B) {
       double global[B];
@@ -129,7 +130,7 @@ void BlockTransfer<B>::restrict_residual(const Level<B>& fine, Index first, Inde
 }
 
 template <int B>
-void BlockTransfer<B>::end_restriction(Level<B>& coarse) const {
+void BlockTransfer<B>::end_restriction(LevelSystem<B>& coarse) const {
   for (Index q = 0; q < coarse.vectors; ++q) {
     const double* Q = coarse.frames.at(q);
     if (!Q && !coarse.off[q]) continue;
@@ -141,7 +142,7 @@ void BlockTransfer<B>::end_restriction(Level<B>& coarse) const {
 }
 
 template <int B>
-void BlockTransfer<B>::begin_prolongation(const Level<B>& coarse) const {
+void BlockTransfer<B>::begin_prolongation(const LevelSystem<B>& coarse) const {
   if (coarse.frames.slot.empty()) return;
   for (Index q = 0; q < coarse.vectors; ++q)
     if (coarse.frames.at(q)) {
@@ -152,7 +153,7 @@ void BlockTransfer<B>::begin_prolongation(const Level<B>& coarse) const {
 }
 
 template <int B>
-void BlockTransfer<B>::prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const {
+void BlockTransfer<B>::prolongate(const LevelSystem<B>& coarse, const Level<B>& fine, Index first, Index last) const {
   weights::with<B>(*P_, [&](const auto& weight) {
     for (Index p = first; p < last; ++p) {
       double global[B] = {};

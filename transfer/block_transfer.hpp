@@ -8,16 +8,16 @@ namespace signorini {
 template <int B>
 class BlockTransfer : public Transfer<B> {
  public:
-  void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) override;
+  void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, LevelSystem<B>& coarse) override;
   void prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
-                         Level<B>& coarse) override;
-  Index assemble(Level<B>& fine, Level<B>& coarse) override;
-  void begin_restriction(Level<B>& coarse) const override;
+                         LevelSystem<B>& coarse) override;
+  const std::vector<Index>& assemble(const Level<B>& fine, LevelSystem<B>& coarse) override;
+  void begin_restriction(LevelSystem<B>& coarse) const override;
   void restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
-                         Level<B>& coarse) const override;
-  void end_restriction(Level<B>& coarse) const override;
-  void begin_prolongation(const Level<B>& coarse) const override;
-  void prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const override;
+                         LevelSystem<B>& coarse) const override;
+  void end_restriction(LevelSystem<B>& coarse) const override;
+  void begin_prolongation(const LevelSystem<B>& coarse) const override;
+  void prolongate(const LevelSystem<B>& coarse, const Level<B>& fine, Index first, Index last) const override;
 
  protected:
   const Prolongation& weights() const { return *P_; }
@@ -25,16 +25,16 @@ class BlockTransfer : public Transfer<B> {
   const Frames<B>& frames(const Level<B>& fine) const { return P_->local ? no_frames_ : fine.frames; }
 
  private:
-  void begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse);
-  void inherit_twins(const Level<B>& fine, bool rotate, Level<B>& coarse) const;
-  void give_slots(const Level<B>& fine, Level<B>& coarse) const;
-  void sum_terms(const Level<B>& fine, Level<B>& coarse) const;
-  void adopt(const GalerkinMatrix<B>& known, bool complete, Level<B>& coarse);
+  void begin(const Level<B>& fine, const Prolongation& prolongation, bool rotate, LevelSystem<B>& coarse);
+  void inherit_twins(const Level<B>& fine, bool rotate, LevelSystem<B>& coarse) const;
+  void give_slots(const Level<B>& fine, LevelSystem<B>& coarse) const;
+  void sum_terms(const Level<B>& fine, LevelSystem<B>& coarse) const;
+  void adopt(const GalerkinMatrix<B>& known, bool complete, LevelSystem<B>& coarse);
   void transpose_weights();
   void begin_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void build_pattern(const BlockMatrix<B>& A, BlockMatrix<B>& coarse);
   void append_pattern(Index q, BlockMatrix<B>& coarse);
-  void create(const Level<B>& fine, Level<B>& coarse);
+  void create(const Level<B>& fine, LevelSystem<B>& coarse);
   std::vector<Index> affected_rows(const Level<B>& fine);
   void mark_parents(Index p, std::vector<Index>& rows);
   void clear_reached();
@@ -43,10 +43,10 @@ class BlockTransfer : public Transfer<B> {
   template <class Weight>
   bool sum_children(const Level<B>& fine, Index q, const Weight& weight);
   template <class Weight>
-  void sum_parents(Level<B>& coarse, Index q, std::size_t summed, const Weight& weight);
+  void sum_parents(LevelSystem<B>& coarse, Index q, std::size_t summed, const Weight& weight);
   template <class Weight>
   void add_alone(const Level<B>& fine, Index p, const double* M, const Weight& W);
-  void finish_row(Level<B>& coarse, Index q);
+  void finish_row(LevelSystem<B>& coarse, Index q);
 
   struct Child {
     Index vector;
@@ -65,6 +65,7 @@ class BlockTransfer : public Transfer<B> {
   double alone_[B * B] = {};       // of the row at work: what its diagonal would be if no fine vectors were coupled
   double untruncated_ = 0;         // the size of that without truncation
   bool assembled_ = false;
+  std::vector<Index> rows_;  // recomputed the last time
 };
 
 }  // namespace signorini

@@ -36,7 +36,7 @@ void decouple(BlockMatrix<B>& C, Index q, Flags off) {
 }
 
 template <int B>
-void invert_diagonal(Level<B>& level, Index q) {
+void invert_diagonal(LevelSystem<B>& level, Index q) {
   double* inverse = level.inverse.data() + Offset{q} * B * B;
   block::invert<B>(level.own_matrix.diagonal(q), inverse);
   for (int i = 0; i < B; ++i)
@@ -46,7 +46,7 @@ void invert_diagonal(Level<B>& level, Index q) {
 }  // namespace
 
 template <int B>
-void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, bool complete, Level<B>& coarse) {
+void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, bool complete, LevelSystem<B>& coarse) {
   if (complete)
     coarse.own_matrix = known.A;
   else
@@ -111,7 +111,7 @@ void BlockTransfer<B>::append_pattern(Index q, BlockMatrix<B>& coarse) {
 }
 
 template <int B>
-void BlockTransfer<B>::create(const Level<B>& fine, Level<B>& coarse) {
+void BlockTransfer<B>::create(const Level<B>& fine, LevelSystem<B>& coarse) {
   prescribed_ = coarse.off;
   begin_pattern(*fine.A, coarse.own_matrix);
   weights::with<B>(*P_, [&](const auto& weight) {
@@ -128,31 +128,27 @@ void BlockTransfer<B>::create(const Level<B>& fine, Level<B>& coarse) {
 }
 
 template <int B>
-Index BlockTransfer<B>::assemble(Level<B>& fine, Level<B>& coarse) {
-  std::vector<Index> rows;
+const std::vector<Index>& BlockTransfer<B>::assemble(const Level<B>& fine, LevelSystem<B>& coarse) {
   if (!assembled_) {
     prescribed_ = coarse.off;
-    rows.resize(static_cast<std::size_t>(coarse.vectors));
-    std::iota(rows.begin(), rows.end(), Index{0});
+    rows_.resize(static_cast<std::size_t>(coarse.vectors));
+    std::iota(rows_.begin(), rows_.end(), Index{0});
   } else {
-    rows = affected_rows(fine);
+    rows_ = affected_rows(fine);
   }
-  fine.changed.clear();
-  fine.renewed.clear();
-  if (!rows.empty() && child_row_.empty()) transpose_weights();
+  if (!rows_.empty() && child_row_.empty()) transpose_weights();
   place_.resize(static_cast<std::size_t>(fine.vectors), -1);
   BlockMatrix<B>& C = coarse.own_matrix;
   weights::with<B>(*P_, [&](const auto& weight) {
-    for (const Index q : rows) {
+    for (const Index q : rows_) {
       sum_children(fine, q, weight);
       std::fill(C.at(C.row[q]), C.at(C.row[q + 1]), 0.0);
       sum_parents(coarse, q, reached_.size(), weight);
       finish_row(coarse, q);
     }
   });
-  coarse.renewed.insert(coarse.renewed.end(), rows.begin(), rows.end());
   assembled_ = true;
-  return static_cast<Index>(rows.size());
+  return rows_;
 }
 
 template <int B>
@@ -168,8 +164,8 @@ void BlockTransfer<B>::mark_parents(Index p, std::vector<Index>& rows) {
 template <int B>
 std::vector<Index> BlockTransfer<B>::affected_rows(const Level<B>& fine) {
   std::vector<Index> rows;
-  for (const Index p : fine.renewed) mark_parents(p, rows);
-  for (const Index p : fine.changed)
+  for (const Index p : fine.outdated.renewed) mark_parents(p, rows);
+  for (const Index p : fine.outdated.changed)
     for (Offset k = fine.A->row[p]; k < fine.A->row[p + 1]; ++k) mark_parents(fine.A->column[k], rows);
   for (const Index q : rows) marked_[q] = 0;
   std::sort(rows.begin(), rows.end());
@@ -245,7 +241,7 @@ bool BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
   for (Offset c = child_row_[q]; c < child_row_[q + 1]; ++c) {
     const Index p = child_[c].vector;
     const auto W = weight(P_->row[p] + child_[c].entry);
-    if (fine.removed[p] == all) {
+    if (fine.removed(p) == all) {
       add_alone(fine, p, nullptr, W);
       complete = false;
       continue;
@@ -253,7 +249,7 @@ bool BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
     const bool plain = modifier::is_plain<B>(fine, frames(fine), p);
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k];
-      if (fine.removed[r] == all) {
+      if (fine.removed(r) == all) {
         complete = false;
         continue;
       }
@@ -278,7 +274,7 @@ bool BlockTransfer<B>::sum_children(const Level<B>& fine, Index q, const Weight&
 // Adds (P'A)P to row q, of the first `summed` fine vectors reached.
 template <int B>
 template <class Weight>
-void BlockTransfer<B>::sum_parents(Level<B>& coarse, Index q, std::size_t summed, const Weight& weight) {
+void BlockTransfer<B>::sum_parents(LevelSystem<B>& coarse, Index q, std::size_t summed, const Weight& weight) {
   BlockMatrix<B>& C = coarse.own_matrix;
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k) position_[C.column[k]] = k;
   const double* sum = sums_.data();
@@ -295,7 +291,7 @@ void BlockTransfer<B>::sum_parents(Level<B>& coarse, Index q, std::size_t summed
 // Rotates the row into the coarse frames, and decouples what has lost all its fine functions (Krause, remark 4.4): its
 // diagonal becomes one, and it neither gets a residual nor interpolates. What is seen to be indefinite is as well.
 template <int B>
-void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {
+void BlockTransfer<B>::finish_row(LevelSystem<B>& coarse, Index q) {
   BlockMatrix<B>& C = coarse.own_matrix;
   for (Offset k = C.row[q]; k < C.row[q + 1]; ++k)
     modifier::block_to_local<B>(coarse, q, C.column[k], prescribed_[q], prescribed_[C.column[k]], C.at(k));
@@ -312,10 +308,7 @@ void BlockTransfer<B>::finish_row(Level<B>& coarse, Index q) {
       own = spring * terms;
   }
   decouple(C, q, off);
-  // A component that came back interpolates again; whether it is truncated is for the next visit to say.
-  const Flags truncated = coarse.removed[q] & static_cast<Flags>(~coarse.off[q]);
   coarse.off[q] = off;
-  coarse.removed[q] = off | truncated;
   invert_diagonal(coarse, q);
 }
 

@@ -14,7 +14,7 @@ constexpr double negligible = 1e-14;
 
 // d(fine direction) / d(coarse component j)
 template <int B, class Weight>
-void coupling(const Frames<B>& fine, Index p, int direction, const Weight& W, const Level<B>& coarse, Index q,
+void coupling(const Frames<B>& fine, Index p, int direction, const Weight& W, const LevelSystem<B>& coarse, Index q,
               double* M) {
   const double *Np = fine.dual_at(p), *Qq = coarse.frames.at(q);
   double n[B], moved[B] = {};  // the direction in global coordinates, of the fine vector and of the coarse one
@@ -84,7 +84,7 @@ struct Row {
 }  // namespace
 
 template <int B, Share share>
-void Merge<B, share>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) const {
+void Merge<B, share>::restrict_bounds(const Level<B>& fine, LevelSystem<B>& coarse) const {
   coarse.constraints.clear_bounds();
   if (share == Share::equal && is_uncoupled(fine, coarse)) {
     restrict_uncoupled(fine, coarse);
@@ -98,15 +98,15 @@ void Merge<B, share>::restrict_bounds(const Level<B>& fine, Level<B>& coarse) co
 
 // The rows of a single weight, the others, or all. Truncated directions do not count.
 template <int B, Share share>
-void Merge<B, share>::restrict_rows(const Level<B>& fine, Level<B>& coarse, bool single, bool others) const {
+void Merge<B, share>::restrict_rows(const Level<B>& fine, LevelSystem<B>& coarse, bool single, bool others) const {
   const Prolongation& P = this->weights();
   std::vector<Term> terms;
   for (Index slot = 0; slot < fine.constraints.size(); ++slot) {
     const Index p = fine.constraints.vector[slot];
     if (!(P.row[p + 1] == P.row[p] + 1 ? single : others)) continue;
     for (int k = 0; k < B; ++k) {
-      const double lower = fine.lower[Offset{slot} * B + k], upper = fine.upper[Offset{slot} * B + k];
-      if ((fine.removed[p] >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
+      const double lower = fine.phases.lower[Offset{slot} * B + k], upper = fine.phases.upper[Offset{slot} * B + k];
+      if ((fine.removed(p) >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
       collect(fine, p, k, coarse, terms);
       for (const auto& [side, distance] : {std::pair(1.0, upper), std::pair(-1.0, -lower)}) {
         if (distance == infinity) continue;
@@ -121,13 +121,13 @@ void Merge<B, share>::restrict_rows(const Level<B>& fine, Level<B>& coarse, bool
 
 // Equal shares without a list of terms.
 template <int B, Share share>
-void Merge<B, share>::restrict_uncoupled(const Level<B>& fine, Level<B>& coarse) const {
+void Merge<B, share>::restrict_uncoupled(const Level<B>& fine, LevelSystem<B>& coarse) const {
   const Prolongation& P = this->weights();
   for (Index slot = 0; slot < fine.constraints.size(); ++slot) {
     const Index p = fine.constraints.vector[slot];
     for (int k = 0; k < B; ++k) {
-      const double lower = fine.lower[Offset{slot} * B + k], upper = fine.upper[Offset{slot} * B + k];
-      if ((fine.removed[p] >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
+      const double lower = fine.phases.lower[Offset{slot} * B + k], upper = fine.phases.upper[Offset{slot} * B + k];
+      if ((fine.removed(p) >> k & 1u) || (lower == -infinity && upper == infinity)) continue;
       const auto moves = [&](Offset at) { return P.weight[at] != 0 && !(coarse.off[P.column[at]] >> k & 1u); };
       int terms = 0;
       for (Offset at = P.row[p]; at < P.row[p + 1]; ++at) terms += moves(at);
@@ -145,12 +145,12 @@ void Merge<B, share>::restrict_uncoupled(const Level<B>& fine, Level<B>& coarse)
 
 // Whether every direction couples to itself alone.
 template <int B, Share share>
-bool Merge<B, share>::is_uncoupled(const Level<B>& fine, const Level<B>& coarse) const {
+bool Merge<B, share>::is_uncoupled(const Level<B>& fine, const LevelSystem<B>& coarse) const {
   return this->frames(fine).slot.empty() && coarse.frames.slot.empty() && this->weights().block.empty();
 }
 
 template <int B, Share share>
-void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse,
+void Merge<B, share>::collect(const Level<B>& fine, Index p, int direction, const LevelSystem<B>& coarse,
                               std::vector<Term>& terms) const {
   terms.clear();
   const Prolongation& P = this->weights();

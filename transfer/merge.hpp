@@ -30,13 +30,14 @@ enum class Share {
 template <int B, Share share>
 class Merge final : public BlockTransfer<B> {
  public:
-  void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const override;
+  void restrict_bounds(const Level<B>& fine, LevelSystem<B>& coarse) const override;
 
  private:
-  bool is_uncoupled(const Level<B>& fine, const Level<B>& coarse) const;
-  void restrict_uncoupled(const Level<B>& fine, Level<B>& coarse) const;
-  void restrict_rows(const Level<B>& fine, Level<B>& coarse, bool single, bool others) const;
-  void collect(const Level<B>& fine, Index p, int direction, const Level<B>& coarse, std::vector<Term>& terms) const;
+  bool is_uncoupled(const Level<B>& fine, const LevelSystem<B>& coarse) const;
+  void restrict_uncoupled(const Level<B>& fine, LevelSystem<B>& coarse) const;
+  void restrict_rows(const Level<B>& fine, LevelSystem<B>& coarse, bool single, bool others) const;
+  void collect(const Level<B>& fine, Index p, int direction, const LevelSystem<B>& coarse,
+               std::vector<Term>& terms) const;
 };
 
 template <int B>

@@ -8,7 +8,7 @@ namespace signorini::modifier {
 
 template <int B>
 inline bool is_plain(const Level<B>& level, const Frames<B>& frames, Index p) {
-  return level.removed[p] == 0 && (B == 1 || !frames.at(p));
+  return level.removed(p) == 0 && (B == 1 || !frames.at(p));
 }
 
 template <int B>
@@ -25,7 +25,7 @@ inline void value_to_local(const Level<B>& level, const Frames<B>& frames, Index
     block::transposed_product<B>(N, global, local);
   else
     for (int k = 0; k < B; ++k) local[k] = global[k];
-  drop<B>(level.removed[p], local);
+  drop<B>(level.removed(p), local);
 }
 
 /// global = N D local, the transposed of value_to_local
@@ -34,7 +34,7 @@ inline void force_to_global(const Level<B>& level, const Frames<B>& frames, Inde
                             double* global) {
   double kept[B];
   for (int k = 0; k < B; ++k) kept[k] = local[k];
-  drop<B>(level.removed[p], kept);
+  drop<B>(level.removed(p), kept);
   if (const double* N = frames.dual_at(p))
     block::product<B>(N, kept, global);
   else
@@ -43,7 +43,7 @@ inline void force_to_global(const Level<B>& level, const Frames<B>& frames, Inde
 
 /// local = D Q' global, D dropping the components that are off
 template <int B>
-inline void force_to_local(const Level<B>& level, Index q, const double* global, double* local) {
+inline void force_to_local(const LevelSystem<B>& level, Index q, const double* global, double* local) {
   if (const double* Q = level.frames.at(q))
     block::transposed_product<B>(Q, global, local);
   else
@@ -55,10 +55,10 @@ inline void force_to_local(const Level<B>& level, Index q, const double* global,
 template <int B>
 inline void block_to_global(const Level<B>& level, const Frames<B>& frames, Index p, Index r, const double* A,
                             double* M) {
+  const Flags removed_p = level.removed(p), removed_r = level.removed(r);
   double T[B * B];
   for (int i = 0; i < B; ++i)
-    for (int j = 0; j < B; ++j)
-      T[i * B + j] = (level.removed[p] >> i & 1u) || (level.removed[r] >> j & 1u) ? 0 : A[i * B + j];
+    for (int j = 0; j < B; ++j) T[i * B + j] = (removed_p >> i & 1u) || (removed_r >> j & 1u) ? 0 : A[i * B + j];
   const double *Np = frames.dual_at(p), *Nr = frames.dual_at(r);
   double S[B * B];
   if (Np)
@@ -73,7 +73,7 @@ inline void block_to_global(const Level<B>& level, const Frames<B>& frames, Inde
 
 /// M = D_p Q_p' M Q_r D_r for a block M between p and r in global coordinates
 template <int B>
-inline void block_to_local(const Level<B>& level, Index p, Index r, Flags dropped_p, Flags dropped_r, double* M) {
+inline void block_to_local(const LevelSystem<B>& level, Index p, Index r, Flags dropped_p, Flags dropped_r, double* M) {
   double S[B * B];
   if (const double* Q = level.frames.at(p)) {
     block::transposed_multiply<B>(Q, M, S);

@@ -8,7 +8,7 @@ namespace signorini {
 template <int B>
 class Unbounded final : public BlockTransfer<B> {
  public:
-  void restrict_bounds(const Level<B>&, Level<B>& coarse) const override { coarse.constraints.clear_bounds(); }
+  void restrict_bounds(const Level<B>&, LevelSystem<B>& coarse) const override { coarse.constraints.clear_bounds(); }
 };
 
 }  // namespace signorini

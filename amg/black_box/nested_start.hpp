@@ -3,7 +3,7 @@
 
 #include "core/component/registry.hpp"
 #include "core/solver/discrete_problem.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 
 namespace signorini {
 

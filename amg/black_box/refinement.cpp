@@ -14,9 +14,9 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/solver/admissible.hpp"
-#include "core/solver/automatic.hpp"
 #include "core/solver/convergence.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/stages.hpp"
 
 namespace signorini {
 namespace {
@@ -259,7 +259,7 @@ double most_operations(const BlockMatrix<B>& A, const SolverOptions& options, co
       return may_mislead(A, options.tolerance, tree) ? cheap_operations * static_cast<double>(entries) : 0;
     case Outcome::iteration_limit:
     case Outcome::stuck:
-      if (options.method != "auto" || options.max_iterations < automatic::patience_with_cycles) return 0;
+      if (options.method != "auto" || options.max_iterations < automatic::patience_with_cycles.first) return 0;
       [[fallthrough]];
     case Outcome::unbounded:
     case Outcome::rounding:

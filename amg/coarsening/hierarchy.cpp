@@ -48,11 +48,11 @@ class Descent {
     Level<B> coarse;
     if (known) {
       transfer.prepare(level_, P, true, coarse);
-      coarse.clear_phases();
       adopt(*known, coarse.own_matrix);
     } else {
       transfer.prepare_assembled(level_, P, true, coarse);
     }
+    coarse.clear_phases();
     leave();
     prolongations_.push_back(std::move(P));
     level_ = std::move(coarse);

@@ -6,7 +6,7 @@
 #include "amg/coarsening/aggregates.hpp"
 #include "amg/near_null_space.hpp"
 #include "core/solver/components.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini {
 

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "apps/bench/comparison.hpp"
+#include "apps/bench/kept_aside.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/processor_time.hpp"
-#include "core/base/error.hpp"
 
 namespace signorini::bench {
 namespace {
-
-using Overrides = std::vector<std::string>;
 
 // What may be picked by hand: every method with every list of steps and the other parts, as far as it converges.
 const std::vector<Overrides> methods{{"solver.method=monotone"},
@@ -37,34 +36,14 @@ const std::vector<Overrides> steps{{},
 const Overrides tangential{"solver.truncate=tangential"}, patches{"solver.smoother=patch"};
 const std::vector<Overrides> coarsenings{{"solver.coarsening=classical"}, {"solver.coarsening=aggregation"}};
 
-constexpr int repetitions = 3;
-constexpr double close = 1.1;      // times the best: what takes longer is not repeated
-constexpr double hopeless = 1.25;  // times the best so far: methods that take longer are tried with no other steps
-constexpr int longest = 3;         // times the cycles of the default, after which a candidate has failed
-constexpr Offset small = 50000;    // unknowns, above which patches and factorisations take many times a sweep
+constexpr Offset small = 50000;  // unknowns, above which patches and factorisations take many times a sweep
 
 struct Case {
   const char* name;
   const char* scene;
   Overrides overrides;
+  bool kept_aside = false;
 };
-
-struct Outcome {
-  int cycles = 0;
-  bool converged = false;
-  double seconds = infinity;  ///< of processor time: all but the assembly
-};
-
-std::string name_of(const Overrides& settings) {
-  std::string name;
-  for (const std::string& s : settings) name += (name.empty() ? "" : ", ") + s.substr(s.find('.') + 1);
-  return name;
-}
-
-Overrides joined(Overrides all, const Overrides& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
 
 /// The settings of one problem.
 template <int D, int B>
@@ -73,36 +52,17 @@ class Choice {
   explicit Choice(const Case& c)
       : case_(c), given_(c.name, c.scene, c.overrides), hierarchy_(build_hierarchy<D>(given_.scene, B)) {
     assembly_ = assembly_seconds<D, B>(build_model<B>(given_.scene, D, given_.registry, 1), hierarchy_);
-    automatic_ = fastest_run({}, infinity);
-  }
-
-  void compare() {
-    for (const Overrides& method : methods) {
-      const bool direct = method.front() == "solver.method=pdas";
-      if (direct && unknowns() > small) continue;
-      const Outcome plain = try_settings(method);
-      if (direct || plain.seconds > hopeless * best_.seconds) continue;
-      for (const Overrides& list : lists())
-        if (!list.empty()) try_settings(joined(method, list));
-    }
-  }
-
-  /// The least of many noisy times was lucky, too: the default and the best are measured again, in turns.
-  void confirm() {
-    if (!automatic_.converged || !best_.converged) return;
-    automatic_.seconds = best_.seconds = infinity;
-    for (int k = 0; k < repetitions; ++k) {
-      automatic_.seconds = std::min(automatic_.seconds, run({}).seconds);
-      best_.seconds = std::min(best_.seconds, run(best_settings_).seconds);
-    }
   }
 
   void print() const {
-    fmt::print(
-        "| {} | {} | {}{} | {} | {} | {} | {} |\n", case_.name, unknowns(), automatic_.cycles,
-        automatic_.converged ? "" : " (limit)", best_.converged ? name_of(best_settings_) : "none", best_.cycles,
-        failed_,
-        automatic_.converged && best_.converged ? fmt::format("{:.2f}", automatic_.seconds / best_.seconds) : "none");
+    Comparison comparison([this](const Overrides& settings) { return run(settings); });
+    for (const Overrides& method : case_.kept_aside ? kept_aside::methods : methods)
+      if (method.front() != "solver.method=pdas")
+        comparison.try_method(method, lists());
+      else if (unknowns() <= small)
+        comparison.try_method(method, {});
+    comparison.confirm();
+    fmt::print("| {} | {} | {} |\n", case_.name, unknowns(), comparison.row());
     std::fflush(stdout);
   }
 
@@ -110,6 +70,7 @@ class Choice {
   Offset unknowns() const { return Offset{hierarchy_.finest().vertices()} * B; }
 
   std::vector<Overrides> lists() const {
+    if (case_.kept_aside) return kept_aside::lists;
     std::vector<Overrides> all = steps;
     if (B > 1) all.push_back(tangential);
     if (unknowns() <= small) all.push_back(patches);
@@ -117,51 +78,22 @@ class Choice {
     return all;
   }
 
-  Outcome run(const Overrides& settings) const {
+  Trial run(const Overrides& settings) const {
     const Problem problem(case_.name, case_.scene, joined(case_.overrides, settings));
     const ProcessorTime time;
     const Solved solved = solve_nonlinear<D, B>(problem, hierarchy_);
     return {solved.summary.iterations, solved.summary.converged(), time.elapsed() - assembly_};
   }
 
-  /// Repeated while it takes at most `limit` seconds. What throws has not converged.
-  Outcome fastest_run(const Overrides& settings, double limit) const {
-    Outcome best;
-    for (int k = 0; k < repetitions; ++k) {
-      try {
-        const Outcome next = run(settings);
-        if (k == 0 || next.seconds < best.seconds) best = next;
-      } catch (const Error&) {
-        break;
-      }
-      if (!best.converged || best.seconds > limit) break;
-    }
-    return best;
-  }
-
-  Outcome try_settings(const Overrides& settings) {
-    const std::string limit = fmt::format("solver.max_iterations={}", longest * std::max(automatic_.cycles, 4));
-    const Outcome o = fastest_run(joined(settings, {limit}), close * std::min(best_.seconds, automatic_.seconds));
-    failed_ += !o.converged;
-    if (o.converged && o.seconds < best_.seconds) best_ = o, best_settings_ = settings;
-    return o;
-  }
-
   Case case_;
   Problem given_;
   MeshHierarchy<D> hierarchy_;
   double assembly_ = 0;
-  Outcome automatic_, best_;
-  Overrides best_settings_;
-  int failed_ = 0;
 };
 
 template <int D, int B>
 void print_case(const Case& c) {
-  Choice<D, B> choice(c);
-  choice.compare();
-  choice.confirm();
-  choice.print();
+  Choice<D, B>(c).print();
 }
 
 struct Row {
@@ -169,13 +101,18 @@ struct Row {
   void (*print)(const Case&);
 };
 
+void print_rows(const std::vector<Row>& rows, const std::string& only) {
+  fmt::print(
+      "| problem | unknowns | cycles | best | its cycles | failed | default over best |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const Row& row : rows)
+    if (std::string(row.given.name).find(only) != std::string::npos) row.print(row.given);
+}
+
 }  // namespace
 
 void print_choice(const std::string& only) {
-  fmt::print(
-      "\n## Default over the best picked by hand\n\n"
-      "| problem | unknowns | cycles | best | its cycles | failed | default over best |\n"
-      "| --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print("\n## Default over the best picked by hand\n\n");
   const auto refined = [](int k) { return fmt::format("refine.uniform={}", k); };
   const std::string zero = "solver.start=zero";
   const std::vector<Row> rows{
@@ -199,8 +136,24 @@ void print_choice(const std::string& only) {
       {{"cylinder, not refined", "cylinder_on_plane_2d.toml", {refined(0), "body.0.size=0.02"}}, print_case<2, 2>},
       {{"ball, not refined", "ball_on_plane.toml", {refined(0), "body.0.size=0.08"}}, print_case<3, 3>},
   };
-  for (const Row& row : rows)
-    if (std::string(row.given.name).find(only) != std::string::npos) row.print(row.given);
+  print_rows(rows, only);
+}
+
+void print_kept_aside_scenes(const std::string& only) {
+  fmt::print("\n## Scenes kept aside\n\n");
+  const std::vector<Row> rows{
+      {{"bracket", "../bench/kept_aside/bracket.toml", {}, true}, print_case<2, 1>},
+      {{"wedge", "../bench/kept_aside/wedge.toml", {}, true}, print_case<2, 1>},
+      {{"tray", "../bench/kept_aside/tray.toml", {}, true}, print_case<3, 1>},
+      {{"drum", "../bench/kept_aside/drum.toml", {}, true}, print_case<3, 1>},
+      {{"star", "../bench/kept_aside/star.toml", {}, true}, print_case<2, 2>},
+      {{"tyre", "../bench/kept_aside/tyre.toml", {}, true}, print_case<2, 2>},
+      {{"seal", "../bench/kept_aside/seal.toml", {}, true}, print_case<2, 2>},
+      {{"roller", "../bench/kept_aside/roller.toml", {}, true}, print_case<3, 3>},
+      {{"cap", "../bench/kept_aside/cap.toml", {}, true}, print_case<3, 3>},
+      {{"groove", "../bench/kept_aside/groove.toml", {}, true}, print_case<3, 3>},
+  };
+  print_rows(rows, only);
 }
 
 }  // namespace signorini::bench

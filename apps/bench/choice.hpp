@@ -7,4 +7,7 @@ namespace signorini::bench {
 /// @param only problems with this text in their names
 void print_choice(const std::string& only);
 
+/// The same for scenes on which nothing was chosen (kept_aside/), with the settings of kept_aside.hpp.
+void print_kept_aside_scenes(const std::string& only);
+
 }  // namespace signorini::bench

@@ -4,8 +4,8 @@
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini::bench {
 

@@ -10,6 +10,7 @@
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
 #include "apps/bench/choice.hpp"
+#include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
 #include "apps/bench/problems.hpp"
@@ -185,7 +186,7 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, steps = false;
+       aggregates = false, warm = false, steps = false, aside = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -196,7 +197,9 @@ int main(int argc, char** argv) {
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
   CLI::Option* compared = app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
-  app.add_option("--only", only, "of these, problems with this text in their names")->needs(compared);
+  CLI::Option* kept = app.add_flag("--kept-aside", aside, "only the same on problems on which nothing was chosen");
+  app.add_option("--only", only, "of these two, problems with this text in their names")
+      ->check([=](const std::string&) { return *compared || *kept ? "" : "needs --choice or --kept-aside"; });
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
@@ -210,7 +213,9 @@ int main(int argc, char** argv) {
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
     if (choice) signorini::bench::print_choice(only);
-    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !steps)
+    if (aside) signorini::bench::print_kept_aside_scenes(only);
+    if (aside) signorini::bench::print_kept_aside_matrices(only);
+    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !steps && !aside)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -7,14 +7,14 @@
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "core/fem/discretize.hpp"
-#include "core/solver/automatic.hpp"
-#include "core/solver/configuration.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
 #include "driver/nested_solver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
 #include "driver/results.hpp"
+#include "methods/automatic.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini {
 namespace {

@@ -38,30 +38,39 @@ class Transfer {
   virtual ~Transfer() = default;
   /// Once: sizes, frames, prescribed components, slots and matrix pattern of the coarse level, and its matrix where
   /// coarse.galerkin knows that.
-  virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, Level<B>& coarse) = 0;
-  /// prepare() with the whole matrix, from what is truncated on the fine level now and nothing on the coarse one, in
-  /// one pass over the fine matrix. Does not look at coarse.galerkin, nor touch the lists of what changed.
+  virtual void prepare(const Level<B>& fine, const Prolongation& prolongation, bool rotate, LevelSystem<B>& coarse) = 0;
+  /// prepare() with the whole matrix, from what is truncated on the fine level now, in one pass over the fine matrix.
+  /// Does not look at coarse.galerkin.
   virtual void prepare_assembled(const Level<B>& fine, const Prolongation& prolongation, bool rotate,
-                                 Level<B>& coarse) = 0;
-  /// Coarse rows (Galerkin) near `fine.changed` and `fine.renewed`, all of them the first time if none is known; clears
-  /// both lists, and appends what it recomputed to `coarse.renewed`. Returns the number of rows.
-  virtual Index assemble(Level<B>& fine, Level<B>& coarse) = 0;
+                                 LevelSystem<B>& coarse) = 0;
+  /// Coarse rows (Galerkin) near what is outdated on the fine level, all of them the first time if none is known.
+  /// Returns their numbers, until the next call.
+  virtual const std::vector<Index>& assemble(const Level<B>& fine, LevelSystem<B>& coarse) = 0;
   /// coarse.b = coarse.x = 0.
-  virtual void begin_restriction(Level<B>& coarse) const = 0;
+  virtual void begin_restriction(LevelSystem<B>& coarse) const = 0;
   /// Adds to coarse.b what the residuals of the fine vectors first <= p < last contribute; r: B each, from `first` on.
   virtual void restrict_residual(const Level<B>& fine, Index first, Index last, const double* r,
-                                 Level<B>& coarse) const = 0;
+                                 LevelSystem<B>& coarse) const = 0;
   /// coarse.b in the coordinates of the coarse level, once its matrix is assembled.
-  virtual void end_restriction(Level<B>& coarse) const = 0;
+  virtual void end_restriction(LevelSystem<B>& coarse) const = 0;
   /// Monotone restriction (RestrictObstaclesByMatrix and merge, Krause 4.4): bounds of coarse.x such that every
   /// admissible coarse correction is admissible on the fine level. Truncated directions do not count.
-  virtual void restrict_bounds(const Level<B>& fine, Level<B>& coarse) const = 0;
+  virtual void restrict_bounds(const Level<B>& fine, LevelSystem<B>& coarse) const = 0;
   /// coarse.x in the form that prolongate() reads; it is of no other use afterwards.
-  virtual void begin_prolongation(const Level<B>& coarse) const = 0;
+  virtual void begin_prolongation(const LevelSystem<B>& coarse) const = 0;
   /// fine.x += interpolation of coarse.x at the vectors first <= p < last; what rounding carries over a bound is put
   /// back onto it.
-  virtual void prolongate(const Level<B>& coarse, const Level<B>& fine, Index first, Index last) const = 0;
+  virtual void prolongate(const LevelSystem<B>& coarse, const Level<B>& fine, Index first, Index last) const = 0;
 };
+
+/// Brings the coarse matrix up to date. Returns the number of rows recomputed.
+template <int B>
+Index reassemble(Transfer<B>& transfer, Level<B>& fine, Level<B>& coarse) {
+  const std::vector<Index>& rows = transfer.assemble(fine, coarse);
+  fine.outdated.clear();
+  coarse.renew(rows);
+  return static_cast<Index>(rows.size());
+}
 
 template <int B>
 class CoarseSolver {

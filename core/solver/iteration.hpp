@@ -7,7 +7,7 @@
 #include "core/solver/convergence.hpp"
 #include "core/solver/level.hpp"
 #include "core/solver/options.hpp"
-#include "core/solver/solve.hpp"
+#include "core/solver/summary.hpp"
 
 namespace signorini {
 

@@ -64,7 +64,7 @@ bool meets_bound(const Level<B>& level) {
     for (int k = 0; k < B; ++k) {
       const double x = level.x[Offset{c.vector[slot]} * B + k];
       const Offset at = Offset{slot} * B + k;
-      if ((x <= c.lower[at] || x >= c.upper[at]) && !(level.removed[c.vector[slot]] >> k & 1u)) return true;
+      if ((x <= c.lower[at] || x >= c.upper[at]) && !(level.removed(c.vector[slot]) >> k & 1u)) return true;
     }
   return false;
 }
@@ -123,8 +123,8 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
 // All coarser matrices before anything is truncated.
 template <int B>
 void MonotoneMultigrid<B>::assemble_once() {
-  for (std::size_t k = transfers_.size(); k-- > 0;) transfers_[k]->assemble(levels_[k + 1], levels_[k]);
-  for (Level<B>& level : levels_) level.renewed.clear();
+  for (std::size_t k = transfers_.size(); k-- > 0;) reassemble(*transfers_[k], levels_[k + 1], levels_[k]);
+  for (Level<B>& level : levels_) level.outdated.renewed.clear();
 }
 
 template <int B>
@@ -151,7 +151,7 @@ std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& 
     for (int k = 0; k < B; ++k) {
       const double value = x[Offset{linear.vector[slot]} * B + k];
       double &lower = linear.lower[Offset{slot} * B + k], &upper = linear.upper[Offset{slot} * B + k];
-      const bool held = value <= lower || value >= upper || (level.nonlinear && level.critical[slot] >> k & 1u);
+      const bool held = value <= lower || value >= upper || (level.nonlinear && level.phases.critical[slot] >> k & 1u);
       lower = held ? 0 : -infinity;
       upper = held ? 0 : infinity;
     }
@@ -209,7 +209,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
       report_.rounding = rounding_of_work(level);
     }
     if (!components_.coarse->solve(level) && lasting_ == 0) report_.bounded = false;
-    level.renewed.clear();
+    level.outdated.renewed.clear();
   } else {
     smoothers_[k]->add_passes(settings_.pre, Side::descend, down);
     Level<B>& coarse = levels_[k - 1];
@@ -247,10 +247,9 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   Level<B>& coarse = levels_[k - 1];
   Transfer<B>& transfer = *transfers_[k - 1];
   if (k > lasting_) {
-    report_.levels[k - 1].renewed += transfer.assemble(fine, coarse);
+    report_.levels[k - 1].renewed += reassemble(transfer, fine, coarse);
   } else {
-    fine.changed.clear();
-    fine.renewed.clear();
+    fine.outdated.clear();
   }
   transfer.end_restriction(coarse);
   if (line_search_)
@@ -355,24 +354,21 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
   if (rests(level, from, to, report)) return;
   for (Index slot = from; slot < to; ++slot) {
     const Index p = level.constraints.vector[slot];
-    const Flags critical = level.critical[slot] & static_cast<Flags>(~level.off[p]);
+    const Flags critical = level.phases.critical[slot] & static_cast<Flags>(~level.off[p]);
     report.critical += critical != 0;
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
-    const Flags removed = level.off[p] | truncated(level, slot, critical);
-    report.changed += critical != level.phase[slot] || removed != level.removed[p];
-    level.phase[slot] = critical;
+    const bool differs = level.truncate(p, truncated(level, slot, critical));
+    report.changed += critical != level.phases.phase[slot] || differs;
+    level.phases.phase[slot] = critical;
     if (level.nonlinear) renew_curvature(level, slot);
-    if (removed == level.removed[p]) continue;
-    level.removed[p] = removed;
-    level.changed.push_back(p);
   }
 }
 
 // The coarser matrices follow the Hessian once it has changed by more than a tenth; line searches make up for the rest.
 template <int B>
 void MonotoneMultigrid<B>::renew_curvature(Level<B>& level, Index slot) {
-  const double* now = level.hessian.data() + Offset{slot} * B * B;
-  double* used = level.used_hessian.data() + Offset{slot} * B * B;
+  const double* now = level.piece.hessian.data() + Offset{slot} * B * B;
+  double* used = level.piece.used_hessian.data() + Offset{slot} * B * B;
   double largest = 0, changed = 0;
   for (int i = 0; i < B * B; ++i) {
     largest = std::max({largest, std::abs(now[i]), std::abs(used[i])});
@@ -380,7 +376,7 @@ void MonotoneMultigrid<B>::renew_curvature(Level<B>& level, Index slot) {
   }
   if (changed <= enough_curvature * largest) return;
   std::copy_n(now, B * B, used);
-  level.renewed.push_back(level.constraints.vector[slot]);
+  level.outdated.renewed.push_back(level.constraints.vector[slot]);
 }
 
 // Whether no phase has changed, found without branches where every vector has a slot.
@@ -390,8 +386,8 @@ bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, Le
       settings_.truncate == Truncation::tangential)
     return false;
   const Flags kept = settings_.truncate == Truncation::none ? 0 : (1u << B) - 1;
-  const Flags *critical = level.critical.data(), *phase = level.phase.data();
-  const Flags *off = level.off.data(), *removed = level.removed.data();
+  const Flags *critical = level.phases.critical.data(), *phase = level.phases.phase.data();
+  const Flags *off = level.off.data(), *removed = level.phases.removed.data();
   Flags different = 0;
   for (Index p = from; p < to; ++p) {
     const Flags now = critical[p] & static_cast<Flags>(~off[p]);
@@ -409,7 +405,7 @@ Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags c
   if (settings_.truncate == Truncation::none) return 0;
   if (near_ > 0)
     for (int k = 0; k < B; ++k)
-      if (std::min(-level.lower[Offset{slot} * B + k], level.upper[Offset{slot} * B + k]) <= near_)
+      if (std::min(-level.phases.lower[Offset{slot} * B + k], level.phases.upper[Offset{slot} * B + k]) <= near_)
         critical |= static_cast<Flags>(1u << k);
   if (critical && settings_.truncate == Truncation::tangential) return (1u << B) - 1;
   return critical;

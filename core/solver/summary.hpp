@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct IterationRecord {
   std::vector<LevelReport> levels;  ///< coarsest first; sums over the visits of the cycle, contact of the last one
   std::size_t stage = 0;            ///< in Summary::stages
 };
+
+/// Called after every step; returning false interrupts the solve, which then ends with Outcome::interrupted.
+using Monitor = std::function<bool(const IterationRecord&)>;
 
 enum class Outcome {
   converged,

@@ -9,9 +9,9 @@
 #include "amg/coarsening/reach_from_twins.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/configuration.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 

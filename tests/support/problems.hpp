@@ -7,7 +7,7 @@
 #include "core/fem/nested.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/mesh/structured.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/obstacles.hpp"
 

@@ -44,8 +44,8 @@ void expect_admissible(const Levels& t, const Eigen::MatrixXd& T, const std::vec
         size += weight * std::fabs(correction[t.P.column[k] * B + j]);
       }
     for (int k = 0; k < B; ++k) {
-      ASSERT_GE(d[p * B + k], t.fine.lower[slot * B + k] - 1e-14 * size);
-      ASSERT_LE(d[p * B + k], t.fine.upper[slot * B + k] + 1e-14 * size);
+      ASSERT_GE(d[p * B + k], t.fine.phases.lower[slot * B + k] - 1e-14 * size);
+      ASSERT_LE(d[p * B + k], t.fine.phases.upper[slot * B + k] + 1e-14 * size);
     }
   }
 }
@@ -56,7 +56,7 @@ void expect_every_correction_admissible() {
   for (int trial = 0; trial < 200; ++trial) {
     TwoLevels<B, Restriction> t(random, 30, trial % 2 == 0, trial % 4 > 1);
     truncate(t.fine, random_flags<B>(random, 30, 0.2 * (trial % 3)));
-    t.transfer.assemble(t.fine, t.coarse);
+    reassemble(t.transfer, t.fine, t.coarse);
     t.transfer.restrict_bounds(t.fine, t.coarse);
     for (const double lower : t.coarse.constraints.lower) ASSERT_LE(lower, 0);
     for (const double upper : t.coarse.constraints.upper) ASSERT_GE(upper, 0);
@@ -76,9 +76,9 @@ TYPED_TEST(MonotoneRestriction, BoundsInnerCoarseVectorsThatReachConstrainedFine
   constexpr int B = TypeParam::value;
   Random random(12);
   TwoLevels<B> t(random, 60, true);
-  t.transfer.assemble(t.fine, t.coarse);
-  std::fill(t.fine.lower.begin(), t.fine.lower.end(), -1.0);
-  std::fill(t.fine.upper.begin(), t.fine.upper.end(), 1.0);
+  reassemble(t.transfer, t.fine, t.coarse);
+  std::fill(t.fine.phases.lower.begin(), t.fine.phases.lower.end(), -1.0);
+  std::fill(t.fine.phases.upper.begin(), t.fine.phases.upper.end(), 1.0);
   t.transfer.restrict_bounds(t.fine, t.coarse);
   int inner = 0;
   for (const Index p : t.fine.constraints.vector)
@@ -98,12 +98,12 @@ TYPED_TEST(MonotoneRestriction, DoesNotTightenBoundsByTruncatedDirections) {
   constexpr int B = TypeParam::value;
   Random random(13);
   TwoLevels<B> t(random, 30, true);
-  std::fill(t.fine.lower.begin(), t.fine.lower.end(), 0.0);
-  std::fill(t.fine.upper.begin(), t.fine.upper.end(), 0.0);
+  std::fill(t.fine.phases.lower.begin(), t.fine.phases.lower.end(), 0.0);
+  std::fill(t.fine.phases.upper.begin(), t.fine.phases.upper.end(), 0.0);
   std::vector<Flags> all(30, 0);
   for (const Index p : t.fine.constraints.vector) all[p] = (1u << B) - 1;
   truncate(t.fine, all);
-  t.transfer.assemble(t.fine, t.coarse);
+  reassemble(t.transfer, t.fine, t.coarse);
   t.transfer.restrict_bounds(t.fine, t.coarse);
   for (const double lower : t.coarse.constraints.lower) EXPECT_EQ(lower, -infinity);
   for (const double upper : t.coarse.constraints.upper) EXPECT_EQ(upper, infinity);
@@ -143,12 +143,12 @@ Constraints<1> restricted(const Line& line) {
   }
   Level<1> fine = finest_level(problem), coarse;
   fine.clear_phases();
-  fine.lower = problem.constraints.lower;
-  fine.upper = problem.constraints.upper;
+  fine.phases.lower = problem.constraints.lower;
+  fine.phases.upper = problem.constraints.upper;
   Restriction<1> transfer;
   transfer.prepare(fine, P, true, coarse);
   coarse.clear_phases();
-  transfer.assemble(fine, coarse);
+  reassemble(transfer, fine, coarse);
   transfer.restrict_bounds(fine, coarse);
   return coarse.constraints;
 }
@@ -193,8 +193,8 @@ TYPED_TEST(MonotoneRestriction, KornhuberIsNowhereTighterThanMinMerge) {
     Random one(seed), other(seed);
     TwoLevels<B, MinMerge> equal(one, 30, seed % 2 == 0);
     TwoLevels<B, Kornhuber> sharp(other, 30, seed % 2 == 0);
-    equal.transfer.assemble(equal.fine, equal.coarse);
-    sharp.transfer.assemble(sharp.fine, sharp.coarse);
+    reassemble(equal.transfer, equal.fine, equal.coarse);
+    reassemble(sharp.transfer, sharp.fine, sharp.coarse);
     equal.transfer.restrict_bounds(equal.fine, equal.coarse);
     sharp.transfer.restrict_bounds(sharp.fine, sharp.coarse);
     for (std::size_t i = 0; i < equal.coarse.constraints.lower.size(); ++i) {
@@ -212,7 +212,7 @@ TYPED_TEST(MonotoneRestriction, ProlongatesWhatTheDefinitionSays) {
   for (int trial = 0; trial < 20; ++trial) {
     TwoLevels<B> t(random, 30, trial % 2 == 0, trial % 4 > 1);
     truncate(t.fine, random_flags<B>(random, 30, 0.2));
-    t.transfer.assemble(t.fine, t.coarse);
+    reassemble(t.transfer, t.fine, t.coarse);
     t.transfer.restrict_bounds(t.fine, t.coarse);
     const Eigen::MatrixXd T = interpolation(t.fine, t.P, t.coarse);
 

@@ -31,7 +31,7 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
       for (int i = 0; i < B * B; ++i)
         W(i / B, i % B) = P.block.empty() ? W(i / B, i % B) * P.weight[k] : P.block[k * B * B + i];
       T.block(p * B, q * B, B, B) =
-          kept(fine.removed[p]) * basis(fine, p).inverse() * W * basis(coarse, q) * kept(coarse.off[q]);
+          kept(fine.removed(p)) * basis(fine, p).inverse() * W * basis(coarse, q) * kept(coarse.off[q]);
     }
   return T;
 }
@@ -39,12 +39,7 @@ Eigen::MatrixXd interpolation(const Level<B>& fine, const Prolongation& P, const
 /// New truncation flags of a level, listed as changed where they differ.
 template <int B>
 void truncate(Level<B>& level, const std::vector<Flags>& critical) {
-  for (Index p = 0; p < level.vectors; ++p) {
-    const Flags removed = level.off[p] | critical[p];
-    if (removed == level.removed[p]) continue;
-    level.removed[p] = removed;
-    level.changed.push_back(p);
-  }
+  for (Index p = 0; p < level.vectors; ++p) level.truncate(p, critical[p]);
 }
 
 template <int B>
@@ -87,13 +82,13 @@ struct TwoLevels {
     fine.clear_phases();
     transfer.prepare(fine, P, rotate, coarse);
     coarse.clear_phases();
-    for (std::size_t i = 0; i < fine.lower.size(); ++i) {
+    for (std::size_t i = 0; i < fine.phases.lower.size(); ++i) {
       const auto [lower, upper] = random_interval(random, 0, 1);
-      fine.lower[i] = std::min(lower, 0.0);
-      fine.upper[i] = std::max(upper, 0.0);
+      fine.phases.lower[i] = std::min(lower, 0.0);
+      fine.phases.upper[i] = std::max(upper, 0.0);
     }
-    fine.constraints.lower = fine.lower;
-    fine.constraints.upper = fine.upper;
+    fine.constraints.lower = fine.phases.lower;
+    fine.constraints.upper = fine.phases.upper;
   }
 
   /// coarse.b from a residual on the whole fine level.

@@ -1,8 +1,8 @@
 // Where the matrix of a coarser mesh is the Galerkin product of the finer one's, the solver takes it over.
 #include "apps/scenes/tables.hpp"
 #include "core/fem/nested.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/configuration.hpp"
 #include "run.hpp"
 #include "tests/support/dense.hpp"
 

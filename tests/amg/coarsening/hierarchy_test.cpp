@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "amg/coarsening/classical.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"

@@ -11,7 +11,7 @@
 #include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "core/base/error.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"

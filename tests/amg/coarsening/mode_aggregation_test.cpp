@@ -10,8 +10,8 @@
 #include "amg/coarsening/hierarchy.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/multigrid.hpp"
-#include "core/solver/solve.hpp"
 #include "core/solver/weights.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"
@@ -78,7 +78,7 @@ void expect_exact(const DiscreteProblem<B>& problem, NearNullSpace modes) {
     const auto transfer = min_merge<B>()();
     transfer->prepare(fine, P, true, coarse);
     coarse.clear_phases();
-    transfer->assemble(fine, coarse);
+    reassemble(*transfer, fine, coarse);
     coarse.A = &coarse.own_matrix;
     modes = std::move(found.coarse);
     group = found.group;

@@ -8,7 +8,7 @@
 
 #include "amg/coarsening/aggregates.hpp"
 #include "amg/coarsening/hierarchy.hpp"
-#include "core/solver/solve.hpp"
+#include "methods/solve.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"

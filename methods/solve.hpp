@@ -1,5 +1,4 @@
 #pragma once
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,10 +10,7 @@
 
 namespace signorini {
 
-/// Called after every cycle; returning false interrupts the solve, which then ends with Outcome::interrupted.
-using Monitor = std::function<bool(const IterationRecord&)>;
-
-/// Truncated monotone multigrid for the problem on the finest level.
+/// Solves the problem on the finest level by the method of the options.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`; none: a single level
 /// @param x start and result, B per vector, local coordinates; it is made admissible first
 /// @throws Error(Exit::input) for an option or component that does not exist, or a start that is not finite

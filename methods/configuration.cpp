@@ -1,4 +1,4 @@
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 
 #include <fmt/format.h>
 
@@ -41,8 +41,8 @@ Method check_options(const SolverOptions& o) {
   const bool restricted = only_twins(o), rotated = local_components(o);
   require(coarsening_of(o) != Coarsening::aggregation || !(restricted || rotated), "coarsening", o.coarsening,
           "'auto' or 'classical' with reach 'twins' or interpolate 'local'");
-  require(o.aggregates == "greedy" || algebraic_settings(o).coarsening != Coarsening::classical, "aggregates",
-          o.aggregates,
+  require(o.aggregates == SolverOptions{}.aggregates || algebraic_settings(o).coarsening != Coarsening::classical,
+          "aggregates", o.aggregates,
           "'greedy' with coarsening 'classical', reach 'twins' or interpolate 'local', which make no aggregates");
   return method;
 }
@@ -71,12 +71,7 @@ Components<B> components_of(const SolverOptions& o, const Registry& registry) {
   registry.create<Transfer<B>>("transfer", transfer);  // an unknown name shows here
   return {registry.create<Smoother<B>>("smoother", o.smoother),
           [&registry, transfer] { return registry.create<Transfer<B>>("transfer", transfer); },
-          registry.create<CoarseSolver<B>>("coarse", o.method == "pgs" ? "pgs" : o.coarse)};
-}
-
-// Projected Gauss-Seidel alone is what is left without coarser levels.
-std::span<const Prolongation> hierarchy_of(const SolverOptions& o, std::span<const Prolongation> prolongations) {
-  return o.method == "pgs" ? std::span<const Prolongation>{} : prolongations;
+          registry.create<CoarseSolver<B>>("coarse", o.coarse)};
 }
 
 template MonotoneMultigrid<1>::Settings settings_of<1>(const SolverOptions&);

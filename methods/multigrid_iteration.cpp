@@ -1,12 +1,12 @@
-#include "core/solver/multigrid_iteration.hpp"
+#include "methods/multigrid_iteration.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
-#include "core/solver/automatic.hpp"
-#include "core/solver/configuration.hpp"
 #include "core/solver/rounding.hpp"
+#include "methods/automatic.hpp"
 
 namespace signorini {
 
@@ -19,22 +19,6 @@ constexpr double typical = 0.01;
 
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
-}
-
-template <int B>
-bool sweeps_first(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
-                  const SolverOptions& options) {
-  const Index vectors = problem.A.size();
-  const Index coarsest = prolongations.empty() ? vectors : prolongations.front().coarse;
-  if (problem.cheap_to_factorise || has_functional(problem.segments)) return false;
-  return automatic::begins_with_sweeps(options, coarsest, vectors, problem.A.row[vectors]) &&
-         !automatic::solvers_for_active_sets(B, Offset{vectors} * B, Offset{coarsest} * B).empty();
-}
-
-template <int B>
-Components<B> components(SolverOptions options, const Registry& registry, bool sweeps) {
-  if (sweeps) options.coarse = "pgs";
-  return components_of<B>(options, registry);
 }
 
 /// Coarse solvers know bounds only: where the single level has functionals, they get one of their own below it, on
@@ -60,13 +44,13 @@ bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic
 template <int B>
 MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
                                           std::span<const Prolongation> prolongations, std::vector<double>& x,
-                                          const SolverOptions& options, const Registry& registry)
+                                          const SolverOptions& options, Components<B> components,
+                                          const automatic::Patience& patience)
     : Iteration<B>(problem, x, options),
       method_(check_options(options)),
-      sweeps_(sweeps_first(problem, prolongations, options)),
+      patience_(patience),
       own_(linear_level<B>(problem, prolongations, method_)),
-      multigrid_(problem, own_.empty() ? hierarchy_of(options, prolongations) : own_,
-                 components<B>(options, registry, sweeps_), settings_of<B>(options)),
+      multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
@@ -116,7 +100,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
   if (nonlinear_) return step;                    // nothing else can treat functionals
-  if (method_ == Method::automatic && leaves_to_active_sets()) step.stuck = "the cycles converge too slowly";
+  if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
@@ -133,11 +117,10 @@ std::optional<double> MultigridIteration<B>::response(const std::vector<double>&
 
 // By the rate of the last cycles, which may change: asked again from time to time.
 template <int B>
-bool MultigridIteration<B>::leaves_to_active_sets() const {
-  const int patience = sweeps_ ? automatic::patience_with_sweeps : automatic::patience_with_cycles;
-  const int most = sweeps_ ? automatic::most_sweeping_cycles : automatic::most_cycles;
-  const int left = std::min(most, this->options_.max_iterations) - cycles_;
-  if (cycles_ < patience || (cycles_ % 10 != 0 && !sweeps_) || cycles_ >= this->options_.max_iterations) return false;
+bool MultigridIteration<B>::loses_patience() const {
+  const int left = std::min(patience_.most, this->options_.max_iterations) - cycles_;
+  if (cycles_ < patience_.first || cycles_ % patience_.every != 0 || cycles_ >= this->options_.max_iterations)
+    return false;
   const Offset unknowns = this->free_unknowns(finest()), coarsest = this->free_unknowns(multigrid_.levels().front());
   if (automatic::solvers_for_active_sets(B, unknowns, coarsest).empty()) return false;
   return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);

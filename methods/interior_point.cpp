@@ -1,4 +1,4 @@
-#include "core/solver/interior_point.hpp"
+#include "methods/interior_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,18 +1,20 @@
 #pragma once
-#include "core/solver/configuration.hpp"
 #include "core/solver/iteration.hpp"
 #include "core/solver/multigrid.hpp"
 #include "core/solver/recombination.hpp"
+#include "methods/configuration.hpp"
+#include "methods/stages.hpp"
 
 namespace signorini {
 
 /// Cycles of multigrid as steps, accelerated while the phases rest. With method "auto" they end with Outcome::stuck
-/// where they are too slow for a problem that there is a linear solver for.
+/// where their patience ends, if there is a linear solver for the problem.
 template <int B>
 class MultigridIteration final : public Iteration<B> {
  public:
   MultigridIteration(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
-                     std::vector<double>& x, const SolverOptions& options, const Registry& registry);
+                     std::vector<double>& x, const SolverOptions& options, Components<B> components,
+                     const automatic::Patience& patience = automatic::patience_with_cycles);
 
  private:
   using typename Iteration<B>::Step;
@@ -26,7 +28,7 @@ class MultigridIteration final : public Iteration<B> {
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
   bool goes_without_bounds() const;
   void compare_gains(bool free, bool cut_off);
-  bool leaves_to_active_sets() const;
+  bool loses_patience() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool take_combination(const CycleReport& cycle);
   void set_forces();
@@ -35,7 +37,7 @@ class MultigridIteration final : public Iteration<B> {
   double rounding_of_gain() const;
 
   Method method_;
-  bool sweeps_;                    // the coarse solver makes no Newton steps
+  automatic::Patience patience_;
   std::vector<Prolongation> own_;  // empty unless a single level has functionals
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;

@@ -7,8 +7,8 @@
 #include "amg/registration.hpp"
 #include "core/algebra/linear_solver.hpp"
 #include "core/base/error.hpp"
-#include "core/solver/automatic.hpp"
 #include "core/solver/convergence.hpp"
+#include "methods/stages.hpp"
 #include "smoothers/registration.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "transfer/registration.hpp"
@@ -88,7 +88,7 @@ TEST(Stages, TheLimitIsThatOfAllSteps) {
   const int all = static_cast<int>(solve_from_zero(nested, x).history.size());
   SolverOptions options;
   // With one step for what follows the cycles, none of it can do.
-  for (const int limit : {all, automatic::patience_with_cycles + 1}) {
+  for (const int limit : {all, automatic::patience_with_cycles.first + 1}) {
     options.max_iterations = limit;
     const Summary s = solve_from_zero(nested, x, options);
     EXPECT_LE(s.history.size(), static_cast<std::size_t>(limit));

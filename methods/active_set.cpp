@@ -1,4 +1,4 @@
-#include "core/solver/active_set.hpp"
+#include "methods/active_set.hpp"
 
 #include <fmt/format.h>
 

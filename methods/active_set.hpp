@@ -4,7 +4,7 @@
 
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
-#include "core/solver/sparse_system.hpp"
+#include "methods/sparse_system.hpp"
 
 namespace signorini {
 

@@ -1,4 +1,4 @@
-#include "core/solver/sparse_system.hpp"
+#include "methods/sparse_system.hpp"
 
 #include <cmath>
 

@@ -38,7 +38,4 @@ typename MonotoneMultigrid<B>::Settings settings_of(const SolverOptions& options
 template <int B>
 Components<B> components_of(const SolverOptions& options, const Registry& registry);
 
-/// The levels that the method uses: all, or the finest alone.
-std::span<const Prolongation> hierarchy_of(const SolverOptions& options, std::span<const Prolongation> prolongations);
-
 }  // namespace signorini

@@ -1,7 +1,7 @@
 #pragma once
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
-#include "core/solver/sparse_system.hpp"
+#include "methods/sparse_system.hpp"
 
 namespace signorini {
 

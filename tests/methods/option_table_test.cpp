@@ -14,7 +14,7 @@
 #include "core/input/range.hpp"
 #include "core/scene/solver_keys.hpp"
 #include "core/scene/solver_options.hpp"
-#include "core/solver/configuration.hpp"
+#include "methods/configuration.hpp"
 
 namespace signorini::test {
 namespace {

@@ -1,10 +1,10 @@
 // Interior points and shifted active sets, which method "auto" falls back to: the reference solution, whatever the
 // signs of the couplings, and no answer where there is none.
-#include "core/solver/interior_point.hpp"
+#include "methods/interior_point.hpp"
 
 #include <gmock/gmock.h>
 
-#include "core/solver/active_set.hpp"
+#include "methods/active_set.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/random_problem.hpp"

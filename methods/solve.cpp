@@ -1,0 +1,208 @@
+#include "methods/solve.hpp"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <utility>
+
+#include "core/base/clock.hpp"
+#include "core/base/error.hpp"
+#include "methods/active_set.hpp"
+#include "methods/automatic.hpp"
+#include "methods/configuration.hpp"
+#include "methods/interior_point.hpp"
+#include "methods/multigrid_iteration.hpp"
+#include "methods/stages.hpp"
+
+namespace signorini {
+
+namespace {
+
+/// The stages of method "auto" for one problem.
+template <int B>
+class Automatic {
+ public:
+  /// Keeps references to all.
+  Automatic(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations, std::vector<double>& x,
+            const SolverOptions& options, const Registry& registry, const Monitor& monitor)
+      : problem_(problem),
+        prolongations_(prolongations),
+        x_(x),
+        options_(options),
+        registry_(registry),
+        monitor_(monitor) {
+    situation_.block = B;
+    situation_.vectors = problem.A.size();
+    situation_.coarsest_vectors = prolongations.empty() ? problem.A.size() : prolongations.front().coarse;
+    situation_.couplings = problem.A.row[problem.A.size()];
+    situation_.unknowns = Offset{situation_.vectors} * B;
+    situation_.coarsest = Offset{situation_.coarsest_vectors} * B;
+    situation_.levels = !prolongations.empty();
+    // Nothing but cycles can treat functionals.
+    situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !has_functional(problem.segments);
+  }
+
+  Summary run() {
+    for (const automatic::StageRule& rule : automatic::stages())
+      if (unsolved() && rule.suits(situation_)) run(rule);
+    if (went_on_ && done_.outcome == Outcome::stuck) {
+      done_.outcome = Outcome::iteration_limit;
+      done_.reason = fmt::format("iteration limit {}: {}", options_.max_iterations, done_.reason);
+    }
+    done_.setup_seconds = setup_seconds_;
+    return std::move(done_);
+  }
+
+ private:
+  bool unsolved() const {
+    if (!situation_.begun) return true;
+    if (steps_ >= options_.max_iterations) return false;
+    return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
+  }
+
+  void run(const automatic::StageRule& rule) {
+    if (!situation_.begun) return begin(rule);
+    went_on_ = true;
+    switch (rule.kind) {
+      case automatic::Kind::cycles:
+        return cycle(rule, prolongations_);
+      case automatic::Kind::single_level:
+        return cycle(rule, {});
+      case automatic::Kind::active_sets:
+        return attempt<ActiveSetIteration<B>>(rule, automatic::shift_if_singular);
+      case automatic::Kind::interior_points:
+        return attempt<InteriorPointIteration<B>>(rule);
+    }
+  }
+
+  void begin(const automatic::StageRule& rule) {
+    const double begin = seconds();
+    MultigridIteration<B> loop(problem_, prolongations_, x_, options_, components(rule), rule.patience);
+    const double ready = seconds();
+    done_ = loop.run(monitor_);
+    setup_seconds_ = ready - begin;
+    steps_ = done_.iterations;
+    situation_.begun = true;
+    situation_.unknowns = done_.level_unknowns.back();
+    situation_.coarsest = done_.level_unknowns.front();
+  }
+
+  /// The user's options for up to `most` further steps.
+  SolverOptions limited(int most) const {
+    SolverOptions own = options_;
+    own.max_iterations = most < options_.max_iterations - steps_ ? steps_ + most : options_.max_iterations;
+    return own;
+  }
+
+  Components<B> components(const automatic::StageRule& rule) const {
+    SolverOptions own = options_;
+    if (*rule.solver) own.coarse = rule.solver;
+    return components_of<B>(own, registry_);
+  }
+
+  Monitor counted() {
+    return [this](const IterationRecord& record) {
+      ++steps_;
+      return !monitor_ || monitor_(record);
+    };
+  }
+
+  /// A method that solves linear systems: it may fail, its linear solver may not be there, or out of memory. Then what
+  /// it did is dropped.
+  template <class Method, class... More>
+  void attempt(const automatic::StageRule& rule, More... more) {
+    const SolverOptions own = limited(rule.most_steps);
+    const int before = steps_;
+    const std::vector<double> start = x_;
+    const double begin = seconds();
+    Stage stage;
+    stage.method = rule.method;
+    stage.linear = rule.solver;
+    try {
+      Summary found = Method(problem_, x_, own, registry_, rule.solver, more...).run(counted(), steps_);
+      found.iterations = found.stages.front().iterations = 0;  // no cycles
+      if (found.converged() || found.outcome == Outcome::interrupted) return done_.append(std::move(found));
+      stage = std::move(found.stages.front());
+    } catch (const Error& error) {
+      if (error.status() == Exit::interrupted) throw;
+      stage.reason = error.what();
+    } catch (const std::bad_alloc&) {
+      stage.reason = "out of memory";
+    }
+    stage.seconds = seconds() - begin;
+    stage.kept = false;
+    done_.stages.push_back(std::move(stage));
+    x_ = start;
+    steps_ = before;
+  }
+
+  void cycle(const automatic::StageRule& rule, std::span<const Prolongation> prolongations) {
+    SolverOptions own = limited(rule.most_steps);
+    own.method = "monotone";
+    Summary found = MultigridIteration<B>(problem_, prolongations, x_, own, components(rule)).run(counted(), steps_);
+    found.options.method = found.stages.front().method = rule.method;
+    if (prolongations.empty()) found.iterations = found.stages.front().iterations = 0;  // no cycles
+    done_.append(std::move(found));
+  }
+
+  const DiscreteProblem<B>& problem_;
+  std::span<const Prolongation> prolongations_;
+  std::vector<double>& x_;
+  const SolverOptions& options_;
+  const Registry& registry_;
+  const Monitor& monitor_;
+  automatic::Situation situation_;
+  bool went_on_ = false;  // beyond the first cycles
+  Summary done_;
+  double setup_seconds_ = 0;
+  int steps_ = 0;  // of all that is kept
+};
+
+/// The loop of a method other than "auto".
+template <int B>
+std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>& problem,
+                                        std::span<const Prolongation> prolongations, std::vector<double>& x,
+                                        const SolverOptions& options, const Registry& registry) {
+  if (method == Method::pdas) {
+    if (has_functional(problem.segments))
+      input_error("solver.method",
+                  "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
+                  "expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+    return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
+  }
+  SolverOptions own = options;
+  if (method == Method::pgs) {  // what is left without coarser levels
+    own.coarse = "pgs";
+    prolongations = {};
+  }
+  return std::make_unique<MultigridIteration<B>>(problem, prolongations, x, options, components_of<B>(own, registry));
+}
+
+}  // namespace
+
+template <int B>
+Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations, std::vector<double>& x,
+              const SolverOptions& options, const Registry& registry, const Monitor& monitor) {
+  const Method method = check_options(options);
+  const double begin = seconds();
+  Summary summary;
+  if (method == Method::automatic) {
+    summary = Automatic<B>(problem, prolongations, x, options, registry, monitor).run();
+  } else {
+    const auto loop = iteration<B>(method, problem, prolongations, x, options, registry);
+    const double ready = seconds();
+    summary = loop->run(monitor);
+    summary.setup_seconds = ready - begin;
+  }
+  summary.solve_seconds = seconds() - begin - summary.setup_seconds;
+  return summary;
+}
+
+template Summary solve(const DiscreteProblem<1>&, std::span<const Prolongation>, std::vector<double>&,
+                       const SolverOptions&, const Registry&, const Monitor&);
+template Summary solve(const DiscreteProblem<2>&, std::span<const Prolongation>, std::vector<double>&,
+                       const SolverOptions&, const Registry&, const Monitor&);
+template Summary solve(const DiscreteProblem<3>&, std::span<const Prolongation>, std::vector<double>&,
+                       const SolverOptions&, const Registry&, const Monitor&);
+
+}  // namespace signorini

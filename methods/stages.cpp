@@ -1,0 +1,135 @@
+#include "methods/stages.hpp"
+
+#include <fmt/format.h>
+
+namespace signorini::automatic {
+
+namespace {
+
+// On which problems each constant was chosen: docs/variants.md, "Constants".
+
+// Vectors on a single level, and where so many are coupled to each on the coarsest one, above which a cycle's Newton
+// steps, up to a dozen, are too dear to be tried first.
+constexpr Index many_vectors = 1000, fewer_vectors = 400, many_couplings = 100;
+// What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
+constexpr Offset most_for_direct = 150'000;
+// Each of up to so many interior points needs a factorisation.
+constexpr Offset most_for_interior_points = 50'000;
+constexpr int interior_points = 60;
+// Each step may need a dozen factorisations. (Slender bodies of 40 000 unknowns, of which rounding leaves no solution,
+// took eight minutes.)
+constexpr Offset most_for_newton = 12'000;
+constexpr int newton_steps = 40;
+
+// Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
+bool coarsens(const Situation& s) { return s.block == 1 && 2 * s.coarsest <= s.unknowns; }
+bool factorisable(const Situation& s) { return s.unknowns <= most_for_direct; }
+
+// The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
+// factorisations, and faster ones.
+bool dear_below(const Situation& s) {
+  const bool full = s.couplings > Offset{s.vectors} * many_couplings;
+  return (s.coarsest_vectors == s.vectors && s.vectors > many_vectors) || (s.coarsest_vectors > fewer_vectors && full);
+}
+
+std::string patience(const Patience& p) {
+  return fmt::format(
+      "after {} cycles, or any {}later one, where the rate of the last ones leads to more than {} (or "
+      "`max_iterations`), and active sets suit",
+      p.first, p.every == 1 ? "" : fmt::format("{}th ", p.every), p.most);
+}
+
+// Thousands apart.
+std::string number(Offset n) { return n < 1000 ? fmt::format("{}", n) : fmt::format("{} {:03}", n / 1000, n % 1000); }
+
+}  // namespace
+
+const std::vector<StageRule>& stages() {
+  static const std::vector<StageRule> list{
+      {.name = "cycles, sweeps below",
+       .kind = Kind::cycles,
+       .method = "auto",
+       .solver = "pgs",
+       .suits =
+           [](const Situation& s) { return !s.begun && s.newton && dear_below(s) && (coarsens(s) || factorisable(s)); },
+       .begins =
+           fmt::format("at once, where the coarsest level has more than {} vectors and each of the finest one more "
+                       "than {} couplings, or a single level more than {} vectors",
+                       fewer_vectors, many_couplings, many_vectors),
+       .ends = patience(patience_with_sweeps),
+       .purpose =
+           "matrices that could hardly be coarsened. The coarsest level is left to sweeps, for a Newton step there "
+           "is no small part of the whole solve, and a cycle may take a dozen",
+       .patience = patience_with_sweeps},
+      {.name = "cycles",
+       .kind = Kind::cycles,
+       .method = "auto",
+       .solver = "",
+       .suits = [](const Situation& s) { return !s.begun; },
+       .begins = "at once, elsewhere",
+       .ends = patience(patience_with_cycles),
+       .purpose = "most problems are solved here"},
+      {.name = "active sets, multigrid",
+       .kind = Kind::active_sets,
+       .method = "pdas",
+       .solver = "amg_cg",
+       .suits = coarsens,
+       .begins = "for scalars that could be coarsened to half of the unknowns or less, at any size",
+       .ends = "where sets cycle, or do not come to rest",
+       .purpose =
+           "graph Laplacians with weights over 8 decades. Conjugate gradients with an algebraic multigrid cycle"},
+      {.name = "active sets, direct",
+       .kind = Kind::active_sets,
+       .method = "pdas",
+       .solver = "cholmod",
+       .suits = factorisable,
+       .begins = fmt::format("for at most {} unknowns", number(most_for_direct)),
+       .ends = "where sets cycle, or do not come to rest",
+       .purpose = "cells stretched 25 times that bend. CHOLMOD"},
+      {.name = "interior points",
+       .kind = Kind::interior_points,
+       .method = "interior_point",
+       .solver = "cholmod",
+       .suits = [](const Situation& s) { return s.unknowns <= most_for_interior_points; },
+       .begins = fmt::format("for at most {} unknowns", number(most_for_interior_points)),
+       .ends = fmt::format("after {} steps, or where they make no progress", interior_points),
+       .purpose =
+           "sets that cycle, as they may where couplings have both signs. Mehrotra's predictor and corrector: a few "
+           "dozen linear systems, whatever the matrix",
+       .most_steps = interior_points},
+      {.name = "the coarse solver on the finest level",
+       .kind = Kind::single_level,
+       .method = "newton",
+       .solver = "",
+       .suits = [](const Situation& s) { return s.levels && Offset{s.vectors} * s.block <= most_for_newton; },
+       .begins = fmt::format("for at most {} unknowns, and coarser levels", number(most_for_newton)),
+       .ends = fmt::format("after {} steps", newton_steps),
+       .purpose = "there may be no solution, which it finds out",
+       .most_steps = newton_steps},
+      {.name = "more cycles",
+       .kind = Kind::cycles,
+       .method = "monotone",
+       .solver = "",
+       .suits = [](const Situation& s) { return s.begun; },
+       .begins = "where nothing else has solved the problem",
+       .ends = "at `max_iterations`",
+       .purpose = "slow cycles are better than none"}};
+  return list;
+}
+
+std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Offset coarsest) {
+  std::vector<std::string> out;
+  for (const StageRule& rule : stages())
+    if (rule.kind == Kind::active_sets && rule.suits({.block = block, .unknowns = unknowns, .coarsest = coarsest}))
+      out.emplace_back(rule.solver);
+  return out;
+}
+
+std::string table_of_stages() {
+  std::string out = "| stage | begins | ends unsolved | is for |\n| --- | --- | --- | --- |\n";
+  for (const StageRule& rule : stages())
+    out += fmt::format("| {} | {} | {} | {} |\n", rule.name, rule.begins, rule.ends, rule.purpose);
+  return out;
+}
+
+}  // namespace signorini::automatic

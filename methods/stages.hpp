@@ -1,0 +1,59 @@
+#pragma once
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/types.hpp"
+
+/// The policy of method "auto": which stages a solve goes through. The list is in stages.cpp; docs/solver.md shows it.
+namespace signorini::automatic {
+
+/// When cycles are given up: after `first` of them, and later after every `every`, where their rate leads to more than
+/// `most` in all.
+struct Patience {
+  int first, every, most;
+};
+inline constexpr Patience patience_with_cycles{60, 10, 200};
+/// Where the coarsest level is left to sweeps.
+inline constexpr Patience patience_with_sweeps{3, 1, 20};
+
+/// What decides.
+struct Situation {
+  int block = 1;                            ///< unknowns per vector
+  Index vectors = 0, coarsest_vectors = 0;  ///< on the finest and on the coarsest level, the same if there is one
+  Offset couplings = 0;                     ///< of the vectors of the finest level
+  Offset unknowns = 0, coarsest = 0;        ///< free unknowns there; before any stage: all of them
+  bool levels = false;                      ///< there are several
+  bool newton = false;                      ///< the coarse solver makes Newton steps, which may be dear
+  bool begun = false;                       ///< a stage has been run
+};
+
+/// What makes the steps of a stage.
+enum class Kind { cycles, single_level, active_sets, interior_points };
+
+inline constexpr int unlimited = std::numeric_limits<int>::max();
+
+/// Stages follow each other in the order of the list. Each begins where it suits and those before it have left the
+/// problem unsolved, from where the last one of them that was kept ended.
+struct StageRule {
+  const char* name;
+  Kind kind;
+  const char* method;  ///< as reports name it; "auto": by what the cycles were
+  const char* solver;  ///< registered: the coarse one, or the linear one; "": that of the options
+  bool (*suits)(const Situation&);
+  std::string begins, ends, purpose;  ///< for the documentation
+  int most_steps = unlimited;         ///< fewer where `max_iterations` is reached
+  Patience patience = patience_with_cycles;
+};
+
+const std::vector<StageRule>& stages();
+
+/// The registered linear solvers for active sets, those to be tried first in front; none: cycles have to do.
+/// @param block unknowns per vector
+/// @param unknowns, coarsest on the finest level and on the coarsest one
+std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Offset coarsest);
+
+/// The list as a table in Markdown.
+std::string table_of_stages();
+
+}  // namespace signorini::automatic
