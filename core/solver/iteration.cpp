@@ -102,12 +102,35 @@ void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r
     largest = std::max(largest, std::abs(now[i]));
     moved = std::max(moved, std::abs(d));
   }
-  sums.gain += gain - added;
+  sums.gain += gain - added - rounding_at_facets(finest().constraints, x, r, first, last);
   sums.correction += correction;
   sums.size += size;
   sums.largest = largest;
   sums.moved = moved;
   sums.products += free_products(problem_, x, r, first, last);
+}
+
+// Facets are met up to rounding, and large forces do work along that.
+template <int B>
+double Iteration<B>::rounding_at_facets(const Constraints<B>& c, const std::vector<double>& x,
+                                        const std::vector<double>& r, Index first, Index last) const {
+  if (c.facet.empty()) return 0;
+  double work = 0;
+  const auto [from, to] = slots_between(c, first, last);
+  for (Index slot = from; slot < to; ++slot) {
+    if (!c.has_facets(slot)) continue;
+    const Offset at = Offset{c.vector[slot]} * B;
+    double P[B * B], d[B], along[B];
+    Flags resting = 0;
+    for (int k = 0; k < B; ++k) {
+      d[k] = x[at + k] - x_before_[at + k];
+      resting |= static_cast<Flags>((d[k] == 0) << k);
+    }
+    c.polyhedron(slot).hold(x.data() + at, x_before_.data() + at, resting, P);
+    block::product<B>(P, d, along);
+    for (int k = 0; k < B; ++k) work += 0.5 * (d[k] - along[k]) * (r_before_[at + k] + r[at + k]);
+  }
+  return work;
 }
 
 template <int B>

@@ -85,6 +85,8 @@ class Iteration {
   bool step(const Monitor& monitor);
   void add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
                             double& largest) const;
+  double rounding_at_facets(const Constraints<B>& c, const std::vector<double>& x, const std::vector<double>& r,
+                            Index first, Index last) const;
   void measure(double error);
   void record(Step step);
   double rounding_energy() const;

@@ -38,6 +38,10 @@ struct Level {
   std::vector<Index> changed;        ///< vectors whose `removed` changed and is not yet in the coarser matrices
   std::vector<Index> renewed;        ///< rows of A recomputed and not yet in the coarser matrices
 
+  /// Of all frames, where slots have facets: their dual without what the facets that are touched take out. That of
+  /// `frames` is N P, with the projector P of Polyhedron::hold(): so these do not interpolate either.
+  std::vector<double> whole_dual;
+
   bool nonlinear = false;                 ///< an obstacle of this level adds to the energy; then, else empty:
   std::vector<double> gradient, hessian;  ///< B and B * B per slot: of phi at the last visit, see Linearisation
   std::vector<double> used_hessian;       ///< B * B per slot: what the coarser matrices contain
@@ -54,6 +58,27 @@ struct Level {
     gradient.assign(slots * B, 0.0);
     hessian.assign(slots * B * B, 0.0);
     used_hessian.assign(slots * B * B, 0.0);
+  }
+
+  /// Takes the facets that x touches at a slot out of the interpolation, beside the components in `held`, and shares
+  /// what the others leave among the components that are left. Returns whether the frame of interpolation has changed;
+  /// the components that are left none of are added to `held`.
+  bool hold_facets(Index slot, Flags& held) {
+    const Index p = constraints.vector[slot];
+    const Polyhedron<B> polyhedron = constraints.polyhedron(slot);
+    const Offset frame = Offset{frames.slot[p]} * B * B;
+    double P[B * B], dual[B * B];
+    held = polyhedron.hold(x + Offset{p} * B, held, P);
+    block::multiply<B>(whole_dual.data() + frame, P, dual);
+    for (int k = 0; k < B; ++k) {
+      lower[Offset{slot} * B + k] = std::min(constraints.lower[Offset{slot} * B + k] - x[Offset{p} * B + k], 0.0);
+      upper[Offset{slot} * B + k] = std::max(constraints.upper[Offset{slot} * B + k] - x[Offset{p} * B + k], 0.0);
+    }
+    polyhedron.share(x + Offset{p} * B, P, lower.data() + Offset{slot} * B, upper.data() + Offset{slot} * B);
+    double* now = frames.dual.data() + frame;
+    const bool turned = !std::equal(dual, dual + B * B, now);
+    std::copy_n(dual, B * B, now);
+    return turned;
   }
 
   /// r -= gradient of phi at the last visit, at the vectors first <= p < last; r: B each, from `first` on.
@@ -86,7 +111,9 @@ struct Level {
             constraints.data.data(),
             constraints.width,
             constraints.last.data(),
-            constraints.tangential.data()};
+            constraints.tangential.data(),
+            constraints.facet_row.empty() ? nullptr : constraints.facet_row.data(),
+            constraints.facet.data()};
   }
 
   /// Phases of the iterate at the vectors first <= p < last: what the bounds admit and hold, and phi's linearisation.

@@ -37,12 +37,13 @@ Components<B> components(SolverOptions options, const Registry& registry, bool s
   return components_of<B>(options, registry);
 }
 
-/// Coarse solvers know bounds only: where the single level has functionals, they get one of their own below it, on
-/// which these are linear.
+/// Coarse solvers know boxes only: where the single level has functionals or faces, they get one of their own below it,
+/// on which these are linear.
 template <int B>
 std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                        Method method) {
-  if (method == Method::pgs || !prolongations.empty() || !has_functional(problem.segments)) return {};
+  const bool boxes = !has_functional(problem.segments) && problem.constraints.facet.empty();
+  if (method == Method::pgs || !prolongations.empty() || boxes) return {};
   Prolongation identity;
   identity.coarse = problem.A.size();
   for (Index p = 0; p < identity.coarse; ++p) {
