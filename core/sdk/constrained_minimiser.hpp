@@ -48,23 +48,43 @@ class ConstrainedMinimiser {
     const Side& side = met_[count - 1];
     double give = 0;  // how far a force along the normal moves it, roughly
     for (int i = 0; i < B; ++i) give += side.normal[i] * side.normal[i] / stiffness_[i];
-    double low = 0, high = 0, pushed[B];
+    double pushed[B], last = 0;
     const auto excess_at = [&](double push) {
+      last = push;
       for (int i = 0; i < B; ++i) pushed[i] = force[i] - push * side.normal[i];
       return on_sides(count - 1, pushed, y) ? polyhedron_.excess(side, y) : std::nan("");
     };
     const auto is_met = [&](double excess) { return std::fabs(excess) <= 0.5 * Polyhedron<B>::rounding_at(side, y); };
-    double at_low = excess_at(0), at_high = at_low;
-    if (is_met(at_low)) return true;
+    const double at_zero = excess_at(0);
+    if (is_met(at_zero)) return true;
+    if (!reach(excess_at, is_met, at_zero, std::fabs(at_zero) / give)) return false;
+    land(excess_at, side, last, std::max(std::fabs(last), std::fabs(at_zero) / give), y);
+    return true;
+  }
+
+  /// Pushes, by steps that grow, until the side is met or passed, and then until it is met.
+  template <class Excess, class Met>
+  static bool reach(const Excess& excess_at, const Met& is_met, double at_low, double step) {
     const double way = at_low > 0 ? 1 : -1;
-    for (double step = std::fabs(at_low) / give; way * at_high > 0; step *= 4) {
-      low = high, at_low = at_high;
-      high = high + way * step;
-      if (!std::isfinite(high)) return false;
-      at_high = excess_at(high);
+    for (double low = 0;; step *= 4) {
+      const double high = low + way * step, at_high = excess_at(high);
+      if (!std::isfinite(high) || std::isnan(at_high)) return false;
       if (is_met(at_high)) return true;
+      if (way * at_high < 0) return find_root(excess_at, is_met, low, at_low, high, at_high);
+      low = high, at_low = at_high;
     }
-    return std::isfinite(at_high) && find_root(excess_at, is_met, low, at_low, high, at_high);
+  }
+
+  /// Takes y, reached by the push `last`, onto the side: there rounding is that of y, not of the whole way to it. Goes
+  /// the way that a small push gives, along which what sticks and what is at a bound rests.
+  template <class Excess>
+  void land(const Excess& excess_at, const Side& side, double last, double size, double* y) const {
+    const double off = polyhedron_.excess(side, y);
+    if (off == 0) return;
+    double at[B];
+    std::copy_n(y, B, at);
+    const double change = excess_at(last + 1e-6 * size) - off, part = off / change;
+    for (int i = 0; i < B; ++i) y[i] = std::fabs(part) < 1 ? at[i] - part * (y[i] - at[i]) : at[i];
   }
 
   /// Between two pushes with excesses of different sign: by secants, halved where one end stays (Illinois).

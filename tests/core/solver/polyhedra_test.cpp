@@ -25,7 +25,7 @@ void add_facets(Random& random, DiscreteProblem<B>& problem) {
     }
     if (random.chance(0.5)) {
       const auto rotation = random_rotation<B>(random);
-      std::vector<Facet<B>> facets = random_facets<B>(random, 1 + random.below(B + 1), inside, -3);
+      std::vector<Facet<B>> facets = random_facets<B>(random, 1 + random.below(B + 1), inside, -1);
       for (const Facet<B>& f : facets) c.facet.push_back(f);
       problem.frames.add(static_cast<std::size_t>(problem.A.size()), c.vector[slot], rotation.data(), rotation.data());
     }
@@ -81,8 +81,9 @@ Eigen::MatrixXd measured(const DiscreteProblem<B>& problem) {
   return K;
 }
 
+/// Whether the convex solver had a solution to compare with.
 template <int B, class Prox>
-void expect_solution(const DiscreteProblem<B>& problem, const Prox& prox, const std::vector<Prolongation>& levels,
+bool expect_solution(const DiscreteProblem<B>& problem, const Prox& prox, const std::vector<Prolongation>& levels,
                      const SolverOptions& options) {
   const auto with_facets = [&](double rho, Eigen::VectorXd& z) {
     Eigen::VectorXd y = z.head(problem.A.size() * B);
@@ -97,16 +98,19 @@ void expect_solution(const DiscreteProblem<B>& problem, const Prox& prox, const 
       convex_minimiser(dense(problem.A), vector(problem.b), measured(problem), with_facets);
   std::vector<double> x = problem.start;
   const Summary summary = solve<B>(problem, levels, x, options, registry());
-  ASSERT_EQ(summary.outcome, Outcome::converged) << options.method << ": " << summary.reason;
-  EXPECT_LE((vector(x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff())
-      << options.method << ", " << summary.iterations << " iterations";
+  EXPECT_EQ(summary.outcome, Outcome::converged) << options.method << ": " << summary.reason;
+  if (expected.size() > 0)
+    EXPECT_LE((vector(x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff())
+        << options.method << ", " << summary.iterations << " iterations";
   for (std::size_t k = 1; k < summary.history.size(); ++k)
     EXPECT_LE(summary.history[k].energy, summary.history[k - 1].energy + 1e-12 * std::abs(summary.energy)) << k;
+  return expected.size() > 0;
 }
 
 template <int B, class Make, class Prox>
 void expect_solved(const Make& make, const Prox& prox) {
   Random random(7 + B);
+  int compared = 0;
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
     const auto problem = make(random, 40);
@@ -116,10 +120,11 @@ void expect_solved(const Make& make, const Prox& prox) {
       options.tolerance = 1e-10;
       options.max_iterations = 20000;
       options.method = method;
-      expect_solution<B>(problem, prox(problem), levels, options);
+      compared += expect_solution<B>(problem, prox(problem), levels, options);
       if (options.method == "auto") expect_solution<B>(problem, prox(problem), {}, options);
     }
   }
+  EXPECT_GE(compared, 20) << "of forty";
 }
 
 /// Bounds of components alone.
