@@ -146,7 +146,6 @@ int status_of(Outcome outcome) {
     case Outcome::inaccurate:
     case Outcome::stuck:
     case Outcome::failed:
-    case Outcome::violated:
       return SIGNORINI_ITERATION_LIMIT;
     case Outcome::interrupted:
       return SIGNORINI_INTERRUPTED;

@@ -111,8 +111,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);
   StepReport report =
-      step_report<D, B>(scene_, mesh(), probes_, results_, t,
-                        judge<D, B>(mesh(), model_, solution, results_.u, scene_.solver.tolerance), body_);
+      step_report<D, B>(scene_, mesh(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {
     std::string warning = fmt::format(

@@ -11,6 +11,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
+#include "core/fem/force_split.hpp"
 #include "core/fem/select.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
@@ -127,15 +128,27 @@ auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Ro
       const double value = x[Offset{p} * B + k];
       add(p, motions_.along(problem.frames, p, k) * free_, lower - value, upper - value);
     }
-  if (discretization_.dropped.empty()) return out;
-  const std::vector<double> u = to_global(problem, x);
-  for (const Bound<B>& bound : discretization_.dropped) {
-    double value = 0;
-    for (int i = 0; i < B; ++i) value += bound.direction[i] * u[Offset{bound.vertex} * B + i];
-    add(bound.vertex, motions_.along(bound.vertex, bound.direction.data()) * free_, bound.lower - value,
-        bound.upper - value);
-  }
+  each_polyhedron([&](Index slot) {
+    const Constraints<B>& c = problem.constraints;
+    const Index p = c.vector[slot];
+    for (Offset f = c.facet_row[slot]; f < c.facet_row[slot + 1]; ++f) {
+      const Facet<B>& face = c.facet[f];
+      double direction[B], value = 0;
+      block::product<B>(problem.frames.dual_at(p), face.normal, direction);
+      for (int k = 0; k < B; ++k) value += face.normal[k] * x[Offset{p} * B + k];
+      add(p, motions_.along(p, direction) * free_, face.lower - value, face.upper - value);
+    }
+  });
   return out;
+}
+
+/// Calls visit(slot) for those with faces.
+template <int D, int B>
+template <class Visit>
+void LooseBody<D, B>::each_polyhedron(const Visit& visit) const {
+  const Constraints<B>& c = discretization_.problem.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    if (c.has_facets(slot)) visit(slot);
 }
 
 template <int D, int B>
@@ -171,6 +184,45 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   return functional::slope(problem, far.data(), step.data());
 }
 
+/// The same of what presses on a vertex with faces, among which the force is divided.
+template <int D, int B>
+void LooseBody<D, B>::add_pressed(Index slot, const std::vector<double>& x, std::vector<double>& forces,
+                                  std::vector<Eigen::RowVectorXd>& rows) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const Constraints<B>& c = problem.constraints;
+  const Index p = c.vector[slot];
+  const double *N = problem.frames.dual_at(p), *v = x.data() + Offset{p} * B;
+  std::vector<std::array<double, B>> directions;
+  const auto add = [&](const double* local, double sign) {
+    double direction[B];
+    block::product<B>(N, local, direction);
+    std::array<double, B>& last = directions.emplace_back();
+    for (int i = 0; i < B; ++i) last[i] = sign * direction[i];
+  };
+  for (int k = 0; k < B; ++k) {
+    double axis[B] = {};
+    axis[k] = 1;
+    if (v[k] <= c.lower[Offset{slot} * B + k]) add(axis, 1);
+    if (v[k] >= c.upper[Offset{slot} * B + k]) add(axis, -1);
+  }
+  const Polyhedron<B> polyhedron = c.polyhedron(slot);
+  for (int k = 0; k < polyhedron.facets(); ++k) {
+    const auto [below, above] = polyhedron.room(k, v);
+    if (below == 0) add(polyhedron.facet(k).normal, 1);
+    if (above == 0) add(polyhedron.facet(k).normal, -1);
+  }
+  double r[B];
+  std::array<double, B> force;
+  row_product(problem.A, p, x.data(), r);
+  for (int k = 0; k < B; ++k) r[k] = problem.fixed[p] >> k & 1u ? 0 : r[k] - problem.b[Offset{p} * B + k];
+  block::product<B>(N, r, force.data());
+  const ForceSplit split = split_force<B>(directions, force);
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    forces.push_back(split.part[k]);
+    rows.push_back(motions_.along(p, directions[k].data()) * free_);
+  }
+}
+
 // Rows of what obstacles press on, which stays in contact.
 template <int D, int B>
 Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
@@ -189,12 +241,15 @@ Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
       const bool below = value <= c.lower[Offset{slot} * B + k], above = value >= c.upper[Offset{slot} * B + k];
       if (!below && !above) continue;
       const double force = Ax[k] - b;
-      forces.push_back(below && above ? std::abs(force) : below ? force : -force);
-      rows.push_back(motions_.along(problem.frames, p, k) * free_);
-      largest = std::max(largest, forces.back());
+      if (!c.has_facets(slot)) {
+        forces.push_back(below && above ? std::abs(force) : below ? force : -force);
+        rows.push_back(motions_.along(problem.frames, p, k) * free_);
+      }
       terms = std::max(terms, std::abs(b) + problem.A.diagonal(p)[k * (B + 1)] * size);
     }
   }
+  each_polyhedron([&](Index slot) { add_pressed(slot, x, forces, rows); });
+  for (const double force : forces) largest = std::max(largest, force);
   std::vector<Eigen::RowVectorXd> kept;
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (forces[k] > std::max(weak * largest, force_rounding * terms) && rows[k].norm() > negligible)
@@ -345,11 +400,7 @@ template <int D, int B>
 void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x) const {
   add(motion, x);
   const Constraints<B>& c = discretization_.problem.constraints;
-  for (Index slot = 0; slot < c.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      double& value = x[Offset{c.vector[slot]} * B + k];
-      value = std::clamp(value, c.lower[Offset{slot} * B + k], c.upper[Offset{slot} * B + k]);
-    }
+  for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, x.data() + Offset{c.vector[slot]} * B);
 }
 
 template <int D, int B>

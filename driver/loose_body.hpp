@@ -51,6 +51,10 @@ class LooseBody {
   void touch(double rounding, std::vector<double>& x) const;
   std::vector<Room> gaps(const std::vector<double>& x) const;
   std::vector<Room> rooms(const std::vector<double>& x) const;
+  template <class Visit>
+  void each_polyhedron(const Visit& visit) const;
+  void add_pressed(Index slot, const std::vector<double>& x, std::vector<double>& forces,
+                   std::vector<Eigen::RowVectorXd>& rows) const;
   Eigen::MatrixXd pressed(const std::vector<double>& x) const;
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
   Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,

@@ -16,16 +16,6 @@ void subtract_prescribed(const std::vector<double>& way, DiscreteProblem<B>& pro
       if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] -= way[p * B + k];
 }
 
-template <int B>
-void subtract_from_bounds(const std::vector<double>& way, Constraints<B>& c) {
-  for (Index slot = 0; slot < c.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;
-      c.lower[at] -= way[i];
-      c.upper[at] -= way[i];
-    }
-}
-
 /// The right-hand side of the prescribed values of now.
 template <int B>
 void prescribe_anew(Discretization<B>& discretization) {
@@ -46,7 +36,8 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   lower_ = problem.constraints.lower;
   upper_ = problem.constraints.upper;
   subtract_prescribed(way_, problem);
-  subtract_from_bounds(way_, problem.constraints);
+  facet_ = problem.constraints.facet;
+  problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= way_[i];
   prescribe_anew(discretization);
   const std::vector<double> moved = to_global(problem, way_);
@@ -62,19 +53,20 @@ void MovedProblem<B>::back() {
   std::swap(problem.start, start_);
   std::swap(c.lower, lower_);
   std::swap(c.upper, upper_);
+  std::swap(c.facet, facet_);
   prescribe_anew(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];
   for (std::size_t p = 0; p < problem.fixed.size(); ++p)
     for (std::size_t k = 0; k < B; ++k)
       if (problem.fixed[p] >> k & 1u) x_[p * B + k] = problem.start[p * B + k];
-  for (Index slot = 0; slot < c.size(); ++slot)
+  for (Index slot = 0; slot < c.size(); ++slot) {
     for (int k = 0; k < B; ++k) {
       const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;
-      x_[i] = left[i] <= lower_[at]   ? c.lower[at]
-              : left[i] >= upper_[at] ? c.upper[at]
-                                      : std::clamp(x_[i], c.lower[at], c.upper[at]);
+      x_[i] = left[i] <= lower_[at] ? c.lower[at] : left[i] >= upper_[at] ? c.upper[at] : x_[i];
     }
+    c.project(slot, x_.data() + Offset{c.vector[slot]} * B);
+  }
 }
 
 template class MovedProblem<1>;

@@ -23,6 +23,7 @@ class MovedProblem {
   std::vector<double> way_;
   std::vector<double>& x_;
   std::vector<double> start_, lower_, upper_;  // of the problem as it was
+  std::vector<Facet<B>> facet_;
 };
 
 }  // namespace signorini

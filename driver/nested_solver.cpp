@@ -42,16 +42,6 @@ constexpr double slender = 16;
 /// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
 constexpr int patience_with_matrix = 40;
 
-/// Obstacles that could not be made part of the problem may be what holds the body.
-template <int B>
-[[noreturn]] void throw_unbounded(const std::string& origin, const Solution<B>& solution) {
-  if (solution.discretization.dropped.empty())
-    throw Error(Exit::no_solution, fmt::format("{}: {}", origin, solution.summary.reason));
-  input_error(origin, solution.summary.reason +
-                          " but perhaps obstacles that meet others in dependent or nearly parallel directions at one "
-                          "vertex; such obstacles are not available in this version");
-}
-
 /// Friction opposes the motion since the last step, of which x is the solution.
 template <int B>
 void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
@@ -359,7 +349,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   progress_.stop_if_interrupted();
-  if (solution.summary.outcome == Outcome::unbounded) throw_unbounded(model.origin, solution);
+  if (solution.summary.outcome == Outcome::unbounded) 
+    throw Error(Exit::no_solution, fmt::format("{}: {}", model.origin, solution.summary.reason));
 }
 
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.

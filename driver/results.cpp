@@ -103,33 +103,6 @@ StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>&
   return report;
 }
 
-template <int D, int B>
-Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution, const std::vector<double>& u,
-              double tolerance) {
-  Summary summary = solution.summary;
-  double size = 0, most = 0;
-  for (const double value : u) size = std::max(size, std::abs(value));
-  const Bound<B>* worst = nullptr;
-  Index count = 0;
-  for (const Bound<B>& bound : solution.discretization.dropped) {
-    const double by = violation(bound, u);
-    count += by > tolerance * size;
-    if (by > std::max(most, tolerance * size)) most = by, worst = &bound;
-  }
-  if (!worst || !summary.converged()) return summary;
-  summary.outcome = Outcome::violated;
-  const char* why = solution.discretization.functional.empty()
-                        ? "where obstacles meet in dependent or nearly parallel directions, so that only the nearest "
-                          "count"
-                        : "where obstacles meet in other directions than that of one with friction, which then counts "
-                          "alone, or in dependent or nearly parallel ones";
-  summary.reason = fmt::format(
-      "{}: this obstacle is violated by {:.3g} at ({}), the worst of {} vertices {}; such obstacles are not available in "
-      "this version",
-      model.obstacles[worst->obstacle].origin, most, fmt::join(mesh.points[worst->vertex], ", "), count, why);
-  return summary;
-}
-
 template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
@@ -168,7 +141,6 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
   template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
   template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double,    \
                                   const Summary&, std::size_t);                                                    \
-  template Summary judge(const Mesh<D>&, const Model<B>&, const Solution<B>&, const std::vector<double>&, double); \
   template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

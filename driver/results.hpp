@@ -39,13 +39,6 @@ template <int D, int B>
 StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t body = 0);
 
-/// The summary of a solve. Where contacts that could not be made part of the problem are violated in its solution by
-/// more than `tolerance` times the largest displacement, it has not converged and says which.
-/// @param u the solution in global coordinates
-template <int D, int B>
-Summary judge(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution, const std::vector<double>& u,
-              double tolerance);
-
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
 template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t body = 0);

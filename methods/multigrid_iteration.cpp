@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/solver/rounding.hpp"
@@ -21,12 +22,13 @@ bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
 }
 
-/// Coarse solvers know bounds only: where the single level has functionals, they get one of their own below it, on
-/// which these are linear.
+/// Coarse solvers know boxes only: where the single level has functionals or facets, they get one of their own below it,
+/// on which these are linear.
 template <int B>
 std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                        Method method) {
-  if (method == Method::pgs || !prolongations.empty() || !has_functional(problem.segments)) return {};
+  const bool boxes = !has_functional(problem.segments) && problem.constraints.facet.empty();
+  if (method == Method::pgs || !prolongations.empty() || boxes) return {};
   Prolongation identity;
   identity.coarse = problem.A.size();
   for (Index p = 0; p < identity.coarse; ++p) {
@@ -228,7 +230,8 @@ void MultigridIteration<B>::add_gain() {
   estimate_.add(sums.gain, std::sqrt(std::max(sums.correction, 0.0)));
 }
 
-// By the residuals of the last two iterates; that of the first one may be extrapolated.
+// By the residuals of the last two iterates; that of the first one may be extrapolated. Facets are met up to rounding,
+// along which forces do work.
 template <int B>
 double MultigridIteration<B>::rounding_of_gain() const {
   const DiscreteProblem<B>& problem = this->problem_;
@@ -236,7 +239,14 @@ double MultigridIteration<B>::rounding_of_gain() const {
     return std::abs(problem.b[Offset{p} * B + k]) + terms_of_product(problem.A, this->x_.data(), p, k) +
            terms_of_product(problem.A, this->x_before_.data(), p, k);
   });
-  return this->sums_.moved * work * (1 + amplification_);
+  const Constraints<B>& c = problem.constraints;
+  double at_facets = 0;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B && c.has_facets(slot); ++k) {
+      const Offset i = Offset{c.vector[slot]} * B + k;
+      at_facets += std::abs(this->x_[i] * this->r_[i]);
+    }
+  return this->sums_.moved * work * (1 + amplification_) + 16 * std::numeric_limits<double>::epsilon() * at_facets;
 }
 
 template class MultigridIteration<1>;

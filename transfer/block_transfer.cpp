@@ -170,13 +170,7 @@ void BlockTransfer<B>::prolongate(const LevelSystem<B>& coarse, const Level<B>& 
   });
   const Constraints<B>& c = fine.constraints;
   const auto [from, to] = slots_between(c, first, last);
-  for (Index slot = from; slot < to; ++slot)
-    for (int i = 0; i < B; ++i) {
-      double& x = fine.x[Offset{c.vector[slot]} * B + i];
-      x = x < c.lower[Offset{slot} * B + i]   ? c.lower[Offset{slot} * B + i]
-          : x > c.upper[Offset{slot} * B + i] ? c.upper[Offset{slot} * B + i]
-                                              : x;
-    }
+  for (Index slot = from; slot < to; ++slot) c.project(slot, fine.x + Offset{c.vector[slot]} * B);
 }
 
 template class BlockTransfer<1>;

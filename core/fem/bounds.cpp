@@ -10,11 +10,13 @@
 #include "core/component/settings.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/sdk/polyhedron.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr double independent = 0.02;  // separation() from which local coordinates are well conditioned
+constexpr double parallel = 1e-10;    // distance of unit vectors that are one direction, far below any tolerance
 constexpr Index batch = 4096;         // vertices per call of a plugin
 
 template <int D>
@@ -182,10 +184,10 @@ BoundCombiner<D, B>::BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, c
 template <int D, int B>
 const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>* first, const Bound<B>* last,
                                                                   const FixedDirections<B>* fixed,
-                                                                  std::vector<Bound<B>>& dropped,
                                                                   std::vector<Bound<B>>& held) {
   reduced_.clear();
   combined_.clear();
+  facets_.clear();
   find_functional(first, last);
   for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed, held);
   if (reduced_.size() > 1)  // it takes memory
@@ -193,9 +195,10 @@ const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>
       const bool a_rules = a.from == functional_, b_rules = b.from == functional_;
       return a_rules != b_rules ? a_rules : a.distance() < b.distance();
     });
-  for (const Reduced& bound : reduced_)
-    if (!merge(bound)) dropped.push_back(*bound.from);
+  for (const Reduced& bound : reduced_) merge(bound);
   for (CombinedBound<B>& bound : combined_) check_order(bound, first->vertex);
+  for (CombinedBound<B>& bound : facets_) check_order(bound, first->vertex);
+  if (!facets_.empty()) check_room(first->vertex);
   return combined_;
 }
 
@@ -249,27 +252,32 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
   if (violation >= -rounding(bound.obstacle)) held.push_back(bound);
 }
 
-// Takes a bound into the combined ones; false where it fits with none of them.
+// Takes a bound into the combined ones along its direction, or beside them.
 template <int D, int B>
-bool BoundCombiner<D, B>::merge(const Reduced& bound) {
+void BoundCombiner<D, B>::merge(const Reduced& bound) {
   const Index obstacle = bound.from->obstacle;
-  if (!combined_.empty() && !functional_) {
-    const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
-    if (obstacle != combined_[0].lower_obstacle && !type(obstacle).same_type(type(combined_[0].lower_obstacle)))
-      return false;
-  }
-  for (CombinedBound<B>& other : combined_) {
-    const double cosine = dot(bound.direction, other.direction);
-    if (std::fabs(cosine) > 1 - same_direction * same_direction) {
-      const double lower = cosine > 0 ? bound.lower : -bound.upper, upper = cosine > 0 ? bound.upper : -bound.lower;
+  for (auto* known : {&combined_, &facets_})
+    for (CombinedBound<B>& other : *known) {
+      const double sign = dot(bound.direction, other.direction) > 0 ? 1 : -1;
+      double apart = 0;
+      for (int i = 0; i < B; ++i) apart = std::max(apart, std::fabs(bound.direction[i] - sign * other.direction[i]));
+      if (apart > parallel) continue;
+      const double lower = sign > 0 ? bound.lower : -bound.upper, upper = sign > 0 ? bound.upper : -bound.lower;
       if (lower > other.lower) other.lower = lower, other.lower_obstacle = obstacle, other.lower_from = bound.from;
       if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle, other.upper_from = bound.from;
-      return true;
+      return;
     }
-  }
-  if ((functional_ && !combined_.empty()) || !independent_of_combined(bound)) return false;
-  combined_.push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle, bound.from, bound.from});
-  return true;
+  const bool direction = functional_ ? bound.from == functional_ : independent_of_combined(bound);
+  (direction ? combined_ : facets_)
+      .push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle, bound.from, bound.from});
+}
+
+template <int D, int B>
+bool BoundCombiner<D, B>::mixes_types() const {
+  const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
+  return std::any_of(reduced_.begin(), reduced_.end(), [&](const Reduced& bound) {
+    return !type(bound.from->obstacle).same_type(type(reduced_.front().from->obstacle));
+  });
 }
 
 template <int D, int B>
@@ -292,6 +300,42 @@ void BoundCombiner<D, B>::check_order(CombinedBound<B>& bound, Index vertex) {
                                 ? ""
                                 : " of " + model_.obstacles[bound.upper_obstacle].origin));
   bound.lower = bound.upper = 0.5 * (bound.lower + bound.upper);
+}
+
+// Where directions and faces leave a point but for rounding, they leave it.
+template <int D, int B>
+void BoundCombiner<D, B>::check_room(Index vertex) {
+  const std::array<std::vector<CombinedBound<B>>*, 2> all{&combined_, &facets_};
+  tolerated_ = 0;
+  for (const Reduced& bound : reduced_) tolerated_ = std::max(tolerated_, rounding(bound.from->obstacle));
+  std::vector<Facet<B>> faces;
+  double lower[B], upper[B], unit[B * B] = {}, nowhere[B] = {}, y[B];
+  std::fill_n(lower, B, -infinity);
+  std::fill_n(upper, B, infinity);
+  for (int i = 0; i < B; ++i) unit[i * (B + 1)] = 1;
+  for (const auto* bounds : all)
+    for (const CombinedBound<B>& bound : *bounds) {
+      Facet<B>& face = faces.emplace_back(Facet<B>{{}, bound.lower, bound.upper, tolerated_});
+      std::copy_n(bound.direction.begin(), B, face.normal);
+    }
+  if (!Polyhedron<B>(lower, upper, faces.data(), faces.data() + faces.size()).nearest(unit, nowhere, y)) {
+    std::vector<std::string> others;
+    for (const Reduced& bound : reduced_)
+      if (const std::string& name = model_.obstacles[bound.from->obstacle].origin;
+          bound.from->obstacle != reduced_[0].from->obstacle &&
+          std::find(others.begin(), others.end(), name) == others.end())
+        others.push_back(name);
+    no_solution(reduced_[0].from->obstacle, vertex,
+                others.empty() ? "it leaves no room"
+                               : fmt::format("together with {} it leaves no room", fmt::join(others, ", ")));
+  }
+  for (auto* bounds : all)
+    for (CombinedBound<B>& bound : *bounds) {
+      double value = 0;
+      for (int i = 0; i < B; ++i) value += bound.direction[i] * y[i];
+      bound.lower = std::min(bound.lower, value);
+      bound.upper = std::max(bound.upper, value);
+    }
 }
 
 // 1e-12 of the numbers that bounds are compared with and computed from. The median, for users write 1e30 for infinity.

@@ -37,17 +37,23 @@ class BoundCombiner {
                 const std::vector<FixedDirections<B>>& fixes);
 
   /// Combines the bounds first <= bound < last of one vertex; `fixed` may be null. Each bound is reduced to the part of
-  /// its direction that is not prescribed. The reduced bound nearest to the vertex decides the type of obstacle. Bounds
-  /// of this type along one direction are intersected, independent ones are kept beside each other, nearest first; all
-  /// others are appended to `dropped`: those of another type, and those whose direction depends on nearer ones, up to
-  /// 0.02 of its length: rounding grows by that number's inverse squared. Returns unit vectors in storage that the next
-  /// call overwrites. Bounds along a direction that is prescribed and that what is prescribed there touches are
-  /// appended to `held`. Error(Exit::no_solution): bounds that are violated whatever the free components are.
-  /// A bound with a functional rules its vertex: it comes first, and others are kept along the same direction only.
-  /// Error(Exit::input): two functionals at one vertex, or one whose direction is neither free nor prescribed.
+  /// its direction that is not prescribed, and bounds along one direction are intersected. What is returned are the
+  /// directions for local coordinates: independent ones, nearest first, as far as coordinates are well conditioned: up
+  /// to 0.02 of their length from the span of the others, for rounding grows by that number's inverse squared. The
+  /// other bounds are facets(). Unit vectors, in storage that the next call overwrites. Bounds along a direction that
+  /// is prescribed and that what is prescribed there touches are appended to `held`. Error(Exit::no_solution): bounds
+  /// that are violated whatever the free components are, or that leave nothing admissible. A bound with a functional
+  /// rules its vertex: it alone gives a direction, others are faces. Error(Exit::input): two functionals at one vertex,
+  /// or one whose direction is neither free nor prescribed.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
-                                               const FixedDirections<B>* fixed, std::vector<Bound<B>>& dropped,
-                                               std::vector<Bound<B>>& held);
+                                               const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
+
+  /// Of the vertex combined last, what is admissible beside the bounds along its directions.
+  const std::vector<CombinedBound<B>>& facets() const { return facets_; }
+  /// By how much rounding may let these contradict each other.
+  double tolerated() const { return tolerated_; }
+  /// Whether obstacles of several types bound it.
+  bool mixes_types() const;
 
   /// Of the vertex combined last, the bound with a functional; null where there is none.
   const Bound<B>* functional() const { return functional_; }
@@ -62,9 +68,10 @@ class BoundCombiner {
 
   void find_functional(const Bound<B>* first, const Bound<B>* last);
   void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
-  bool merge(const Reduced& bound);
+  void merge(const Reduced& bound);
   bool independent_of_combined(const Reduced& bound) const;
   void check_order(CombinedBound<B>& bound, Index vertex);
+  void check_room(Index vertex);
   double rounding(Index obstacle);
   [[noreturn]] void no_solution(Index obstacle, Index vertex, const std::string& why) const;
 
@@ -75,7 +82,8 @@ class BoundCombiner {
   std::vector<double> rounding_;  // per obstacle, negative until it is needed
   const Bound<B>* functional_ = nullptr;
   std::vector<Reduced> reduced_;
-  std::vector<CombinedBound<B>> combined_;
+  std::vector<CombinedBound<B>> combined_, facets_;
+  double tolerated_ = 0;
 };
 
 }  // namespace signorini

@@ -5,6 +5,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/fem/element.hpp"
+#include "core/fem/force_split.hpp"
 #include "core/fem/select.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/functional.hpp"
@@ -81,6 +82,43 @@ class NodeReader {
     return node;
   }
 
+  bool has_facets(Index slot) const { return problem_.constraints.has_facets(slot); }
+
+  /// The nodes of a slot with faces, among which the force is divided; one for each bounded direction.
+  std::vector<ContactNode<B>> read_polyhedron(Index slot) const {
+    const std::vector<Side> sides = this->sides(slot);
+    std::vector<std::array<double, B>> directions;
+    for (const Side& side : sides)
+      if (side.touched) directions.push_back(side.direction);
+    const ForceSplit split = split_force<B>(directions, pushing_force(slot));
+    std::vector<ContactNode<B>> nodes;
+    std::size_t touched = 0;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const Side& side = sides[k];
+      ContactNode<B> node{problem_.constraints.vector[slot],
+                          side.obstacle,
+                          side.touched,
+                          false,
+                          side.part * side.gap,
+                          0,
+                          0,
+                          {},
+                          side.normal};
+      if (side.touched) {
+        push(node, split.part[touched] / side.part);
+        node.shared = split.unknown[touched++];
+      }
+      // Of the two sides of one direction the one that presses more, or that is nearer.
+      const bool same = k > 0 && sides[k - 1].number == side.number;
+      if (!same)
+        nodes.push_back(node);
+      else if (node.pressure > nodes.back().pressure ||
+               (node.pressure == nodes.back().pressure && node.gap < nodes.back().gap))
+        nodes.back() = node;
+    }
+    return nodes;
+  }
+
   /// Friction at a slot with a functional, to be added to what is known of its vertex.
   void add_friction(Index slot, ContactNode<B>& node) const {
     const Index p = problem_.constraints.vector[slot];
@@ -90,14 +128,15 @@ class NodeReader {
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
-      // What holds a prescribed component hides the force along it.
-      const bool fixed = problem_.fixed[p] >> k & 1u;
-      const double force = fixed ? -gradient_[Offset{slot} * B + k] : residual(p, k);
+      // What holds a prescribed component hides the force along it, and other obstacles what slips.
+      const bool hidden = has_facets(slot) || problem_.fixed[p] >> k & 1u;
+      const double force = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
       node.sticks = node.sticks && moved == 0;
       work += force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
     node.dissipated = std::max(-work, 0.0);  // what is left of the other sign is rounding
+    if (has_facets(slot) && node.sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
 
@@ -123,6 +162,82 @@ class NodeReader {
   }
 
  private:
+  /// One bound of a direction at a slot with faces.
+  struct Side {
+    int number;  ///< of the direction
+    Index obstacle;
+    bool touched;
+    double gap;                       ///< of what is not prescribed
+    std::array<double, B> direction;  ///< that it pushes along, of what is not prescribed
+    std::array<double, B> normal;     ///< of the obstacle, the same way
+    double part;                      ///< see ReducedBound
+  };
+
+  std::vector<Side> sides(Index slot) const {
+    const Constraints<B>& c = problem_.constraints;
+    const Index p = c.vector[slot];
+    const double* x = x_.data() + Offset{p} * B;
+    std::vector<Side> out;
+    const auto add = [&](int number, bool upper, Index obstacle, double value, double bound,
+                         const std::array<double, B>& direction, const std::array<double, B>& normal, double part) {
+      if (obstacle < 0) return;
+      const double gap = upper ? bound - value : value - bound;
+      Side& side = out.emplace_back(Side{number, obstacle, touches(gap, bound), gap, direction, normal, part});
+      if (!upper) return;
+      for (double& d : side.direction) d = -d;
+      for (double& d : side.normal) d = -d;
+    };
+    for (int k = 0; k < B; ++k)
+      for (const bool upper : {false, true}) {
+        const Offset at = Offset{slot} * B + k;
+        double axis[B] = {};
+        axis[k] = 1;
+        const auto [normal, part] = whole(at, !upper, p, k);
+        add(k, upper, (upper ? discretization_.upper_obstacle : discretization_.lower_obstacle)[at], x[k],
+            (upper ? c.upper : c.lower)[at], force_in_space(p, axis), normal, part);
+      }
+    for (Offset f = c.facet_row[slot]; f < c.facet_row[slot + 1]; ++f) {
+      const FacetSource<B>& source = discretization_.facets[f];
+      const Facet<B>& face = c.facet[f];
+      double value = 0;
+      for (int k = 0; k < B; ++k) value += face.normal[k] * x[k];
+      for (const bool upper : {false, true})
+        add(B + static_cast<int>(f - c.facet_row[slot]), upper, source.obstacle[upper], value,
+            upper ? face.upper : face.lower, force_in_space(p, face.normal), source.normal[upper], source.part[upper]);
+    }
+    return out;
+  }
+
+  /// What obstacles exert on the free components, but for friction that slips.
+  std::array<double, B> pushing_force(Index slot) const {
+    const Index p = problem_.constraints.vector[slot];
+    double local[B];
+    for (int k = 0; k < B; ++k) {
+      local[k] = problem_.fixed[p] >> k & 1u ? 0 : residual(p, k);
+      if (!gradient_.empty() && !(problem_.fixed[p] >> k & 1u)) local[k] += gradient_[Offset{slot} * B + k];
+    }
+    return force_in_space(p, local);
+  }
+
+  /// What is left of the force where nothing slips: friction.
+  std::array<double, B> sticking_force(Index slot) const {
+    std::array<double, B> force = pushing_force(slot);
+    std::vector<std::array<double, B>> directions;
+    for (const Side& side : sides(slot))
+      if (side.touched) directions.push_back(side.direction);
+    const ForceSplit split = split_force<B>(directions, force);
+    for (std::size_t k = 0; k < directions.size(); ++k)
+      for (int i = 0; i < B; ++i) force[i] -= split.part[k] * directions[k][i];
+    return force;
+  }
+
+  std::array<double, B> force_in_space(Index p, const double* local) const {
+    std::array<double, B> out;
+    std::copy_n(local, B, out.begin());
+    if (const double* N = problem_.frames.dual_at(p)) block::product<B>(N, local, out.data());
+    return out;
+  }
+
   // A x - b, of the component alone.
   double residual(Index p, int k) const {
     double Ax[B];
@@ -220,8 +335,8 @@ void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least
   if (B == 1 || node.pressure * node.area > least_force) summary.area += node.area;
   for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
   summary.max_pressure = std::max(summary.max_pressure, node.pressure);
-  summary.undetermined_nodes += node.held;
-  if (node.held) summary.undetermined_force += node.pressure * node.area;
+  summary.undetermined_nodes += node.held || node.shared;
+  if (node.held || node.shared) summary.undetermined_force += node.pressure * node.area;
 }
 
 }  // namespace
@@ -232,9 +347,15 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
   ContactState<B> state;
   state.obstacles.resize(model.obstacles.size());
   const NodeReader<B> reader(discretization, x);
-  for (Index slot = 0; slot < discretization.problem.constraints.size(); ++slot)
+  for (Index slot = 0; slot < discretization.problem.constraints.size(); ++slot) {
+    if (reader.has_facets(slot)) {
+      const std::vector<ContactNode<B>> nodes = reader.read_polyhedron(slot);
+      state.nodes.insert(state.nodes.end(), nodes.begin(), nodes.end());
+      continue;
+    }
     for (int k = 0; k < B; ++k)
       if (reader.bounded(slot, k)) state.nodes.push_back(reader.read(slot, k));
+  }
   for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
@@ -243,8 +364,11 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
-  for (ContactNode<B>& node : state.nodes)
-    if (node.held && !(node.pressure > positive_force * largest[node.obstacle])) release(node);
+  for (ContactNode<B>& node : state.nodes) {
+    const bool presses = node.pressure > positive_force * largest[node.obstacle];
+    if (node.held && !presses) release(node);
+    node.shared = node.shared && presses;
+  }
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle) {
     const TributaryAreas<D, B> areas(mesh, model.obstacles[obstacle], model.t);
     for (ContactNode<B>& node : state.nodes) {

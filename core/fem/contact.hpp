@@ -24,6 +24,9 @@ struct ContactNode {
   bool sticks = false;                 ///< no motion along the surface
   std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
   double dissipated = 0;               ///< work of that against the motion, not negative but for rounding
+  /// Obstacles press on the vertex along dependent directions: how the force divides among them is not determined; see
+  /// split_force() for what is taken.
+  bool shared = false;
 };
 
 /// What one obstacle does to the body.
@@ -35,7 +38,7 @@ struct ContactSummary {
   double area = 0;
   std::array<double, B> force{};  ///< total
   double max_pressure = 0;
-  Index undetermined_nodes = 0;   ///< of those in contact the held ones
+  Index undetermined_nodes = 0;   ///< of those in contact the held and the shared ones
   double undetermined_force = 0;  ///< the sum of what presses there
   Index slip_nodes = 0, stick_nodes = 0;
   std::array<double, B> tangential_force{};  ///< total along the surface, counted in `force`

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "core/algebra/local_basis.hpp"
 #include "core/algebra/products.hpp"
@@ -12,6 +13,7 @@
 #include "core/fem/same.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/local_coordinates.hpp"
+#include "core/solver/polyhedral_box.hpp"
 
 namespace signorini {
 namespace {
@@ -157,18 +159,22 @@ class Discretizer {
 
   void localise(Index p, const FixedDirections<B>* fixed, const Bound<B>* first, const Bound<B>* last) {
     static const std::vector<CombinedBound<B>> none;
-    const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, out_.dropped, held_);
+    const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, held_);
     // What cannot move does not change a functional.
     const Bound<B>* functional = first == last || (fixed && fixed->count == B) ? nullptr : combiner_.functional();
-    const bool constrained = !combined.empty() || functional;
+    const auto& faces = first == last ? none : combiner_.facets();
+    const bool constrained = !combined.empty() || !faces.empty() || functional;
     if (constrained) add_constraint(p, combined);
     if (B > 1 && fixed && !combined.empty()) add_reduced(combined);
     if (fixed && !constrained && (fixed->count == B || fixed->along_axes()))
       prescribe_global(p, *fixed);
     else if (fixed)
       prescribe_last(p, *fixed);
-    if (B > 1 && (constrained || (fixed && fixed->count < B && !fixed->along_axes()))) add_frame(p, combined, fixed);
+    if (B > 1 && (constrained || (fixed && fixed->count < B && !fixed->along_axes())))
+      add_frame(p, combined, fixed, !faces.empty());
     if (constrained && constraints().width > 0) add_functional(p, functional);
+    if (!faces.empty()) add_facets(p, faces);
+    if (constrained) own_.push_back(!functional && (!faces.empty() || combiner_.mixes_types()));
   }
 
   // To the slot added last.
@@ -209,12 +215,14 @@ class Discretizer {
     }
   }
 
-  void add_frame(Index p, const std::vector<CombinedBound<B>>& combined, const FixedDirections<B>* fixed) {
+  // Faces change how a vector is interpolated, which is by its frame.
+  void add_frame(Index p, const std::vector<CombinedBound<B>>& combined, const FixedDirections<B>* fixed,
+                 bool has_facets) {
     double leading[B * B], Q[B * B], N[B * B];
     for (std::size_t k = 0; k < combined.size(); ++k) std::copy_n(combined[k].direction.begin(), B, leading + k * B);
     local_basis<B>(leading, static_cast<int>(combined.size()), fixed ? fixed->direction[0] : nullptr,
                    fixed ? fixed->count : 0, Q, N);
-    bool identity = true;
+    bool identity = !has_facets;
     for (int i = 0; i < B * B; ++i) identity = identity && N[i] == (i % (B + 1) == 0 ? 1 : 0);
     if (!identity) problem().frames.add(problem().fixed.size(), p, Q, N);
   }
@@ -236,18 +244,41 @@ class Discretizer {
     }
   }
 
+  /// To the slot added last.
+  void add_facets(Index p, const std::vector<CombinedBound<B>>& faces) {
+    Constraints<B>& c = constraints();
+    if (c.facet_row.empty()) c.facet_row.assign(1, 0);
+    c.facet_row.resize(static_cast<std::size_t>(c.size()), static_cast<Offset>(c.facet.size()));
+    for (const CombinedBound<B>& bound : faces) {
+      Facet<B>& face = c.facet.emplace_back(Facet<B>{{}, bound.lower, bound.upper, combiner_.tolerated()});
+      block::transposed_product<B>(problem().frames.at(p), bound.direction.data(), face.normal);
+      for (int k = 0; k < B; ++k)
+        if (problem().fixed[p] >> k & 1u) face.normal[k] = 0;
+      FacetSource<B> source{
+          {bound.lower > -infinity ? bound.lower_obstacle : -1, bound.upper < infinity ? bound.upper_obstacle : -1},
+          {},
+          {}};
+      for (const bool upper : {false, true}) std::tie(source.normal[upper], source.part[upper]) = whole(bound, upper);
+      out_.facets.push_back(source);
+    }
+  }
+
+  /// The normal that a bound has been reduced from, and the part of it that is left.
+  static std::pair<std::array<double, B>, double> whole(const CombinedBound<B>& bound, bool upper) {
+    std::array<double, B> normal = (upper ? bound.upper_from : bound.lower_from)->direction;
+    const double part = dot(normal, bound.direction);
+    if (part < 0)
+      for (double& c : normal) c = -c;
+    return {normal, std::fabs(part)};
+  }
+
   /// Of the slot added last.
   void add_reduced(const std::vector<CombinedBound<B>>& combined) {
     const Offset first = Offset{constraints().size() - 1} * B;
     for (std::size_t k = 0; k < combined.size(); ++k)
       for (const bool upper : {false, true}) {
-        ReducedBound<B> whole{first + static_cast<Offset>(k), upper,
-                              (upper ? combined[k].upper_from : combined[k].lower_from)->direction, 0};
-        whole.part = dot(whole.normal, combined[k].direction);
-        if (whole.part < 0)
-          for (double& c : whole.normal) c = -c;
-        whole.part = std::fabs(whole.part);
-        out_.reduced.push_back(whole);
+        const auto [normal, part] = whole(combined[k], upper);
+        out_.reduced.push_back({first + static_cast<Offset>(k), upper, normal, part});
       }
   }
 
@@ -258,7 +289,9 @@ class Discretizer {
     out_.held.push_back(held);
   }
 
+  /// -1: the kernel's own.
   Index ruling_obstacle(Index slot) const {
+    if (own_[slot]) return -1;
     if (!out_.functional.empty() && out_.functional[slot] >= 0) return out_.functional[slot];
     const Offset k = Offset{slot} * B;
     return out_.lower_obstacle[k] >= 0 ? out_.lower_obstacle[k] : out_.upper_obstacle[k];
@@ -266,13 +299,17 @@ class Discretizer {
 
   void add_segments() {
     const auto n = static_cast<Index>(problem().fixed.size());
-    Index ruling = -1;
+    const auto own = std::make_shared<const PolyhedralBox<B>>();
+    if (!constraints().facet_row.empty())
+      constraints().facet_row.resize(static_cast<std::size_t>(constraints().size()) + 1,
+                                     static_cast<Offset>(constraints().facet.size()));
+    Index ruling = -2;
     for (Index slot = 0; slot < constraints().size(); ++slot) {
       const Index obstacle = ruling_obstacle(slot);
       if (obstacle == ruling) continue;
       const Index first = problem().segments.empty() ? 0 : constraints().vector[slot];
       if (!problem().segments.empty()) problem().segments.back().last = first;
-      problem().segments.push_back({first, n, model_.obstacles[obstacle].obstacle});
+      problem().segments.push_back({first, n, obstacle < 0 ? own : model_.obstacles[obstacle].obstacle});
       ruling = obstacle;
     }
   }
@@ -281,6 +318,7 @@ class Discretizer {
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
+  std::vector<char> own_;     // per slot: ruled by the kernel's own obstacle
   std::vector<double> data_;  // of functionals, see Bound::data
   std::vector<Bound<B>> bounds_, held_;
   BoundCombiner<D, B> combiner_;
@@ -322,13 +360,6 @@ std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<doub
   return u;
 }
 
-template <int B>
-double violation(const Bound<B>& bound, const std::vector<double>& u) {
-  double value = 0;
-  for (int i = 0; i < B; ++i) value += bound.direction[i] * u[Offset{bound.vertex} * B + i];
-  return std::max(bound.lower - value, value - bound.upper);
-}
-
 #define SIGNORINI_INSTANTIATE(D, B)                                       \
   template Discretization<B> discretize(const Mesh<D>&, const Model<B>&); \
   template Assembled renew(const Mesh<D>&, const Model<B>&, const Model<B>&, Discretization<B>&);
@@ -339,8 +370,7 @@ SIGNORINI_INSTANTIATE(3, 3)
 #undef SIGNORINI_INSTANTIATE
 #define SIGNORINI_INSTANTIATE(B)                                                          \
   template std::vector<double> to_global(const DiscreteProblem<B>&, std::vector<double>); \
-  template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);  \
-  template double violation(const Bound<B>&, const std::vector<double>&);
+  template std::vector<double> to_local(const DiscreteProblem<B>&, std::vector<double>);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

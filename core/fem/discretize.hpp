@@ -15,6 +15,14 @@ struct ReducedBound {
   double part;
 };
 
+/// Where a face of the problem comes from. [0]: its lower bound, [1]: its upper one.
+template <int B>
+struct FacetSource {
+  std::array<Index, 2> obstacle;                ///< number in Model::obstacles, -1: none
+  std::array<std::array<double, B>, 2> normal;  ///< see ReducedBound
+  std::array<double, 2> part;
+};
+
 /// A bound whose direction is prescribed, and touched: what acts along it, on the body, is known from the residual.
 template <int B>
 struct HeldBound {
@@ -30,9 +38,7 @@ struct Discretization {
   /// where there is none.
   std::vector<Index> lower_obstacle, upper_obstacle;
   std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
-  /// Bounds that are not part of the problem, see BoundCombiner. The caller checks after the solve that they hold, see
-  /// violation().
-  std::vector<Bound<B>> dropped;
+  std::vector<FacetSource<B>> facets;          ///< per face of problem.constraints
   std::vector<ReducedBound<B>> reduced;        ///< by ascending `at`
   std::vector<HeldBound<B>> held;              ///< by ascending vertex; elasticity only
   std::vector<FixedDirections<B>> fixes;       ///< by ascending vertex
@@ -45,7 +51,8 @@ struct Discretization {
 /// - Dirichlet conditions: see collect_fixes(); obstacles: see BoundCombiner.
 /// - A vector with an obstacle has a local frame: first the obstacle's directions, then free tangents, then the fixed
 ///   directions. A vector with fixed directions only has one unless these are coordinate axes.
-/// - Each obstacle rules the segments of vectors between its own constrained ones and the next obstacle's.
+/// - Each obstacle rules the segments of vectors between its own constrained ones and the next obstacle's. Vectors with
+///   faces and no functional are the kernel's own, see PolyhedralBox.
 /// Error(Exit::input) for selections without faces, fields that are not finite or out of range, inverted elements;
 /// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
 template <int D, int B>
@@ -71,9 +78,5 @@ template <int B>
 std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x);
 template <int B>
 std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u);
-
-/// How far u (global coordinates) violates a bound; negative where it holds with room to spare.
-template <int B>
-double violation(const Bound<B>& bound, const std::vector<double>& u);
 
 }  // namespace signorini

@@ -92,11 +92,12 @@ static constexpr const char* sanitizer = "none";
   FingerprintField { name, nullptr, static_cast<long long>(value) }
 #define SIGNORINI_SIZE(type) SIGNORINI_NUMBER("size of " #type, sizeof(type))
 #define SIGNORINI_OFFSET(type, member) SIGNORINI_NUMBER("offset of " #type "::" #member, offsetof(type, member))
-#define SIGNORINI_LAYOUT_OF_BLOCKS(B)                                                                    \
-  SIGNORINI_SIZE(LevelView<B>), SIGNORINI_OFFSET(LevelView<B>, x), SIGNORINI_OFFSET(LevelView<B>, slot), \
-      SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_OFFSET(LevelView<B>, data),                  \
-      SIGNORINI_SIZE(LocalConstraint<B>), SIGNORINI_OFFSET(LocalConstraint<B>, direction),               \
-      SIGNORINI_OFFSET(LocalConstraint<B>, upper), SIGNORINI_SIZE(Linearisation<B>)
+#define SIGNORINI_LAYOUT_OF_BLOCKS(B)                                                                      \
+  SIGNORINI_SIZE(LevelView<B>), SIGNORINI_OFFSET(LevelView<B>, x), SIGNORINI_OFFSET(LevelView<B>, slot),   \
+      SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_OFFSET(LevelView<B>, data),                    \
+      SIGNORINI_OFFSET(LevelView<B>, facet), SIGNORINI_SIZE(Facet<B>), SIGNORINI_SIZE(LocalConstraint<B>), \
+      SIGNORINI_OFFSET(LocalConstraint<B>, direction), SIGNORINI_OFFSET(LocalConstraint<B>, upper),        \
+      SIGNORINI_SIZE(Linearisation<B>)
 
 /// The build of this translation unit.
 static constexpr FingerprintField fingerprint[] = {

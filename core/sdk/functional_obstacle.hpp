@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/sdk/box_obstacle.hpp"
+#include "core/sdk/constrained_minimiser.hpp"
 #include "core/sdk/nonlinearity.hpp"
 
 namespace signorini {
@@ -37,9 +38,15 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
       const Index p = level.constrained[slot];
       double r[B], y[B];
       row_residual<B>(level, p, r);
-      minimise(level, slot, r, y);
-      std::copy_n(y, B, level.x + Offset{p} * B);
+      if (minimise(level, slot, r, y)) std::copy_n(y, B, level.x + Offset{p} * B);
     });
+  }
+
+  void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
+                Flags* critical) const noexcept override {
+    BoxObstacle<B>::distance(level, first, last, lower, upper, critical);
+    const auto [from, to] = slots_between(level, first, last);
+    share_facets(level, from, to, lower, upper, critical);
   }
 
   double natural_residual(const LevelView<B>& level, Index first, Index last, const double* r) const noexcept override {
@@ -49,8 +56,10 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
     for (Index p = first; p < last; ++p) {
       double d[B];
       if (slot < to && level.constrained[slot] == p) {
-        minimise(level, slot++, r + Offset{p} * B, d);
-        for (int k = 0; k < B; ++k) d[k] -= level.x[Offset{p} * B + k];
+        if (minimise(level, slot++, r + Offset{p} * B, d))
+          for (int k = 0; k < B; ++k) d[k] -= level.x[Offset{p} * B + k];
+        else  // nothing is solved there
+          block::product<B>(level.inverse + Offset{p} * B * B, r + Offset{p} * B, d);
       } else {
         block::product<B>(level.inverse + Offset{p} * B * B, r + Offset{p} * B, d);
       }
@@ -89,9 +98,23 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
             level.last + Offset{slot} * B, level.tangential[slot]};
   }
 
-  static void minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {
+  /// False where faces leave nothing admissible.
+  static bool minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {
     const Index p = level.constrained[slot];
-    Local::minimise(slot_of(level, slot), level.value + level.row[p] * B * B, r, level.x + Offset{p} * B, y);
+    const double *M = level.value + level.row[p] * B * B, *x = level.x + Offset{p} * B;
+    if (B == 1 || !has_facets(level, slot)) {
+      Local::minimise(slot_of(level, slot), M, r, x, y);
+      return true;
+    }
+    const auto with_force = [&](const double* force, double* out) {
+      double sum[B];
+      for (int i = 0; i < B; ++i) sum[i] = r[i] + force[i];
+      Local::minimise(slot_of(level, slot), M, sum, x, out);
+    };
+    double stiffness[B];
+    for (int i = 0; i < B; ++i) stiffness[i] = M[i * (B + 1)];
+    const Polyhedron<B> polyhedron(level, slot);
+    return ConstrainedMinimiser<B, decltype(with_force)>(polyhedron, stiffness, with_force).run(y);
   }
 
   /// Of term(slot, place of its vector) over the slots.

@@ -5,6 +5,15 @@ namespace signorini {
 
 enum class Order : int { forward, backward };
 
+/// A bound along any direction at a vector: lower <= normal . x <= upper. Beside the bounds of components it makes what
+/// is admissible there a polyhedron (core/sdk/polyhedron.hpp).
+template <int B>
+struct Facet {
+  double normal[B];  ///< in local coordinates, of any length
+  double lower, upper;
+  double tolerated;  ///< by how much rounding may let bounds contradict each other
+};
+
 /// One level as smoothers and obstacles see it: pointers only, no ownership. A is in block compressed rows with the
 /// diagonal block first in every row and row-major blocks; everything is in local coordinates.
 template <int B>
@@ -26,6 +35,8 @@ struct LevelView {
   int width;
   const double* last;       ///< B per slot: the vectors' values after the last load step, zero in the first
   const Flags* tangential;  ///< per slot: components orthogonal to the obstacle's direction; null like `data`
+  const Offset* facet_row;  ///< slots + 1: where the facets of each begin; null where no slot has any
+  const Facet<B>* facet;
 };
 
 }  // namespace signorini

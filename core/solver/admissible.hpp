@@ -13,12 +13,7 @@ void make_admissible(const DiscreteProblem<B>& problem, std::vector<double>& x) 
     for (int k = 0; k < B; ++k)
       if (problem.fixed[p] >> k & 1u) x[Offset{p} * B + k] = problem.start[Offset{p} * B + k];
   const Constraints<B>& c = problem.constraints;
-  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      const std::size_t at = slot * B + static_cast<std::size_t>(k);
-      double& v = x[Offset{c.vector[slot]} * B + k];
-      v = v < c.lower[at] ? c.lower[at] : v > c.upper[at] ? c.upper[at] : v;  // NaN stays visible
-    }
+  for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, x.data() + Offset{c.vector[slot]} * B);
 }
 
 /// J(a) - J(b) <= 0 of admissible vectors, without cancellation: J(a) - J(b) = -(a - b)'r with the residual r in the

@@ -104,7 +104,7 @@ Balance balance(const DiscreteProblem<B>& problem, const std::vector<double>& x,
       const double d = problem.A.diagonal(p)[k * B + k];
       const Index slot = c.slot.empty() ? -1 : c.slot[p];
       const Offset at = Offset{slot} * B + k;
-      const bool held = slot >= 0 && (c.width > 0 || x[i] <= c.lower[at] || x[i] >= c.upper[at]);
+      const bool held = slot >= 0 && (c.width > 0 || c.has_facets(slot) || x[i] <= c.lower[at] || x[i] >= c.upper[at]);
       (held ? contact : resting) += r[i] * r[i] / d;
       loads += problem.b[i] * problem.b[i] / d;
       rounding += errors[i] * errors[i] / d;

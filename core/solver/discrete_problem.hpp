@@ -7,6 +7,7 @@
 
 #include "core/algebra/block_matrix.hpp"
 #include "core/sdk/obstacle.hpp"
+#include "core/sdk/polyhedron.hpp"
 
 namespace signorini {
 
@@ -48,12 +49,54 @@ struct Constraints {
   int width = 0;
   std::vector<double> last;       ///< B per slot, see LevelView::last; empty without functionals
   std::vector<Flags> tangential;  ///< per slot, see LevelView::tangential; empty without functionals
+  std::vector<Offset> facet_row;  ///< slots + 1, see LevelView::facet_row; empty where no slot has facets
+  std::vector<Facet<B>> facet;    ///< what is admissible beside the bounds
 
   Index size() const { return static_cast<Index>(vector.size()); }
+  bool has_facets(Index at) const { return !facet_row.empty() && facet_row[at] < facet_row[at + 1]; }
+  /// Of a slot with facets.
+  Polyhedron<B> polyhedron(Index at) const {
+    return {lower.data() + Offset{at} * B, upper.data() + Offset{at} * B, facet.data() + facet_row[at],
+            facet.data() + facet_row[at + 1]};
+  }
+  /// Whether v, B numbers, is admissible at a slot, but for rounding at facets.
+  bool admits(Index at, const double* v) const {
+    for (int k = 0; k < B; ++k)
+      if (!(v[k] >= lower[Offset{at} * B + k] && v[k] <= upper[Offset{at} * B + k])) return false;
+    return !has_facets(at) || polyhedron(at).contains(v);
+  }
+  /// The admissible point next to v at a slot: component by component, and then in local coordinates.
+  void project(Index at, double* v) const {
+    const double *low = lower.data() + Offset{at} * B, *high = upper.data() + Offset{at} * B;
+    for (int k = 0; k < B; ++k) v[k] = v[k] < low[k] ? low[k] : v[k] > high[k] ? high[k] : v[k];  // NaN stays visible
+    if (B == 1 || !has_facets(at)) return;
+    double unit[B * B] = {}, y[B];
+    for (int k = 0; k < B; ++k) unit[k * (B + 1)] = 1;
+    if (polyhedron(at).nearest(unit, v, y)) std::copy_n(y, B, v);
+  }
+  /// The bounds of what is left to do after a motion, B numbers per vector.
+  void move(const std::vector<double>& way) {
+    for (Index at = 0; at < size(); ++at) {
+      const double* v = way.data() + Offset{vector[at]} * B;
+      for (int k = 0; k < B; ++k) {
+        lower[Offset{at} * B + k] -= v[k];
+        upper[Offset{at} * B + k] -= v[k];
+      }
+      if (!has_facets(at)) continue;
+      for (Offset f = facet_row[at]; f < facet_row[at + 1]; ++f) {
+        double by = 0;
+        for (int k = 0; k < B; ++k) by += facet[f].normal[k] * v[k];
+        facet[f].lower -= by;
+        facet[f].upper -= by;
+      }
+    }
+  }
   /// Takes away all bounds; the slots stay.
   void clear_bounds() {
     std::fill(lower.begin(), lower.end(), -infinity);
     std::fill(upper.begin(), upper.end(), infinity);
+    facet_row.clear();
+    facet.clear();
   }
 };
 

@@ -44,6 +44,8 @@ LevelView<B> view(const DiscreteProblem<B>& problem) {
   out.width = c.width;
   out.last = c.last.data();
   out.tangential = c.tangential.data();
+  out.facet_row = c.facet_row.empty() ? nullptr : c.facet_row.data();
+  out.facet = c.facet.data();
   return out;
 }
 

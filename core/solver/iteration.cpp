@@ -87,6 +87,7 @@ void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Inde
 
 template <int B>
 void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) {
+  rest_on_facets(x, first, last);
   const double added = functional::change(finest(), x_before_.data(), x.data(), first, last);
   if (finest().nonlinear) renew(x, r, first, last);  // the residual is that of what is renewed from x itself
   add_natural_residual(x, first, last, r, sums.natural_residual);
@@ -108,6 +109,37 @@ void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r
   sums.largest = largest;
   sums.moved = moved;
   sums.products += free_products(problem_, x, r, first, last);
+  rest_on_facets(x, first, last);
+}
+
+// Facets are met up to rounding, and large forces do work along that: what has stayed on them counts as if it had been
+// there exactly. Called a second time it takes that back.
+template <int B>
+void Iteration<B>::rest_on_facets(const std::vector<double>& x, Index first, Index last) {
+  const Constraints<B>& c = finest().constraints;
+  if (c.facet.empty()) return;
+  const bool back = !before_rest_.empty();
+  std::size_t next = 0;
+  const auto [from, to] = slots_between(c, first, last);
+  for (Index slot = from; slot < to; ++slot) {
+    if (!c.has_facets(slot)) continue;
+    const Offset at = Offset{c.vector[slot]} * B;
+    if (back) {
+      std::copy_n(before_rest_.data() + B * next++, B, x_before_.data() + at);
+      continue;
+    }
+    before_rest_.insert(before_rest_.end(), x_before_.begin() + at, x_before_.begin() + at + B);
+    double P[B * B], d[B], along[B];
+    Flags resting = 0;
+    for (int k = 0; k < B; ++k) {
+      d[k] = x[at + k] - x_before_[at + k];
+      resting |= static_cast<Flags>((d[k] == 0) << k);
+    }
+    c.polyhedron(slot).hold(x.data() + at, x_before_.data() + at, resting, P);
+    block::product<B>(P, d, along);
+    for (int k = 0; k < B; ++k) x_before_[at + k] = x[at + k] - along[k];
+  }
+  if (back) before_rest_.clear();
 }
 
 template <int B>

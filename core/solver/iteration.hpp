@@ -85,6 +85,7 @@ class Iteration {
   bool step(const Monitor& monitor);
   void add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
                             double& largest) const;
+  void rest_on_facets(const std::vector<double>& x, Index first, Index last);
   void measure(double error);
   void record(Step step);
   double rounding_energy() const;
@@ -102,7 +103,8 @@ class Iteration {
   double trace_ = 0;            // of A
   double size_ = 0;             // ||x||_A
   Summary summary_;
-  std::vector<double> gains_;  // one for each step
+  std::vector<double> before_rest_;  // of x_before_, while some of it rests on facets
+  std::vector<double> gains_;        // one for each step
   double reference_ = 0;
   double least_ = infinity;
   int stalled_ = 0;

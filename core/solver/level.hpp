@@ -14,7 +14,7 @@ namespace signorini {
 template <int B>
 struct LevelSpace {
   Index vectors = 0;
-  Frames<B> frames;
+  Frames<B> frames;            ///< the cycle turns their dual where facets are held, see Phases::whole_dual
   Constraints<B> constraints;  ///< coarse levels: bounds of the correction, renewed in every cycle
   std::vector<Flags> off;      ///< per vector: components prescribed, or without any fine function left
 };
@@ -53,6 +53,10 @@ struct Phases {
   std::vector<Flags> phase;          ///< per slot: the critical flags of the last visit
   std::vector<Flags> truncated;      ///< per vector: components that do not interpolate though they are not off
   std::vector<Flags> removed;        ///< per vector: off or truncated, which interpolation asks for
+
+  /// Of all frames, where slots have facets: their dual without what the facets that are touched take out. That of the
+  /// level's frames is N P, with the projector P of Polyhedron::hold(): so these do not interpolate either.
+  std::vector<double> whole_dual;
 
   void clear(const std::vector<Flags>& off, std::size_t slots) {
     truncated.assign(off.size(), 0);
@@ -126,6 +130,30 @@ struct Level : LevelSystem<B> {
     if (nonlinear) piece.clear(slots);
   }
 
+  /// Takes the facets that x touches at a slot out of the interpolation, beside the components in `held`, and shares
+  /// what the others leave among the components that are left. Returns whether the frame of interpolation has changed;
+  /// the components that are left none of are added to `held`.
+  bool hold_facets(Index slot, Flags& held) {
+    const Constraints<B>& c = this->constraints;
+    const Index p = c.vector[slot];
+    const double* v = this->x + Offset{p} * B;
+    double *lower = phases.lower.data() + Offset{slot} * B, *upper = phases.upper.data() + Offset{slot} * B;
+    const Polyhedron<B> polyhedron = c.polyhedron(slot);
+    const Offset frame = Offset{this->frames.slot[p]} * B * B;
+    double P[B * B], dual[B * B];
+    held = polyhedron.hold(v, held, P);
+    block::multiply<B>(phases.whole_dual.data() + frame, P, dual);
+    for (int k = 0; k < B; ++k) {
+      lower[k] = std::min(c.lower[Offset{slot} * B + k] - v[k], 0.0);
+      upper[k] = std::max(c.upper[Offset{slot} * B + k] - v[k], 0.0);
+    }
+    polyhedron.share(v, P, lower, upper);
+    double* now = this->frames.dual.data() + frame;
+    const bool turned = !std::equal(dual, dual + B * B, now);
+    std::copy_n(dual, B * B, now);
+    return turned;
+  }
+
   /// r -= gradient of phi at the last visit, at the vectors first <= p < last; r: B each, from `first` on.
   void subtract_gradient(Index first, Index last, double* r) const {
     const Constraints<B>& c = this->constraints;
@@ -158,7 +186,9 @@ struct Level : LevelSystem<B> {
             c.data.data(),
             c.width,
             c.last.data(),
-            c.tangential.data()};
+            c.tangential.data(),
+            c.facet_row.empty() ? nullptr : c.facet_row.data(),
+            c.facet.data()};
   }
 
   /// Phases of the iterate at the vectors first <= p < last: what the bounds admit and hold, and phi's linearisation.

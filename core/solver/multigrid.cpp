@@ -7,9 +7,9 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
-#include "core/sdk/box_obstacle.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/line_search.hpp"
+#include "core/solver/polyhedral_box.hpp"
 #include "core/solver/rounding.hpp"
 
 namespace signorini {
@@ -21,19 +21,9 @@ constexpr double grown = 1.1,
                  far_below = 0.01;  // squares of norms: of a response in a cycle, and beside what is enough
 constexpr double enough_curvature = 0.1;
 
-// Coarse corrections live in boxes whatever the obstacle on the finest level is.
-template <int B>
-class CoarseBox final : public BoxObstacle<B> {
- public:
-  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"box", B, 2}}}; }
-  void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<B>*, Status& status) const noexcept override {
-    status.fail(1, "coarse bounds come from the monotone restriction");
-  }
-};
-
 template <int B>
 std::vector<Segment<B>> one_box_segment(Index vectors) {
-  return {{0, vectors, std::make_shared<const CoarseBox<B>>()}};
+  return {{0, vectors, std::make_shared<const PolyhedralBox<B>>()}};
 }
 
 // Where most vectors have bounds, the others get infinite ones: then loops over them need no look-ups.
@@ -56,10 +46,12 @@ Constraints<B> completed(const Constraints<B>& c, Index vectors) {
   return out;
 }
 
-// Whether a direction that is not truncated is at a bound.
+// Whether a direction that is not truncated is at a bound. Facets that are met are not told from those that do not
+// interpolate.
 template <int B>
 bool meets_bound(const Level<B>& level) {
   const Constraints<B>& c = level.constraints;
+  if (!c.facet.empty()) return true;
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const double x = level.x[Offset{c.vector[slot]} * B + k];
@@ -82,6 +74,7 @@ Level<B> finest_level(const DiscreteProblem<B>& problem) {
   level.constraints = completed(problem.constraints, level.vectors);
   if (level.constraints.slot.empty()) level.constraints.slot.assign(static_cast<std::size_t>(level.vectors), -1);
   level.segments = problem.segments.empty() ? one_box_segment<B>(level.vectors) : problem.segments;
+  if (!level.constraints.facet.empty()) level.phases.whole_dual = level.frames.dual;
   level.nonlinear = has_functional(level.segments);
   level.off = problem.fixed;
   level.inverse.resize(static_cast<std::size_t>(level.vectors) * B * B);
@@ -98,6 +91,7 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
       settings_(settings),
       crew_(std::min(settings.threads, std::max(settings.pre, settings.post) + 2)) {  // no more passes go one way
   levels_.back() = finest_level(problem);
+  knows_frames_ = prolongations.empty() || !prolongations.back().local;
   transfers_.resize(prolongations.size());
   const bool known = problem.galerkin.size() == prolongations.size() &&
                      (settings.rotate == Rotate::all || problem.frames.slot.empty());
@@ -147,14 +141,21 @@ std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& 
     level.x = now.data();
     level.locate(0, level.vectors);
   }
-  for (Index slot = 0; slot < linear.size(); ++slot)
+  const auto keep = [](bool held, double& lower, double& upper) {
+    lower = held ? 0 : -infinity;
+    upper = held ? 0 : infinity;
+  };
+  for (Index slot = 0; slot < linear.size(); ++slot) {
+    const double* v = x.data() + Offset{linear.vector[slot]} * B;
+    if (linear.has_facets(slot))
+      for (Offset f = linear.facet_row[slot]; f < linear.facet_row[slot + 1]; ++f)
+        keep(level.constraints.polyhedron(slot).touches(static_cast<int>(f - linear.facet_row[slot]), v),
+             linear.facet[f].lower, linear.facet[f].upper);
     for (int k = 0; k < B; ++k) {
-      const double value = x[Offset{linear.vector[slot]} * B + k];
       double &lower = linear.lower[Offset{slot} * B + k], &upper = linear.upper[Offset{slot} * B + k];
-      const bool held = value <= lower || value >= upper || (level.nonlinear && level.phases.critical[slot] >> k & 1u);
-      lower = held ? 0 : -infinity;
-      upper = held ? 0 : infinity;
+      keep(v[k] <= lower || v[k] >= upper || (level.nonlinear && level.phases.critical[slot] >> k & 1u), lower, upper);
     }
+  }
   std::vector<Segment<B>> segments = one_box_segment<B>(level.vectors);
   const bool nonlinear = std::exchange(level.nonlinear, false);
   const double *b = std::exchange(level.b, forces.data()), near = std::exchange(near_, 0.0);
@@ -299,20 +300,16 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   if (!(energy > 0 || work < 0)) return;
   double length = energy > 0 ? std::max(0.0, 1 + work / energy) : 0.0;
   const Constraints<B>& c = level.constraints;
-  const auto each_bound = [&](const auto& visit) {
-    for (Index slot = 0; slot < c.size(); ++slot)
-      for (int i = 0; i < B; ++i) {
-        const Offset at = Offset{slot} * B + i;
-        visit(Offset{c.vector[slot]} * B + i, c.lower[at], c.upper[at]);
-      }
-  };
-  each_bound([&](Offset i, double lower, double upper) {
-    const double room = step_[i] > 0 ? upper - start_[i] : start_[i] - lower;
-    const double needed = std::abs(step_[i]);
-    if (length * needed > room) length = std::max(1.0, room / needed);
-  });
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;
+      const double room = step_[i] > 0 ? c.upper[at] - start_[i] : start_[i] - c.lower[at];
+      const double needed = std::abs(step_[i]);
+      if (length * needed > room) length = std::max(1.0, room / needed);
+    }
+  if (!c.facet.empty()) length = std::min(length, 1.0);
   for (std::size_t i = 0; i < n; ++i) level.x[i] = start_[i] + length * step_[i];
-  each_bound([&](Offset i, double lower, double upper) { level.x[i] = std::clamp(level.x[i], lower, upper); });
+  for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, level.x + Offset{c.vector[slot]} * B);
 }
 
 // The same with a functional; a step within bounds stays there.
@@ -328,11 +325,7 @@ void MonotoneMultigrid<B>::search_nonlinear(Level<B>& level, double energy, doub
     return -work - (1 - t) * energy + functional::slope(level, level.x, step_.data());
   });
   for (Index p = 0; p < level.vectors; ++p) go(length, p);
-  for (Index slot = 0; slot < c.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      double& x = level.x[Offset{c.vector[slot]} * B + k];
-      x = std::clamp(x, c.lower[Offset{slot} * B + k], c.upper[Offset{slot} * B + k]);
-    }
+  for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, level.x + Offset{c.vector[slot]} * B);
 }
 
 template <int B>
@@ -357,11 +350,23 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     const Flags critical = level.phases.critical[slot] & static_cast<Flags>(~level.off[p]);
     report.critical += critical != 0;
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
-    const bool differs = level.truncate(p, truncated(level, slot, critical));
-    report.changed += critical != level.phases.phase[slot] || differs;
+    Flags removed = level.off[p] | truncated(level, slot, critical);
+    const bool turned = level.constraints.has_facets(slot) && hold_facets(level, slot, removed);
+    const bool differs = level.truncate(p, removed);
+    if (turned && !differs) level.outdated.changed.push_back(p);
+    report.changed += critical != level.phases.phase[slot] || differs || turned;
     level.phases.phase[slot] = critical;
     if (level.nonlinear) renew_curvature(level, slot);
   }
+}
+
+// Where interpolation knows no frames, a vector that touches a facet does not take part in it.
+template <int B>
+bool MonotoneMultigrid<B>::hold_facets(Level<B>& level, Index slot, Flags& removed) {
+  if (settings_.truncate == Truncation::none) return false;
+  if (knows_frames_) return level.hold_facets(slot, removed);
+  if (level.phases.critical[slot] & on_facet<B>) removed = every_component;
+  return false;
 }
 
 // The coarser matrices follow the Hessian once it has changed by more than a tenth; line searches make up for the rest.
@@ -382,10 +387,10 @@ void MonotoneMultigrid<B>::renew_curvature(Level<B>& level, Index slot) {
 // Whether no phase has changed, found without branches where every vector has a slot.
 template <int B>
 bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, LevelReport& report) const {
-  if (level.constraints.size() != level.vectors || level.nonlinear || near_ > 0 ||
+  if (level.constraints.size() != level.vectors || !level.constraints.facet.empty() || level.nonlinear || near_ > 0 ||
       settings_.truncate == Truncation::tangential)
     return false;
-  const Flags kept = settings_.truncate == Truncation::none ? 0 : (1u << B) - 1;
+  const Flags kept = settings_.truncate == Truncation::none ? 0 : every_component;
   const Flags *critical = level.phases.critical.data(), *phase = level.phases.phase.data();
   const Flags *off = level.off.data(), *removed = level.phases.removed.data();
   Flags different = 0;
@@ -407,8 +412,8 @@ Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags c
     for (int k = 0; k < B; ++k)
       if (std::min(-level.phases.lower[Offset{slot} * B + k], level.phases.upper[Offset{slot} * B + k]) <= near_)
         critical |= static_cast<Flags>(1u << k);
-  if (critical && settings_.truncate == Truncation::tangential) return (1u << B) - 1;
-  return critical;
+  if (critical && settings_.truncate == Truncation::tangential) return every_component;
+  return critical & every_component;
 }
 
 template class MonotoneMultigrid<1>;

@@ -78,12 +78,15 @@ class MonotoneMultigrid {
   const std::vector<Level<B>>& levels() const { return levels_; }
 
  private:
+  static constexpr Flags every_component = (1u << B) - 1;
+
   void descend(std::size_t k, Cycle cycle, const Passes::Run& before, const Passes::Run& after);
   double correct(std::size_t k, Cycle cycle);
   bool searches(std::size_t k) const;
   void search(std::size_t k);
   void search_nonlinear(Level<B>& level, double energy, double work);
   void update_phases(Level<B>& level, Index first, Index last);
+  bool hold_facets(Level<B>& level, Index slot, Flags& removed);
   void renew_curvature(Level<B>& level, Index slot);
   bool rests(const Level<B>& level, Index from, Index to, LevelReport& report) const;
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
@@ -99,6 +102,7 @@ class MonotoneMultigrid {
   Crew crew_;
   CycleReport report_;
   bool line_search_ = false, extended_ = false;
+  bool knows_frames_ = true;  // the interpolation to the finest level
   double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk
   std::vector<double> start_, step_, product_;  // of a line search

@@ -72,10 +72,7 @@ bool Recombination<B>::admissible(const std::vector<double>& x, Index first, Ind
   const auto end = std::lower_bound(begin, c.vector.end(), last);
   for (auto slot = static_cast<std::size_t>(begin - c.vector.begin());
        slot < static_cast<std::size_t>(end - c.vector.begin()); ++slot)
-    for (int k = 0; k < B; ++k) {
-      const double v = x[Offset{c.vector[slot]} * B + k];
-      if (!(v >= c.lower[slot * B + k] && v <= c.upper[slot * B + k])) return false;
-    }
+    if (!c.admits(static_cast<Index>(slot), x.data() + Offset{c.vector[slot]} * B)) return false;
   return true;
 }
 

@@ -38,8 +38,6 @@ const char* outcome_name(Outcome outcome) {
       return "stuck";
     case Outcome::failed:
       return "failed";
-    case Outcome::violated:
-      return "violated";
   }
   return "";
 }

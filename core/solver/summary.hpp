@@ -42,9 +42,8 @@ enum class Outcome {
   iteration_limit,
   interrupted,
   unbounded,
-  stuck,    ///< the method cannot go on
-  failed,   ///< a method of which a part is missing, or that was out of memory
-  violated  ///< the problem is solved, but an obstacle that is not part of it does not hold
+  stuck,  ///< the method cannot go on
+  failed  ///< a method of which a part is missing, or that was out of memory
 };
 
 /// As reports name it: "solved", "limited by rounding"...

@@ -30,4 +30,25 @@ inline Eigen::VectorXd convex_minimiser(const Eigen::MatrixXd& A, const Eigen::V
   return y;
 }
 
+/// The same for phi(Kx) with a matrix K of full column rank: prox(rho, z) for the variables Kx. Returns x; nothing
+/// where it converges too slowly.
+inline Eigen::VectorXd convex_minimiser(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::MatrixXd& K,
+                                        const std::function<void(double, Eigen::VectorXd&)>& prox,
+                                        double tolerance = 1e-12) {
+  const double rho = std::sqrt(A.operatorNorm());
+  const Eigen::LLT<Eigen::MatrixXd> factor(A + rho * K.transpose() * K);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), y = Eigen::VectorXd::Zero(K.rows()), u = y;
+  for (int k = 0; k < 40000; ++k) {
+    x = factor.solve(b + rho * K.transpose() * (y - u));
+    const Eigen::VectorXd last = y, Kx = K * x;
+    y = Kx + u;
+    prox(rho, y);
+    u += Kx - y;
+    const double size = 1e-300 + y.cwiseAbs().maxCoeff();
+    if ((Kx - y).cwiseAbs().maxCoeff() <= tolerance * size && (y - last).cwiseAbs().maxCoeff() <= tolerance * size)
+      return x;
+  }
+  return {};
+}
+
 }  // namespace signorini::test

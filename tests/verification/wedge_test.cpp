@@ -16,17 +16,20 @@ struct Corner {
   std::string shape;
   std::vector<Vector> normals;
   Vector load;
-  double distance = 0;  ///< of the planes from the origin, against their normals
+  double distance = 0;            ///< of the planes from the origin, against their normals
+  std::vector<double> distances;  ///< of each of them, where they differ
+
+  double distance_of(std::size_t k) const { return distances.empty() ? distance : distances[k]; }
 
   std::string scene() const {
     const auto list = [](const Vector& v) { return fmt::format("{:.17g}", fmt::join(v.data(), v.data() + D, ", ")); };
     std::string text = "title = \"corner\"\n[[body]]\nname = \"b\"\n" + shape + "\nyoung = 1\npoisson = 0.3\n";
     text += "[[load]]\nbody = \"b\"\nvalue = [" + list(load) + "]\n";
-    for (const Vector& n : normals)
+    for (std::size_t k = 0; k < normals.size(); ++k)
       text += fmt::format(
           "[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\nwhere = \"1\"\nshape = \"plane\"\npoint = [{}]\nnormal = "
           "[{}]\n",
-          list(-distance * n), list(n));
+          list(-distance_of(k) * normals[k]), list(normals[k]));
     return text;
   }
 };
@@ -52,8 +55,18 @@ class Optimality {
   void expect(std::size_t meeting = 2) {
     std::vector<Vector> total(corner_.normals.size(), Vector::Zero());
     for (Index p = 0; p < run_.mesh().vertices(); ++p) expect_at(p, total);
-    for (std::size_t k = 0; k < total.size(); ++k)
-      EXPECT_LT((total[k] - vector(k)).norm(), 1e-6 * total[k].norm() + 1e-6 * largest_) << "force of obstacle " << k;
+    Vector all = Vector::Zero(), claimed = all;
+    for (std::size_t k = 0; k < total.size(); ++k) {
+      all += total[k];
+      claimed += vector(k);
+      EXPECT_GE(vector(k).dot(corner_.normals[k]), (1 - 1e-12) * vector(k).norm()) << "force of obstacle " << k;
+      if (unique_)
+        EXPECT_LT((total[k] - vector(k)).norm(), 1e-6 * total[k].norm() + 1e-6 * largest_) << "force of obstacle " << k;
+    }
+    EXPECT_LT((all - claimed).norm(), 1e-6 * all.norm());
+    Index undetermined = 0;
+    for (std::size_t k = 0; k < total.size(); ++k) undetermined += run_.contact(static_cast<int>(k)).undetermined_nodes;
+    EXPECT_EQ(undetermined == 0, unique_);
     EXPECT_GE(most_at_a_vertex, meeting);
     show("{}: {} cycles, {} obstacles at a vertex\n", testing::UnitTest::GetInstance()->current_test_info()->name(),
          run_.summary().iterations, most_at_a_vertex);
@@ -73,15 +86,16 @@ class Optimality {
     Eigen::Matrix<double, D, Eigen::Dynamic> normals(D, 0);
     std::vector<std::size_t> touched;
     for (std::size_t k = 0; k < corner_.normals.size(); ++k) {
-      const double gap = (x + u).dot(corner_.normals[k]) + corner_.distance;
+      const double gap = (x + u).dot(corner_.normals[k]) + corner_.distance_of(k);
       EXPECT_GE(gap, -1e-12 * size_);
       if (gap > 1e-12 * size_) continue;
+      if (normals.cols() > 0 && (normals.colwise() - corner_.normals[k]).colwise().norm().minCoeff() < 1e-10) continue;
       touched.push_back(k);
       normals.conservativeResize(D, normals.cols() + 1);
       normals.rightCols(1) = corner_.normals[k];
     }
-    Eigen::VectorXd pressure(0);
-    if (!touched.empty()) pressure = normals.completeOrthogonalDecomposition().solve(f);
+    const auto [pressure, ways] = divided(normals, f);
+    unique_ = unique_ && ways < 2;
     EXPECT_LT((normals * pressure - f).norm(), 1e-6 * largest_) << "no equilibrium at " << p;
     std::size_t pressed = 0;
     for (std::size_t k = 0; k < touched.size(); ++k) {
@@ -92,6 +106,29 @@ class Optimality {
     most_at_a_vertex = std::max(most_at_a_vertex, pressed);
   }
 
+  /// Nonnegative parts along the normals that are next to f, of the last of all sets of up to D that balance it; and
+  /// the number of these sets.
+  std::pair<Eigen::VectorXd, int> divided(const Eigen::Matrix<double, D, Eigen::Dynamic>& normals, const Vector& f) {
+    Eigen::VectorXd best = Eigen::VectorXd::Zero(normals.cols());
+    int ways = 0;
+    for (unsigned set = 1; set < 1u << normals.cols() && f.norm() > 1e-7 * largest_; ++set) {
+      std::vector<Eigen::Index> chosen;
+      for (Eigen::Index k = 0; k < normals.cols(); ++k)
+        if (set >> k & 1u) chosen.push_back(k);
+      if (chosen.size() > D) continue;
+      const Eigen::Matrix<double, D, Eigen::Dynamic> N = normals(Eigen::all, chosen);
+      const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, D, Eigen::Dynamic>> qr(N);
+      const Eigen::VectorXd part = qr.solve(f);
+      if (qr.rank() < N.cols() || part.minCoeff() < 1e-9 * f.norm() || (N * part - f).norm() > 1e-7 * largest_)
+        continue;
+      best.setZero();
+      for (std::size_t k = 0; k < chosen.size(); ++k) best[chosen[k]] = part[static_cast<Eigen::Index>(k)];
+      ++ways;
+    }
+    return {best, ways};
+  }
+
+  bool unique_ = true;  // the way forces divide, at all vertices
   Corner<D> corner_;
   Run<D, D> run_;
   std::vector<double> force_;  // of the obstacles on each vertex
@@ -149,25 +186,65 @@ TEST(Wedge, TrihedralCorners) {
     }
 }
 
-// A third obstacle at a vertex is not part of the plane problem: it makes no difference where it holds by itself, and
-// where it does not the result is no solution.
-TEST(Wedge, ObstaclesBeyondTheDimensionAreChecked) {
-  const auto judged = [](double floor) {
-    Corner<2> corner = groove(60, 70, 0);
-    corner.distance = 0.1 * std::sin(35 * pi / 180);  // it sinks by 0.1
-    std::string scene = corner.scene();
-    corner.normals = {Eigen::Vector2d::UnitY()};
-    corner.distance = floor;
-    const std::string third = corner.scene();
-    const auto r = run<2, 2>(scene + third.substr(third.find("[[obstacle]]")), {uniform(2)});
-    EXPECT_FALSE(r.solution.discretization.dropped.empty());
-    return judge(r.mesh(), r.model, r.solution, r.u(), 1e-8);
+/// A groove with a floor at this depth below where the corner of the kite would stand.
+Corner<2> groove_with_floor(double floor, double tilt, double turn) {
+  Corner<2> corner = groove(60, 70, turn);
+  const Eigen::Rotation2Dd R(turn);
+  corner.normals.push_back(R * Eigen::Vector2d(std::sin(tilt), std::cos(tilt)));
+  const double sunk = 0.1 * std::sin(35 * pi / 180);  // the corner may sink by 0.1 between the sides
+  corner.distances = {sunk, sunk, floor};
+  return corner;
+}
+
+TEST(Wedge, GroovesWithAFloor) {
+  for (const double turn : {0.0, 0.8})
+    for (const double tilt : {0.0, 0.2})
+      for (const double floor : {0.25, 0.1 * std::cos(tilt), 0.098, 0.08}) {
+        SCOPED_TRACE(fmt::format("floor {} deep, tilted by {}, turned by {}", floor, tilt, turn));
+        Optimality<2>(groove_with_floor(floor, tilt, turn), {uniform(3)}).expect(1);
+      }
+}
+
+// Planes at angles down to nothing, pressed by a block that slides on them.
+TEST(Wedge, NearlyParallelPlanes) {
+  for (const double angle : {1e-2, 1e-3, 1e-5, 1e-7, 1e-9, 0.0}) {
+    SCOPED_TRACE(angle);
+    Corner<2> corner{"shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]",
+                     {Eigen::Vector2d(0, 1), Eigen::Vector2d(-std::sin(angle), std::cos(angle)),
+                      Eigen::Vector2d(std::sqrt(0.5), std::sqrt(0.5))},
+                     {-0.02, -0.05}};
+    Optimality<2>(corner, {uniform(3)}).expect(1);
+  }
+}
+
+TEST(Wedge, FourPlanesInSpace) {
+  for (const double apart : {0.5, 0.05, 1e-3, 1e-6, 1e-9}) {
+    SCOPED_TRACE(apart);
+    Corner<3> corner = trihedral(0.3, {-0.02, -0.014, -0.016});
+    corner.normals.push_back((corner.normals[0] + apart * Eigen::Vector3d(0.3, 1, -0.4)).normalized());
+    corner.normals.push_back(corner.normals[1]);
+    Optimality<3>(corner, {uniform(2)}).expect();
+  }
+}
+
+// Turned, in other units, and with each plane given twice it is the same problem.
+TEST(Wedge, CyclesStayTheSame) {
+  const auto cycles = [](const Corner<2>& corner) {
+    return run<2, 2>(corner.scene(), {uniform(4)}).summary().iterations;
   };
-  EXPECT_EQ(judged(0.25).outcome, Outcome::converged);
-  const Summary summary = judged(0.08);
-  EXPECT_EQ(summary.outcome, Outcome::violated) << summary.reason;
-  EXPECT_FALSE(summary.converged());
-  EXPECT_NE(summary.reason.find("obstacle.2: this obstacle is violated"), std::string::npos) << summary.reason;
+  const Corner<2> two = groove(60, 70, 0);
+  Corner<2> twice = two;
+  twice.normals.insert(twice.normals.end(), two.normals.begin(), two.normals.end());
+  EXPECT_EQ(cycles(twice), cycles(two));
+  for (const double floor : {0.25, 0.098, 0.08}) {
+    const int level = cycles(groove_with_floor(floor, 0.1, 0));
+    EXPECT_LE(level, cycles(two) + 3) << floor;
+    EXPECT_LE(cycles(groove_with_floor(floor, 0.1, 0.7)), cycles(two) + 3) << floor;
+    Corner<2> small = groove_with_floor(1e-3 * floor, 0.1, 0);
+    small.distances[0] = small.distances[1] *= 1e-3;
+    small.load *= 1e-3;
+    EXPECT_LE(cycles(small), cycles(two) + 3) << floor;
+  }
 }
 
 TEST(Wedge, GroovesOfUnequalSides) {

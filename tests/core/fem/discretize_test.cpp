@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/algebra/local_basis.hpp"
 #include "core/base/error.hpp"
 #include "tests/core/fem/support.hpp"
@@ -226,7 +228,7 @@ TEST(Discretize, ParallelBoundsIntersectAndRememberTheirObstacles) {
   const Mesh<2> mesh = unit_mesh<2>(2);
   const auto discrete = discretize(mesh, model);
   ASSERT_EQ(discrete.problem.constraints.size(), 3);
-  EXPECT_TRUE(discrete.dropped.empty());
+  EXPECT_TRUE(discrete.facets.empty());
   EXPECT_EQ(discrete.problem.constraints.lower[0], -0.1);
   EXPECT_EQ(discrete.problem.constraints.upper[0], 0.3);
   EXPECT_EQ(discrete.lower_obstacle[0], 0);
@@ -256,22 +258,25 @@ TEST(Discretize, OrthogonalBoundsOfOneTypeAreBothKept) {
   const Index corner = discrete.problem.constraints.slot[vertex_at<2>(mesh, {0, 0})];
   EXPECT_EQ(discrete.problem.constraints.lower[corner * 2], -0.05);  // the nearest first
   EXPECT_EQ(discrete.problem.constraints.lower[corner * 2 + 1], -0.1);
-  EXPECT_TRUE(discrete.dropped.empty());
+  EXPECT_TRUE(discrete.facets.empty());
   EXPECT_EQ(discrete.problem.segments.front().first, 0);
   EXPECT_EQ(discrete.problem.segments.back().last, mesh.vertices());
   for (std::size_t k = 1; k < discrete.problem.segments.size(); ++k)
     EXPECT_EQ(discrete.problem.segments[k].first, discrete.problem.segments[k - 1].last);
 
-  // Of another type: only the nearest.
+  // Those of another type as well; then neither rules the vertex.
   model.obstacles[1] = term<2>(
       [](const SurfaceVertex&) {
         return bound<2>({1, 0}, -0.05, infinity);
       },
       "left", "obstacle.1", 3);
   const auto mixed = discretize(mesh, model);
-  ASSERT_EQ(mixed.dropped.size(), 1u);
-  EXPECT_EQ(mixed.dropped[0].obstacle, 0);
-  EXPECT_EQ(mixed.problem.constraints.lower[corner * 2 + 1], -infinity);
+  EXPECT_TRUE(mixed.facets.empty());
+  EXPECT_EQ(mixed.problem.constraints.lower, discrete.problem.constraints.lower);
+  const Index p = vertex_at<2>(mesh, {0, 0});
+  for (const Segment<2>& s : mixed.problem.segments)
+    if (s.first <= p && p < s.last)
+      for (const auto& term : model.obstacles) EXPECT_NE(s.obstacle, term.obstacle);
 }
 
 ObstacleTerm<2> side(double angle, double distance) {
@@ -287,7 +292,7 @@ TEST(Discretize, ObliqueBoundsAreKeptBesideEachOther) {
   model.obstacles = {side(0.3, 0.2), side(2.3, 0.1)};
   const auto discrete = discretize(unit_mesh<2>(2), model);
   const DiscreteProblem<2>& problem = discrete.problem;
-  EXPECT_TRUE(discrete.dropped.empty());
+  EXPECT_TRUE(discrete.facets.empty());
   const std::vector<double> u{0.1, -0.2, 0.3, 0.7, -0.4, 0.2};
   std::vector<double> global(problem.b.size());
   std::copy(u.begin(), u.end(), global.begin());
@@ -304,19 +309,40 @@ TEST(Discretize, ObliqueBoundsAreKeptBesideEachOther) {
   }
 }
 
-TEST(Discretize, DependentBoundsKeepTheNearestAndReturnTheOther) {
+TEST(Discretize, DependentBoundsAreFacetsBesideTheNearestOnes) {
   Model<2> model;
-  model.obstacles = {side(0.3, 0.2), side(2.3, 0.1), side(0.3 + 0.015, 0.05)};
+  model.obstacles = {side(0.3, 0.2), side(2.3, 0.1), side(0.3 + 0.015, 0.05), side(0.3 + std::numbers::pi, 0.4)};
   const Mesh<2> mesh = unit_mesh<2>(2);
   const auto discrete = discretize(mesh, model);
-  ASSERT_EQ(discrete.dropped.size(), 3u);
-  EXPECT_EQ(discrete.dropped[0].obstacle, 0);
-  EXPECT_EQ(discrete.lower_obstacle[0], 2);
-  EXPECT_EQ(discrete.lower_obstacle[1], 1);
-  std::vector<double> u(mesh.points.size() * 2);
-  EXPECT_NEAR(violation(discrete.dropped[0], u), -0.2, 1e-15);
-  u[discrete.dropped[0].vertex * 2] = -0.5;
-  EXPECT_NEAR(violation(discrete.dropped[0], u), 0.5 * std::cos(0.3) - 0.2, 1e-15);
+  const DiscreteProblem<2>& problem = discrete.problem;
+  const Constraints<2>& c = problem.constraints;
+  ASSERT_EQ(c.size(), 3);
+  ASSERT_EQ(c.facet.size(), 3u) << "one per vertex: two of the obstacles have one direction";
+  const std::vector<double> global{0.1, -0.2, 0.3, 0.7, -0.4, 0.2};
+  std::vector<double> u(problem.b.size());
+  std::copy(global.begin(), global.end(), u.begin());
+  const auto x = to_local(problem, u);
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    EXPECT_EQ(discrete.lower_obstacle[slot * 2], 2);
+    EXPECT_EQ(discrete.lower_obstacle[slot * 2 + 1], 1);
+    ASSERT_TRUE(c.has_facets(slot));
+    const Index p = c.vector[slot];
+    const Facet<2>& facet = c.facet[c.facet_row[slot]];
+    EXPECT_NEAR(facet.normal[0] * x[p * 2] + facet.normal[1] * x[p * 2 + 1],
+                std::cos(0.3) * u[p * 2] + std::sin(0.3) * u[p * 2 + 1], 1e-15);
+    EXPECT_EQ(facet.lower, -0.2);
+    EXPECT_EQ(facet.upper, 0.4);
+    EXPECT_EQ(discrete.facets[c.facet_row[slot]].obstacle, (std::array<Index, 2>{0, 3}));
+  }
+}
+
+TEST(Discretize, ObstaclesThatLeaveNoRoomTogetherAreRefused) {
+  Model<2> model;
+  const double third = 2 * std::numbers::pi / 3;
+  model.obstacles = {side(0.2, 0.1), side(0.2 + third, 0.1), side(0.2 - third, -0.2)};
+  EXPECT_NO_THROW(discretize(unit_mesh<2>(2), model)) << "a point is left";
+  model.obstacles[2] = side(0.2 - third, -0.2 - 1e-9);
+  expect_contains(no_solution_message(unit_mesh<2>(2), model), "no room");
 }
 
 TEST(Discretize, ObstaclesSeeNormalsOfTheirOwnFaces) {
