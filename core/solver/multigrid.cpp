@@ -301,8 +301,8 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   double length = energy > 0 ? std::max(0.0, 1 + work / energy) : 0.0;
   const Constraints<B>& c = level.constraints;
   for (Index slot = 0; slot < c.size(); ++slot)
-    for (int k = 0; k < B; ++k) {
-      const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;
+    for (int j = 0; j < B; ++j) {
+      const Offset at = Offset{slot} * B + j, i = Offset{c.vector[slot]} * B + j;
       const double room = step_[i] > 0 ? c.upper[at] - start_[i] : start_[i] - c.lower[at];
       const double needed = std::abs(step_[i]);
       if (length * needed > room) length = std::max(1.0, room / needed);
