@@ -20,6 +20,7 @@ namespace signorini {
 namespace {
 
 constexpr double negligible = 1e-10;      // part of the most that is possible: work of loads, components of motions
+constexpr double rounding = 1e-14;        // of a motion: what is left out bends the body by that much
 constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
 constexpr double force_rounding = 1e-12;  // part of the terms of a residual that is no force
 constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
@@ -391,7 +392,7 @@ void LooseBody<D, B>::add(const Eigen::VectorXd& motion, std::vector<double>& x)
     for (int k = 0; k < B; ++k) {
       if (problem.fixed[p] >> k & 1u) continue;
       const double by = motions_.along(problem.frames, p, k) * motion;
-      if (std::abs(by) > negligible * size) x[Offset{p} * B + k] += by;
+      if (std::abs(by) > rounding * size) x[Offset{p} * B + k] += by;
     }
 }
 

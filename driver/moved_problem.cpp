@@ -1,19 +1,51 @@
 #include "driver/moved_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "core/algebra/products.hpp"
+#include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {
 
+constexpr double far_less = 1e-4;  // than the way: what a body deforms then may be near what rounding does
+
+double largest(const std::vector<double>& values) {
+  double out = 0;
+  for (const double value : values) out = std::max(out, std::abs(value));
+  return out;
+}
+
+/// What is left of a value after a way; nothing where that is rounding.
+class Rest {
+ public:
+  explicit Rest(const std::vector<double>& way)
+      : rounding_(8 * std::numeric_limits<double>::epsilon() * largest(way)) {}
+  double operator()(double value, double way) const {
+    return std::abs(value - way) <= rounding_ ? 0 : value - way;
+  }
+
+ private:
+  double rounding_;
+};
+
 template <int B>
-void subtract_prescribed(const std::vector<double>& way, DiscreteProblem<B>& problem) {
+void subtract_prescribed(const std::vector<double>& way, const Rest& rest, DiscreteProblem<B>& problem) {
   for (std::size_t p = 0; p < problem.fixed.size(); ++p)
     for (std::size_t k = 0; k < B; ++k)
-      if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] -= way[p * B + k];
+      if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] = rest(problem.start[p * B + k], way[p * B + k]);
+}
+
+template <int B>
+Balance forces(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
+  std::vector<double> r(x.size());
+  residual<B>(problem.A, x.data(), problem.b.data(), r.data());
+  return balance(problem, x, r);
 }
 
 /// The right-hand side of the prescribed values of now.
@@ -35,10 +67,11 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   start_ = problem.start;
   lower_ = problem.constraints.lower;
   upper_ = problem.constraints.upper;
-  subtract_prescribed(way_, problem);
+  const Rest rest(way_);
+  subtract_prescribed(way_, rest, problem);
   facet_ = problem.constraints.facet;
   problem.constraints.move(way_);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= way_[i];
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   prescribe_anew(discretization);
   const std::vector<double> moved = to_global(problem, way_);
   problem.prescribed_work +=
@@ -46,9 +79,11 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
 }
 
 template <int B>
-void MovedProblem<B>::back() {
-  if (way_.empty()) return;
+double MovedProblem<B>::back() {
+  if (way_.empty()) return 0;
   DiscreteProblem<B>& problem = discretization_.problem;
+  const bool stiff = largest(x_) < far_less * largest(way_);
+  const double acting = stiff ? forces(problem, x_).acting : 0;
   Constraints<B>& c = problem.constraints;
   std::swap(problem.start, start_);
   std::swap(c.lower, lower_);
@@ -67,6 +102,7 @@ void MovedProblem<B>::back() {
     }
     c.project(slot, x_.data() + Offset{c.vector[slot]} * B);
   }
+  return acting > 0 ? forces(problem, x_).rounding / acting : 0;
 }
 
 template class MovedProblem<1>;

@@ -16,7 +16,9 @@ class MovedProblem {
   MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x);
 
   /// The problem as it was, and x with the way added. What is at a bound stays there.
-  void back();
+  /// @return what rounding of stiffness times way does to the forces on the body, over those that act; 0 where it
+  /// is next to nothing
+  double back();
 
  private:
   Discretization<B>& discretization_;

@@ -343,7 +343,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   } catch (const Error& error) {  // the solver knows no scene
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
-  moved.back();
+  solution.summary.add_rounding(moved.back(), options.tolerance);
   solution.discretization.problem.galerkin = {};
   solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;

@@ -17,6 +17,7 @@ namespace signorini {
 
 namespace {
 
+constexpr double of_products = 32;   // rounding of a row of a product, in units of what it is of the largest unknown
 constexpr double risen = 1e-4;       // error of the size that rounding may have without it having carried x away
 constexpr double negligible = 0.3;   // of the tolerance: bounds of rounding that need no closer look
 constexpr double attained = 10;      // errors up to so many times what rounding does are as small as it lets them be
@@ -156,7 +157,7 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
 template <int B>
 void Iteration<B>::measure(double error) {
   Summary& s = summary_;
-  s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : sums_.natural_residual;
+  s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : is_rounding_of_unknowns() ? 0 : infinity;
   double squared = energy_norm_squared(problem_, x_, sums_.products);
   const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
   moves_rigidly_ = squared < rounding;
@@ -294,13 +295,15 @@ void Iteration<B>::finish_stage(double begin) {
   summary_.stages = {std::move(stage)};
 }
 
-// Where it is zero the projected zero is the solution, and no other start has a scale to be measured by.
+// Where it is rounding the projected zero is the solution, and no other start has a scale to be measured by.
 template <int B>
 double Iteration<B>::residual_at_projected_zero() {
   make_admissible(problem_, x_before_);
-  const double found = evaluate(x_before_, r_).natural_residual;
-  if (found == 0) x_ = x_before_;
-  return found;
+  const Sums sums = evaluate(x_before_, r_);
+  if (sums.natural_residual > of_products * std::numeric_limits<double>::epsilon() * sums.largest)
+    return sums.natural_residual;
+  x_ = x_before_;
+  return 0;
 }
 
 template <int B>

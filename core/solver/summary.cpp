@@ -1,5 +1,8 @@
 #include "core/solver/summary.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <iterator>
 
 namespace signorini {
@@ -56,6 +59,18 @@ void Summary::append(Summary next) {
   next.stages = std::move(stages);
   *this = std::move(next);
   find_linear_phase();
+}
+
+void Summary::add_rounding(double error, double tolerance) {
+  if (!(error > 0)) return;
+  rounding_error = std::hypot(rounding_error, error);
+  algebraic_error = std::hypot(algebraic_error, error);
+  if (outcome != Outcome::converged || algebraic_error <= tolerance) return;
+  outcome = Outcome::rounding;
+  reason = fmt::format(
+      "limited by rounding: residual {:.3e}, and an algebraic error of {:.3e} as the body moves far "
+      "beside what it deforms, tolerance {:.3e}",
+      residual, algebraic_error, tolerance);
 }
 
 void Summary::put_in_front(std::vector<Stage> dropped) {

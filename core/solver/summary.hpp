@@ -90,6 +90,8 @@ struct Summary {
   /// Goes on with what the next stages did from where this ended. The levels stay: in the records of methods with fewer
   /// ones the coarser are idle.
   void append(Summary next);
+  /// A further part of the error by rounding, relative like `rounding_error`.
+  void add_rounding(double error, double tolerance);
   /// Stages that came before, all of them dropped.
   void put_in_front(std::vector<Stage> dropped);
   /// Sets linear_phase_from by the history.

@@ -28,9 +28,10 @@ Axis marked(double low, double high, double step) {
   return axis;
 }
 
-/// Where there is but one value, some room around it.
+/// Where there is but one value, up to rounding, some room around it.
 void part(double& low, double& high) {
-  if (low < high) return;
+  constexpr double rounding = 1e-9;
+  if (high - low > rounding * std::max(std::abs(low), std::abs(high))) return;
   const double room = low == 0 ? 1 : 0.1 * std::abs(low);
   low -= room;
   high += room;

@@ -99,6 +99,8 @@ TEST(Axis, MarksAreFewRoundAndWithin) {
 
 TEST(Axis, OneValueAndCountsHaveMarks) {
   EXPECT_GE(linear_axis(0.3, 0.3).ticks.size(), 2u);
+  EXPECT_GE(linear_axis(4.999999999999997, 5.000000000000002).ticks.size(), 2u);  // one value and rounding
+  EXPECT_GE(widened_axis(-5.000000000000002, -4.999999999999997).ticks.size(), 2u);
   EXPECT_GE(widened_axis(0, 0).ticks.size(), 2u);
   std::vector<std::string> marks;
   for (const Tick& tick : linear_axis(0.5, 3.5, 1).ticks) marks.push_back(tick.text);
