@@ -63,9 +63,9 @@ std::vector<Stress> BodyRun<D, B>::stress() const {
 template <int D, int B>
 void BodyRun<D, B>::start_from(const std::vector<double>& u) {
   if (u.size() != mesh().points.size() * B)
-    throw Error(Exit::usage, fmt::format("{}: a start of {} numbers, expected {}: {} for each of {} vertices",
-                                         body().source.table, u.size(), mesh().points.size() * B, B,
-                                         mesh().points.size()));
+    throw Error(Exit::usage,
+                fmt::format("{}: a start of {} numbers, expected {}: {} for each of {} vertices", body().source.table,
+                            u.size(), mesh().points.size() * B, B, mesh().points.size()));
   if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
     throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
   results_.u = u;
@@ -94,7 +94,8 @@ void add_balance_warning(const StepReport& report, std::vector<std::string>& war
     const double applied = size(balance.applied), left = size(balance.sum());
     if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;
     std::string warning = fmt::format(
-        "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness times "
+        "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness "
+        "times "
         "displacement for the tolerance or the machine's precision, and what they do is not known",
         balance.body, left, applied);
     if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
@@ -110,8 +111,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);
-  StepReport report =
-      step_report<D, B>(scene_, mesh(), probes_, results_, t, solution.summary, body_);
+  StepReport report = step_report<D, B>(scene_, mesh(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {
     std::string warning = fmt::format(

@@ -4,15 +4,15 @@
 
 #include <type_traits>
 
-#include "driver/memory.hpp"
-#include "driver/materials.hpp"
-#include "driver/mesh_warnings.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
 #include "core/io/surface_complaint.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
+#include "driver/materials.hpp"
+#include "driver/memory.hpp"
+#include "driver/mesh_warnings.hpp"
 
 namespace signorini {
 namespace {

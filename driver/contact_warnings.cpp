@@ -13,7 +13,8 @@ namespace {
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
 constexpr double rounding = 1e-12;   // of displacements
-constexpr double edged = 1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
+constexpr double edged =
+    1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
 /// How far off the linearised condition is, relative to the displacements.
 double off(const ContactReport& contact) {
@@ -85,8 +86,8 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
 
 namespace {
 
-/// By how much more some vertices in contact have moved along the obstacle's normal than others: the depth of the contact
-/// on a curved surface.
+/// By how much more some vertices in contact have moved along the obstacle's normal than others: the depth of the
+/// contact on a curved surface.
 template <int D, int B>
 double flattened(const Results<D, B>& results, Index obstacle) {
   double least = infinity, most = -infinity;

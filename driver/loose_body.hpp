@@ -18,8 +18,8 @@ class LooseBody {
 
   /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
   /// has no minimum. Friction takes its part
-  /// of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts whose
-  /// work is more than 1e-10 of what the loads could do.
+  /// of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts
+  /// whose work is more than 1e-10 of what the loads could do.
   void require_minimum() const;
 
   /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where

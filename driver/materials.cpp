@@ -54,8 +54,8 @@ Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
     uses_t = uses_t || of_region.back().uses_t();
   }
   if (of_region.size() == 1) return own;
-  return {[of_region](const Site& site) { return of_region[static_cast<std::size_t>(site.region + 1)](site); },
-          text, body.source.table, false, uses_t};
+  return {[of_region](const Site& site) { return of_region[static_cast<std::size_t>(site.region + 1)](site); }, text,
+          body.source.table, false, uses_t};
 }
 
 template std::vector<Index> regions(const Scene&, const Scene::Body&, const Mesh<2>&, const FileGroups&);

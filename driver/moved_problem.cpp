@@ -26,9 +26,7 @@ class Rest {
  public:
   explicit Rest(const std::vector<double>& way)
       : rounding_(8 * std::numeric_limits<double>::epsilon() * largest(way)) {}
-  double operator()(double value, double way) const {
-    return std::abs(value - way) <= rounding_ ? 0 : value - way;
-  }
+  double operator()(double value, double way) const { return std::abs(value - way) <= rounding_ ? 0 : value - way; }
 
  private:
   double rounding_;
@@ -74,8 +72,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   prescribe_anew(discretization);
   const std::vector<double> moved = to_global(problem, way_);
-  problem.prescribed_work +=
-      std::inner_product(moved.begin(), moved.end(), discretization.load.begin(), 0.0);
+  problem.prescribed_work += std::inner_product(moved.begin(), moved.end(), discretization.load.begin(), 0.0);
 }
 
 template <int B>

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "amg/coarsening/hierarchy.hpp"
 #include "amg/black_box/nested_start.hpp"
+#include "amg/coarsening/hierarchy.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
@@ -335,8 +335,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = products_below(level);
-  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{},
-                        solution.x);
+  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
                                            registry_, monitor_);
@@ -349,7 +348,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
   progress_.stop_if_interrupted();
-  if (solution.summary.outcome == Outcome::unbounded) 
+  if (solution.summary.outcome == Outcome::unbounded)
     throw Error(Exit::no_solution, fmt::format("{}: {}", model.origin, solution.summary.reason));
 }
 

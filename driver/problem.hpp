@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "driver/coarse_mesh.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
+#include "driver/coarse_mesh.hpp"
 
 namespace signorini {
 

@@ -64,7 +64,8 @@ ContactReport contact_report(int obstacle, const ContactSummary<B>& contact,
 }
 
 template <int B>
-std::vector<ForceReport> force_reports(const std::vector<int>& numbers, const std::vector<std::array<double, B>>& forces) {
+std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
+                                       const std::vector<std::array<double, B>>& forces) {
   std::vector<ForceReport> reports;
   for (std::size_t k = 0; k < forces.size(); ++k) reports.push_back({numbers[k], {forces[k].begin(), forces[k].end()}});
   return reports;
@@ -91,8 +92,7 @@ StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>&
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
   report.bodies = {{body.name, summary}};
-  report.balance = {
-      {body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
+  report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
   const std::vector<int> obstacles = numbers_of(scene.obstacles, body);
   for (std::size_t k = 0; k < results.contact.obstacles.size(); ++k)
     report.contact.push_back(contact_report(obstacles[k], results.contact.obstacles[k], results.deformed[k]));
@@ -126,8 +126,9 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
   const std::vector<int> fixes = numbers_of(scene.fixes, scene.bodies[body]);
   for (const FixConflict& conflict : fix_conflicts(mesh, model))
     warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
-                                   scene.fixes[fixes[conflict.later]].source.table, scene.fixes[fixes[conflict.earlier]].source.table,
-                                   conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
+                                   scene.fixes[fixes[conflict.later]].source.table,
+                                   scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
+                                   conflict.vertices == 1 ? "vertex" : "vertices"));
   for (const CutSelection& cut : cut_selections(mesh, model))
     warnings.push_back(fmt::format(
         "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked, and "
@@ -137,10 +138,10 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                    \
-  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                             \
-  template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double,    \
-                                  const Summary&, std::size_t);                                                    \
+#define SIGNORINI_RESULTS(D, B)                                                                                 \
+  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                          \
+  template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, \
+                                  const Summary&, std::size_t);                                                 \
   template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

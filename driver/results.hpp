@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "driver/nested_solver.hpp"
 #include "core/fem/contact.hpp"
 #include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
+#include "driver/nested_solver.hpp"
 
 namespace signorini {
 

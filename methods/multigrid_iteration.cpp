@@ -22,8 +22,8 @@ bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
 }
 
-/// Coarse solvers know boxes only: where the single level has functionals or facets, they get one of their own below it,
-/// on which these are linear.
+/// Coarse solvers know boxes only: where the single level has functionals or facets, they get one of their own below
+/// it, on which these are linear.
 template <int B>
 std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                        Method method) {

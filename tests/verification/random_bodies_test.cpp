@@ -292,10 +292,10 @@ double unbalanced(const std::vector<Eigen::Matrix<double, D, 1>>& normals, const
   return least;
 }
 
-/// The largest force that is out of balance over the largest that acts, or over what rounding makes of elastic forces where
-/// that is more: free components carry none, obstacles only push. In global coordinates and with the obstacles as the
-/// scene has them: nothing here knows how the program stores them. Adds to `crowded` whether obstacles met at a vertex
-/// along more directions than there are dimensions, or along nearly parallel ones.
+/// The largest force that is out of balance over the largest that acts, or over what rounding makes of elastic forces
+/// where that is more: free components carry none, obstacles only push. In global coordinates and with the obstacles as
+/// the scene has them: nothing here knows how the program stores them. Adds to `crowded` whether obstacles met at a
+/// vertex along more directions than there are dimensions, or along nearly parallel ones.
 template <int D>
 double imbalance(const RandomBody<D>& body, const Mesh<D>& mesh, Model<D> model, const Solution<D>& solution,
                  bool& crowded) {
@@ -421,9 +421,10 @@ void judge_all(int few, Bodies bodies) {
   const auto [first, last] = seeds(few);
   Tally tally;
   for (int seed = first; seed <= last; ++seed) judge_one<D>(static_cast<std::uint64_t>(seed), bodies, tally);
-  show("{}D: {} solved, {} of them with crowded vertices, {} refused, {} too near to tell, {} moved into obstacles, "
-       "{} wrong\n",
-       D, tally.solved, tally.crowded, tally.refused, tally.near, tally.blocked, tally.wrong);
+  show(
+      "{}D: {} solved, {} of them with crowded vertices, {} refused, {} too near to tell, {} moved into obstacles, "
+      "{} wrong\n",
+      D, tally.solved, tally.crowded, tally.refused, tally.near, tally.blocked, tally.wrong);
   if (last - first < 50) return;  // too few to tell
   EXPECT_GT(tally.solved, (last - first) / 10);
   EXPECT_GT(tally.refused, (last - first) / 10);
