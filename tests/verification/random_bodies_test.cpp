@@ -357,7 +357,7 @@ double imbalance(const RandomBody<D>& body, const Mesh<D>& mesh, Model<D> model,
     worst = std::max(worst, unbalanced<D>(normals, -restricted(r.data() + Offset{p} * D)));
   }
   if (deepest > 1e-11) return infinity;
-  return worst / std::max(acting, 1e-11 * stiffest * farthest);
+  return worst / std::max(acting, 1e-10 * stiffest * farthest);
 }
 
 template <int D>
