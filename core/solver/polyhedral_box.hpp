@@ -14,7 +14,8 @@ class PolyhedralBox final : public BoxObstacle<B> {
     status.fail(1, "these bounds come from other obstacles");
   }
 
-  void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
+  // Flattened: rows are too short for a call each.
+  [[gnu::flatten]] void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
     if (!view.facet_row) return BoxObstacle<B>::sweep(view, first, last, order);
     const LevelView<B> level = view;  // stores to the iterate change nothing of it
     const auto [from, to] = slots_between(level, first, last);
