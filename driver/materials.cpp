@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <ranges>
-
 #include "core/base/error.hpp"
 #include "driver/numbers.hpp"
 
@@ -13,8 +11,9 @@ namespace {
 
 std::string known(const FileGroups& groups, const char* elements) {
   if (groups.of_elements.empty()) return fmt::format("the mesh file has no physical group of {}", elements);
-  return fmt::format("the physical groups of {} are: {}", elements,
-                     fmt::join(std::views::keys(groups.of_elements), ", "));
+  std::vector<std::string> names;
+  for (const auto& [name, numbers] : groups.of_elements) names.push_back(name);
+  return fmt::format("the physical groups of {} are: {}", elements, fmt::join(names, ", "));
 }
 
 }  // namespace
@@ -54,8 +53,10 @@ Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
     uses_t = uses_t || of_region.back().uses_t();
   }
   if (of_region.size() == 1) return own;
-  return {[of_region](const Site& site) { return of_region[static_cast<std::size_t>(site.region + 1)](site); }, text,
-          body.source.table, false, uses_t};
+  return {[of_region](const Site& site) {
+            return of_region[std::size_t{1} * static_cast<unsigned>(site.region + 1)](site);
+          },
+          text, body.source.table, false, uses_t};
 }
 
 template std::vector<Index> regions(const Scene&, const Scene::Body&, const Mesh<2>&, const FileGroups&);
