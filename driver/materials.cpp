@@ -53,10 +53,11 @@ Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
     uses_t = uses_t || of_region.back().uses_t();
   }
   if (of_region.size() == 1) return own;
-  return {[of_region](const Site& site) {
-            return of_region[std::size_t{1} * static_cast<unsigned>(site.region + 1)](site);
-          },
-          text, body.source.table, false, uses_t};
+  const auto value = [of_region](const Site& site) {
+    const auto number = static_cast<unsigned>(site.region + 1);
+    return of_region[number](site);
+  };
+  return {value, text, body.source.table, false, uses_t};
 }
 
 template std::vector<Index> regions(const Scene&, const Scene::Body&, const Mesh<2>&, const FileGroups&);
