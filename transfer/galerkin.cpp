@@ -47,10 +47,15 @@ void invert_diagonal(LevelSystem<B>& level, Index q) {
 
 template <int B>
 void BlockTransfer<B>::adopt(const GalerkinMatrix<B>& known, bool complete, LevelSystem<B>& coarse) {
+  bool fits = true;
   if (complete)
     coarse.own_matrix = known.A;
   else
-    fill_in(known.A, coarse.own_matrix, position_, [](Index, Index) { assert(!"a product that is narrower"); });
+    fill_in(known.A, coarse.own_matrix, position_, [&fits](Index, Index) { fits = false; });
+  if (!fits) {  // the finer matrix couples less than the one that the product is of: it is computed
+    std::fill(coarse.own_matrix.value.begin(), coarse.own_matrix.value.end(), 0.0);
+    return;
+  }
   coarse.off = prescribed_ = known.off;
   for (Index q = 0; q < coarse.vectors; ++q) invert_diagonal(coarse, q);
   assembled_ = true;
