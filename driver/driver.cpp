@@ -49,11 +49,11 @@ const Report& Driver::solve(const std::function<void()>& done) {
   report_.interrupted = false;
   if (bodies_.empty()) build_bodies();
   report_.warnings = mesh_warnings_;
-  const int count = scene_.steps.count;
+  const int count = scene_.steps.count();
   try {
     for (int step = 1; step <= count; ++step) {
       if (count > 1) progress_.phase(fmt::format("step {} of {}", step, count));
-      const double t = static_cast<double>(step) / count;
+      const double t = scene_.steps.at[step - 1];
       at_step(scene_, t, [&] {
         if (step == 1)
           for (std::size_t body = 0; body < bodies(); ++body)

@@ -27,7 +27,7 @@ void at_step(const Scene& scene, double t, const Work& work) {
   try {
     work();
   } catch (const Error& error) {
-    if (scene.steps.count == 1 || error.status() == Exit::interrupted) throw;
+    if (scene.steps.count() == 1 || error.status() == Exit::interrupted) throw;
     throw Error(error.status(), fmt::format("{}, at t = {}", error.what(), t));
   }
 }

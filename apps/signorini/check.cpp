@@ -93,8 +93,8 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
       discretize<D, B>(hierarchy.finest(), model);
     });
   };
-  if (scene.steps.count > 1) discretize_at(1.0 / scene.steps.count);
-  discretize_at(1);
+  if (scene.steps.count() > 1) discretize_at(scene.steps.at.front());
+  discretize_at(scene.steps.at.back());
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
   print_contacts(hierarchy.finest(), scene, scene.bodies[body], model);

@@ -18,7 +18,7 @@ class ResultFiles {
  public:
   /// Keeps references to both.
   ResultFiles(Driver& driver, AtomicFiles& files)
-      : driver_(driver), files_(files), vtu_(files, scene().steps.count, scene().bodies.size()) {}
+      : driver_(driver), files_(files), vtu_(files, scene().steps.count(), scene().bodies.size()) {}
 
   /// After a step: the last one is written in finish().
   void add_step() {
@@ -43,7 +43,7 @@ class ResultFiles {
  private:
   const Scene& scene() const { return driver_.scene(); }
 
-  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count; }
+  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count(); }
 
   void read_stresses() {
     if (!scene().output.vtu && !scene().output.pictures) return;
@@ -122,11 +122,11 @@ Exit solve_command(const SolveArguments& arguments) {
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  if (scene.steps.count == 1) progress.stop_if_interrupted();
+  if (scene.steps.count() == 1) progress.stop_if_interrupted();
   const auto written = files.commit();
   if (report.interrupted)
     throw Error(Exit::interrupted, fmt::format("interrupted; {} of {} steps were finished and are written",
-                                               report.steps.size(), scene.steps.count));
+                                               report.steps.size(), scene.steps.count()));
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

@@ -31,6 +31,7 @@ double checked(double number, const RawValue& raw, std::string_view range) {
 // The same expression, whose values are checked against the range wherever it is evaluated.
 Field restricted(Field field, std::string_view range) {
   const std::string text = field.text(), origin = field.origin();
+  const bool uses_t = field.uses_t();
   auto value = [field = std::move(field), range = Range(range)](const Site& site) {
     const double v = field(site);
     if (!range.contains(v))
@@ -39,7 +40,7 @@ Field restricted(Field field, std::string_view range) {
                               site.x[1], site.x[2], range.expected("a number")));
     return v;
   };
-  return Field(std::move(value), text, origin);
+  return Field(std::move(value), text, origin, false, uses_t);  // the field itself sees to the normal
 }
 
 template <class Convert>

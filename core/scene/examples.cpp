@@ -79,6 +79,26 @@ A volume belongs to one material. Stresses in the VTU are averages at the nodes,
 mesh file takes an expression: `young = "x < 1 ? 5 : 210000"`.
 )";
 
+constexpr const char* steps_details = R"(
+Steps may be uneven. This one has three:
+
+```
+[steps]
+at = [0.1, 0.5, 1]
+```
+
+At `t = 0` nothing has happened yet: friction in the first step counts from the undeformed body.
+
+**Steps that fail.** A step of a body with friction that ends without a solution (exit status 3) is cut in two at the
+middle of its `t`, and each part again where it fails, `halvings` times at most. What a failed attempt computed is
+forgotten: parts start from the last step that was solved. The report lists the parts among its `steps`, and what failed
+under `failed_steps`; a warning says it. Where the smallest part fails, too, the run ends there with exit status 3. The
+steps before it are kept.
+
+Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction. Such a body
+remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that failed.
+)";
+
 constexpr TableText texts[] = {
     {"", R"(title = "A block pressed on a ball")", ""},
     {"body", R"([[body]]
@@ -117,7 +137,7 @@ uniform = 1                        # halves all edges once)",
      ""},
     {"steps", R"([steps]
 count = 4                          # t is 0.25, 0.5, 0.75 and 1)",
-     ""},
+     steps_details},
     {"probe", R"([[probe]]
 name = "middle of the bottom"
 body = "block"

@@ -35,6 +35,8 @@ const char* type_name(KeyType type) {
       return "list of points";
     case KeyType::integers:
       return "list of whole numbers, one per dimension";
+    case KeyType::ascending:
+      return "ascending list of numbers";
   }
   return "";
 }
@@ -115,7 +117,7 @@ Where a number is expected, a text is an expression:
 | --- | --- | --- |
 | `x`, `y`, `z` | the position | the tables below say *number or expression* |
 | `nx`, `ny`, `nz` | the outer normal | the same, on boundaries only |
-| `t` | the step parameter, from 1/count to 1 | the same |
+| `t` | the step parameter, see `[steps]` | the same |
 | `pi` | the number | everywhere |
 
 Functions are named and meant as in C. `log` is natural; `min` and `max` take two or more arguments; `sign` is -1, 0 or 1:

@@ -54,6 +54,22 @@ const RawTable& single(const RawDocument& document, const char* name, RawTable& 
   return found.empty() ? (empty = RawTable{name, {}}) : found.front();
 }
 
+Scene::Steps read_steps(const TableReader& table) {
+  Scene::Steps steps{{}, table.integer("halvings"), table.source()};
+  const int count = table.integer("count");
+  if (!table.given("at")) {
+    for (int k = 1; k <= count; ++k) steps.at.push_back(static_cast<double>(k) / count);
+    return steps;
+  }
+  if (table.given("count"))
+    input_error(table.origin("at"),
+                fmt::format("both 'at' and 'count' ({}) are given, expected one of them", table.origin("count")));
+  steps.at = table.ascending("at");
+  if (steps.at.back() != 1)
+    input_error(table.origin("at"), fmt::format("expected 1 as the last value, found {}", steps.at.back()));
+  return steps;
+}
+
 void read_settings(const RawDocument& document, const std::filesystem::path& folder, Scene& scene) {
   RawTable empty;
   scene.solver = read_solver(single(document, "solver", empty), folder);
@@ -65,8 +81,7 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
   const TableReader refine = reader("refine");
   refine.flag("adaptive");  // only false passes
   scene.refine = {refine.integer("uniform"), refine.source()};
-  const TableReader steps = reader("steps");
-  scene.steps = {steps.integer("count"), steps.source()};
+  scene.steps = read_steps(reader("steps"));
   const TableReader output = reader("output");
   scene.output = {output.flag("vtu"), output.flag("pictures"), output.flag("convergence")};
   const TableReader plugins = reader("plugins");

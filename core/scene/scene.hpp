@@ -129,9 +129,13 @@ struct Scene {
     Source source;
   };
 
+  /// Quasi-static steps. Nothing has happened yet at t = 0.
   struct Steps {
-    int count = 1;  ///< t runs from 1 / count to 1
+    std::vector<double> at{1.0};  ///< the values of t, ascending, the last one 1
+    int halvings = 4;             ///< how often a step that fails is cut in two
     Source source;
+
+    int count() const { return static_cast<int>(at.size()); }
   };
 
   struct Probe {

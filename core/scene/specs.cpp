@@ -138,7 +138,10 @@ constexpr KeySpec refine[] = {
 };
 
 constexpr KeySpec steps[] = {
-    {"count", integer, "1", "[1, 1000000]", "", "quasi-static steps, `t` running from 1/count to 1"}};
+    {"count", integer, "1", "[1, 1000000]", "", "number of equal steps, `t` running from 1/count to 1"},
+    {"at", ascending, "", "(0, 1]", "", "in place of `count` the values of `t`, the last one 1"},
+    {"halvings", integer, "4", "[0, 20]", "", "how often a step that fails is cut in two; 0: never"},
+};
 
 constexpr KeySpec probe[] = {
     {"name", text, nullptr, "", "", "what the report calls it"},

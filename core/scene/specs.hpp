@@ -20,6 +20,7 @@ enum class KeyType {
   point,      ///< a number per dimension
   points,     ///< a list of points
   integers,   ///< a whole number per dimension
+  ascending,  ///< a list of numbers, each larger than the one before
 };
 
 inline constexpr std::string_view every_value = "*";  ///< the key itself

@@ -186,6 +186,21 @@ std::vector<Index> TableReader::integers(std::string_view key) const {
   return {all.begin(), all.end()};
 }
 
+std::vector<double> TableReader::ascending(std::string_view key) const {
+  const RawValue raw = value(spec(key));
+  const RawValue::List& list = to_list(raw, "a list of numbers");
+  if (list.empty()) input_error(raw.origin, "the list is empty");
+  std::vector<double> all;
+  for (const RawValue& entry : list) {
+    const double number = to_number(entry, spec(key).range);
+    if (!all.empty() && !(number > all.back()))
+      input_error(entry.origin,
+                  fmt::format("expected a number above {}, the one before, found {}", all.back(), number));
+    all.push_back(number);
+  }
+  return all;
+}
+
 std::optional<Selection> TableReader::selection() const {
   if (given("on") && given("where"))
     input_error(origin("where"), "both 'on' and 'where' are given, expected one of them");

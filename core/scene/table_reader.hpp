@@ -49,6 +49,8 @@ class TableReader {
   std::vector<double> point(std::string_view key) const;
   std::vector<std::vector<double>> points(std::string_view key) const;
   std::vector<Index> integers(std::string_view key) const;
+  /// Not empty.
+  std::vector<double> ascending(std::string_view key) const;
   /// What `on` or `where` pick; nothing when neither is given, an error when both are.
   std::optional<Selection> selection() const;
 

@@ -23,7 +23,7 @@ TEST(Override, ReplacesAValueOfTheScene) {
 TEST(Override, CreatesKeysAndTablesThatTheSceneDoesNotHave) {
   const Scene scene = parse(membrane, {"steps.count=4", "output.vtu=false", "plugins.path=..", "title=\"7\"",
                                        "obstacle.0.upper=2", "fix.0.frame=global"});
-  EXPECT_EQ(scene.steps.count, 4);
+  EXPECT_EQ(scene.steps.count(), 4);
   EXPECT_FALSE(scene.output.vtu);
   EXPECT_EQ(scene.plugin_path.at(0), "./..");
   EXPECT_EQ(scene.title, "7");

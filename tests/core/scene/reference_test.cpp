@@ -37,7 +37,7 @@ TEST(SceneReference, ItsExamplesAreAScene) {
   const Scene read = read_scene(file);
   EXPECT_EQ(read.bodies.size(), 1u);
   EXPECT_EQ(read.obstacles.size(), 1u);
-  EXPECT_EQ(read.steps.count, 4);
+  EXPECT_EQ(read.steps.count(), 4);
   for (const TableSpec& table : table_specs()) {
     if (!*table_text(table.name).example) continue;  // needs a file
     EXPECT_NE(scene.find(fmt::format(fmt::runtime(table.listed ? "[[{}]]" : "[{}]"), table.name)), std::string::npos);

@@ -64,7 +64,7 @@ TEST(Scene, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(scene.solver.cycle, "V");
   EXPECT_EQ(scene.solver.start, "nested");
   EXPECT_EQ(scene.refine.uniform, 0);
-  EXPECT_EQ(scene.steps.count, 1);
+  EXPECT_EQ(scene.steps.count(), 1);
   EXPECT_TRUE(scene.plugin_path.empty());
   EXPECT_TRUE(scene.output.vtu && scene.output.pictures && scene.output.convergence);
   const Scene strained = parse(with(membrane, "equation = \"diffusion\"", "young = 1\npoisson = 0\n"),
@@ -131,9 +131,18 @@ convergence = false
   EXPECT_EQ(scene.solver.truncate, "none");
   EXPECT_EQ(scene.solver.rotate, "not_coarsest");
   EXPECT_EQ(scene.solver.start, "zero");
-  EXPECT_EQ(scene.steps.count, 4);
+  EXPECT_EQ(scene.steps.count(), 4);
   EXPECT_THAT(scene.plugin_path, ElementsAre("./..", "/"));
   EXPECT_FALSE(scene.output.vtu || scene.output.pictures || scene.output.convergence);
+}
+
+TEST(SceneSteps, AreEvenOrAsListed) {
+  const auto steps = [](const std::string& table) { return parse(std::string(membrane) + table).steps; };
+  EXPECT_THAT(steps("").at, ElementsAre(1));
+  EXPECT_THAT(steps("[steps]\ncount = 4\n").at, ElementsAre(0.25, 0.5, 0.75, 1));
+  EXPECT_THAT(steps("[steps]\nat = [0.1, '1/2', 1]\nhalvings = 2\n").at, ElementsAre(0.1, 0.5, 1));
+  EXPECT_EQ(steps("").halvings, 4);
+  EXPECT_EQ(steps("[steps]\nhalvings = 2\n").halvings, 2);
 }
 
 std::string body(const std::string& keys) {
