@@ -68,14 +68,27 @@ void BodyRun<D, B>::start_from(const std::vector<double>& u) {
                             u.size(), mesh().points.size() * B, B, mesh().points.size()));
   if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
     throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
-  results_.u = u;
+  accepted_ = u;
+}
+
+template <int D, int B>
+void BodyRun<D, B>::accept() {
+  accepted_ = results_.u;
+  follows_ = true;
+  solver_.accept();
+}
+
+template <int D, int B>
+bool BodyRun<D, B>::remembers() const {
+  return std::ranges::any_of(model_.obstacles,
+                             [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
 }
 
 /// Where there is no solution, perhaps the body was meant to be on the other side.
 template <int D, int B>
 Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
   try {
-    return results_.u.empty() ? solver_.solve(model) : solver_.solve_after(model, results_.u);
+    return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
   } catch (const Error& error) {
     if (error.status() != Exit::no_solution) throw;
     const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
@@ -107,7 +120,7 @@ void add_balance_warning(const StepReport& report, std::vector<std::string>& war
 template <int D, int B>
 StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_ = model(t);
-  model_.follows = std::exchange(follows_, true);
+  model_.follows = follows_;
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);

@@ -22,8 +22,13 @@ class BodyRun {
 
   /// The next step is the first one of its steps: friction counts from the undeformed body.
   void begin() { follows_ = false; }
-  /// Solves the step at t, from the last solution where there is one, and says what came out. Errors: see NestedSolver.
+  /// Tries the step at t, from the last solution that was accepted where there is one, and says what came out. Errors:
+  /// see NestedSolver.
   StepReport solve(double t, std::vector<std::string>& warnings);
+  /// What the last solve() found is where the next step starts, and what its friction counts from.
+  void accept();
+  /// Whether a step depends on the way before it, as with friction.
+  bool remembers() const;
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);
@@ -35,7 +40,7 @@ class BodyRun {
   const Scene::Body& body() const { return scene_.bodies[body_]; }
   const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }
   const Mesh<D>& mesh() const { return hierarchy_.finest(); }
-  /// Of the last step.
+  /// Of the last step, accepted or not.
   const Results<D, B>& results() const { return results_; }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
   std::vector<Stress> stress() const;
@@ -53,7 +58,8 @@ class BodyRun {
   MeshHierarchy<D> hierarchy_;
   Probes<D> probes_;
   NestedSolver<D, B> solver_;
-  Model<B> model_;  // of the last step
+  Model<B> model_;                // of the last step
+  std::vector<double> accepted_;  // displacements or values; empty: none yet
   bool follows_ = false;
   Results<D, B> results_;
 };

@@ -8,6 +8,7 @@
 #include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/scene/uses_t.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/merge.hpp"
@@ -46,33 +47,87 @@ const Report& Driver::solve(const std::function<void()>& done) {
   const Stopwatch watch;
   report_.time = {};
   report_.steps.clear();
+  report_.failed.clear();
   report_.interrupted = false;
   if (bodies_.empty()) build_bodies();
   report_.warnings = mesh_warnings_;
-  const int count = scene_.steps.count();
+  const int count = report_.planned_steps = scene_.steps.count();
   try {
-    for (int step = 1; step <= count; ++step) {
-      if (count > 1) progress_.phase(fmt::format("step {} of {}", step, count));
-      const double t = scene_.steps.at[step - 1];
-      at_step(scene_, t, [&] {
-        if (step == 1)
-          for (std::size_t body = 0; body < bodies(); ++body)
-            visit(body, [&](auto& run) {
-              run.begin();
-              run.add_warnings(t, report_.warnings);
-            });
-        add_step(solve_step(t));
-      });
-      if (done) done();
-    }
+    begin();
+    double from = 0;
+    for (int step = 1; step <= count; from = scene_.steps.at[step++ - 1])
+      if (!advance({step, from, scene_.steps.at[step - 1]}, done)) break;
     progress_.stop_if_interrupted();
   } catch (const Error& error) {
-    if (error.status() != Exit::interrupted || count == 1 || report_.steps.empty()) throw;
+    if (error.status() != Exit::interrupted || !report_.has_steps() || report_.steps.empty()) throw;
     report_.interrupted = true;
   }
   finish();
   report_.time.total = watch.elapsed();
   return report_;
+}
+
+void Driver::begin() {
+  const double t = scene_.steps.at.front();
+  at_step(scene_, t, [&] {
+    for (std::size_t body = 0; body < bodies(); ++body)
+      visit(body, [&](auto& run) {
+        run.begin();
+        run.add_warnings(t, report_.warnings);
+      });
+  });
+}
+
+/// Where the step fails, in two parts. False where that fails, too, and the steps end.
+bool Driver::advance(const Advance& by, const std::function<void()>& done) {
+  const bool whole = by.halvings == 0;
+  if (report_.has_steps())
+    progress_.phase(fmt::format("step {} of {}{}", by.step, report_.planned_steps,
+                                whole ? "" : fmt::format(", its part from t = {} to {}", by.from, by.to)));
+  std::vector<std::string> warnings = report_.warnings;  // those of what fails are of no use
+  StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
+  const bool stuck = is_stuck(report);
+  if (stuck && may_be_cut(by, report)) {
+    note_failure(by, report.summary);
+    const double middle = by.from + (by.to - by.from) / 2;
+    return advance({by.step, by.from, middle, by.halvings + 1}, done) &&
+           advance({by.step, middle, by.to, by.halvings + 1}, done);
+  }
+  if (!stuck) accept();
+  if (stuck && !whole)
+    report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
+                                         by.from, by.to, by.halvings);
+  report_.warnings = std::move(warnings);
+  add_step(std::move(report));
+  if (done) done();
+  return !stuck;
+}
+
+/// Whether a body was not solved that a next step would have to start from.
+bool Driver::is_stuck(const StepReport& report) const {
+  for (std::size_t body = 0; body < bodies(); ++body)
+    if (!report.bodies[body].summary.converged() && visit(body, [](const auto& run) { return run.remembers(); }))
+      return true;
+  return false;
+}
+
+/// A part differs from the whole where something of the failed body depends on t.
+bool Driver::may_be_cut(const Advance& by, const StepReport& report) const {
+  const double middle = by.from + (by.to - by.from) / 2;
+  if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
+  for (std::size_t body = 0; body < bodies(); ++body)
+    if (!report.bodies[body].summary.converged() && uses_t(scene_, scene_.bodies[body])) return true;
+  return false;
+}
+
+void Driver::note_failure(const Advance& by, const Summary& summary) {
+  report_.failed.push_back({by.step, by.from, by.to, summary.iterations, summary.reason});
+  report_.warnings.push_back(fmt::format("step {}: from t = {} to {} there was no solution, and it was cut in two: {}",
+                                         by.step, by.from, by.to, summary.reason));
+}
+
+void Driver::accept() {
+  for (std::size_t body = 0; body < bodies(); ++body) visit(body, [](auto& run) { run.accept(); });
 }
 
 /// Friction has dissipated what it did in all steps.
@@ -83,13 +138,17 @@ void Driver::add_step(StepReport report) {
   report_.steps.push_back(std::move(report));
 }
 
-StepReport Driver::solve_step(double t) {
+StepReport Driver::solve_step(const Advance& by, std::vector<std::string>& warnings) {
   std::vector<StepReport> reports;
   for (std::size_t body = 0; body < bodies(); ++body) {
     if (bodies() > 1) progress_.phase(fmt::format("body '{}'", scene_.bodies[body].name));
-    reports.push_back(visit(body, [&](auto& run) { return run.solve(t, report_.warnings); }));
+    reports.push_back(visit(body, [&](auto& run) { return run.solve(by.to, warnings); }));
   }
-  return merged(scene_, std::move(reports));
+  StepReport report = merged(scene_, std::move(reports));
+  report.step = by.step;
+  report.from = by.from;
+  report.halvings = by.halvings;
+  return report;
 }
 
 void Driver::finish() {

@@ -37,9 +37,11 @@ class Driver {
   Scene& scene() { return scene_; }
   const Scene& scene() const { return scene_; }
 
-  /// Solves all steps. The first one starts from the last solution where there is one. Where the work is ended after
-  /// the first of several steps, the report has those that were finished, marked as interrupted.
-  /// @param done is called after each step, when report() and bodies have its results
+  /// Solves all steps. The first one starts from the last solution where there is one. A step of a body with friction
+  /// that fails is solved in parts (docs/scene.md, "[steps]"); where that fails, too, it is the last one in the report,
+  /// and the next solve starts from the step before it. Where the work is ended after the first of several steps, the
+  /// report has those that were finished, marked as interrupted.
+  /// @param done is called after each step or part, when report() and bodies have its results
   const Report& solve(const std::function<void()>& done = {});
   /// The next solve starts from u: B per vertex of the body's finest mesh, see BodyRun.
   void start_from(std::size_t body, std::vector<double> u);
@@ -66,11 +68,23 @@ class Driver {
  private:
   template <int D, int B>
   using Run = std::unique_ptr<BodyRun<D, B>>;
+  /// A step, or part of one.
+  struct Advance {
+    int step;  // of the scene, from 1
+    double from, to;
+    int halvings = 0;
+  };
   using AnyRun = std::variant<Run<2, 1>, Run<3, 1>, Run<2, 2>, Run<3, 3>>;
 
   static const Progress& waiting();
   void build_bodies();
-  StepReport solve_step(double t);
+  void begin();
+  bool advance(const Advance& by, const std::function<void()>& done);
+  StepReport solve_step(const Advance& by, std::vector<std::string>& warnings);
+  bool is_stuck(const StepReport& report) const;
+  bool may_be_cut(const Advance& by, const StepReport& report) const;
+  void note_failure(const Advance& by, const Summary& summary);
+  void accept();
   void add_step(StepReport report);
   void finish();
 

@@ -391,6 +391,7 @@ bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Sol
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
+  for (auto& of_level : now_) of_level = {};
   Solution<B> coarse;
   if (options_.start == "nested")
     for (std::size_t level = first_; level < finest; ++level)
@@ -398,9 +399,6 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
-  before_.swap(now_);
-  before_.back() = {};
-  for (auto& of_level : now_) of_level = {};
   solve_finest(model, solution);
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
@@ -431,7 +429,7 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   Scene::Solver own = options_;
   own.hierarchy = "meshes";
   auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_);
-  Solution<B> second = meshes->solve(model);
+  Solution<B> second = before_.back().empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back());
   const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
   if (better) meshes_ = std::move(meshes);
   Solution<B>& kept = better ? second : *first;
@@ -439,6 +437,13 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   for (Stage& stage : left) stage.kept = false;
   kept.summary.put_in_front(std::move(left));
   return std::move(kept);
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::accept() {
+  if (meshes_) return meshes_->accept();
+  before_.swap(now_);
+  for (auto& of_level : now_) of_level = {};
 }
 
 template <int D, int B>

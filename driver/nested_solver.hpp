@@ -58,8 +58,11 @@ class NestedSolver {
   /// none exists; without convergence the summary says so.
   Solution<B> solve(const Model<B>& model);
   /// The same after another step: with start "nested" from what has least energy, its solution u (global coordinates),
-  /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u.
+  /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u. What coarser
+  /// meshes know of that step is what the last accept() was about.
   Solution<B> solve_after(const Model<B>& model, const std::vector<double>& u);
+  /// The next step comes after the last solve; until then every solve comes after the same one.
+  void accept();
 
   /// Gives back the problem of the last solve, whose matrix and load the next one takes over as far as they stay the
   /// same; those of coarser levels are kept anyway. Without it the finest level's are assembled again.
@@ -116,8 +119,9 @@ class NestedSolver {
   bool continued_ = false;
   std::vector<Stage> dropped_;            // starts that coarser levels did not give
   std::unique_ptr<NestedSolver> meshes_;  // what goes on where levels by the matrix did not do
-  std::vector<std::vector<double>> before_,
-      now_;  // per mesh, solutions of the last step and of this: global coordinates
+  // Per mesh, solutions in global coordinates: of the last step that was accepted, and of the last solve (finest mesh:
+  // none).
+  std::vector<std::vector<double>> before_, now_;
 };
 
 }  // namespace signorini

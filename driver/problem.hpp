@@ -21,13 +21,14 @@ decltype(auto) dispatch(const Scene& scene, Function&& function, std::size_t bod
   return scalar ? function.template operator()<3, 1>() : function.template operator()<3, 3>();
 }
 
-/// Calls work(); where the scene has several steps its errors tell the one they belong to.
+/// Calls work(); where there are several steps, or parts of one, its errors tell the one they belong to.
 template <class Work>
-void at_step(const Scene& scene, double t, const Work& work) {
+decltype(auto) at_step(const Scene& scene, double t, const Work& work) {
   try {
-    work();
+    return work();
   } catch (const Error& error) {
-    if (scene.steps.count() == 1 || error.status() == Exit::interrupted) throw;
+    const bool whole = scene.steps.count() == 1 && t == scene.steps.at.back();
+    if (whole || error.status() == Exit::interrupted) throw;
     throw Error(error.status(), fmt::format("{}, at t = {}", error.what(), t));
   }
 }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "driver/contact_report.hpp"
 #include "driver/materials.hpp"
 #include "driver/numbers.hpp"
 
@@ -43,27 +43,6 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
 namespace {
 
 template <int B>
-ContactReport contact_report(int obstacle, const ContactSummary<B>& contact,
-                             const std::optional<DeformedContact>& deformed) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, unknown});
-  return {.obstacle = obstacle,
-          .nodes = contact.nodes,
-          .area = contact.area,
-          .force = {contact.force.begin(), contact.force.end()},
-          .max_pressure = contact.max_pressure,
-          .slip_nodes = contact.slip_nodes,
-          .stick_nodes = contact.stick_nodes,
-          .tangential_force = {contact.tangential_force.begin(), contact.tangential_force.end()},
-          .dissipated = contact.dissipated,
-          .undetermined_nodes = contact.undetermined_nodes,
-          .undetermined_force = contact.undetermined_force,
-          .largest_penetration = at.penetration,
-          .largest_opening = at.opening,
-          .largest_displacement = at.displacement};
-}
-
-template <int B>
 std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
                                        const std::vector<std::array<double, B>>& forces) {
   std::vector<ForceReport> reports;
@@ -93,12 +72,10 @@ StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>&
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
   report.bodies = {{body.name, summary}};
   report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
-  const std::vector<int> obstacles = numbers_of(scene.obstacles, body);
-  for (std::size_t k = 0; k < results.contact.obstacles.size(); ++k)
-    report.contact.push_back(contact_report(obstacles[k], results.contact.obstacles[k], results.deformed[k]));
+  report.contact = contact_reports(scene, mesh, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(mesh, probes.places[k], results.u);
-    report.probes.push_back({probes.names[k], {value.begin(), value.end()}});
+    report.probes.push_back({probes.names[k], body.name, {value.begin(), value.end()}});
   }
   return report;
 }

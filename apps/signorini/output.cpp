@@ -9,8 +9,10 @@
 #include <limits>
 
 #include "apps/signorini/show.hpp"
+#include "apps/signorini/show_steps.hpp"
 #include "core/base/error.hpp"
 #include "core/io/convergence.hpp"
+#include "core/io/steps_table.hpp"
 
 namespace signorini {
 namespace {
@@ -29,20 +31,24 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
 }
 
 struct ContactFields {
-  std::vector<double> gap, pressure, contact, tangential;
+  std::vector<double> gap, pressure, contact, normal, tangential;
 };
 
 template <int B>
 ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices) {
   ContactFields fields{std::vector<double>(vertices, std::numeric_limits<double>::quiet_NaN()),
                        std::vector<double>(vertices), std::vector<double>(vertices),
-                       std::vector<double>(B > 1 ? 3 * vertices : 0)};
+                       std::vector<double>(B > 1 ? 3 * vertices : 0), std::vector<double>(B > 1 ? 3 * vertices : 0)};
   for (const ContactNode<B>& node : state.nodes) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.pressure;
     if (node.contact) fields.contact[node.vertex] = !node.friction ? 1 : node.sticks ? 3 : 2;
-    if (B > 1 && node.area > 0)
-      for (int i = 0; i < B; ++i) fields.tangential[3 * node.vertex + i] += node.tangential[i] / node.area;
+    if (B == 1 || !(node.area > 0)) continue;
+    for (int i = 0; i < B; ++i) {
+      const std::size_t at = 3 * std::size_t(node.vertex) + i;
+      fields.tangential[at] += node.tangential[i] / node.area;
+      fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
+    }
   }
   return fields;
 }
@@ -57,6 +63,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, 
                B == 1 ? "u" : "von Mises stress",
                std::vector<Flags>(contact.contact.begin(), contact.contact.end()),
                {},
+               {},
                {}};
   for (const auto& node : results.contact.nodes)
     if (out.touched.empty() || out.touched.back() != node.vertex) out.touched.push_back(node.vertex);
@@ -66,6 +73,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, 
     out.displacement = results.u;
     out.value = equivalent(stress);
     out.pressure = std::move(contact.pressure);
+    out.tangential = std::move(contact.tangential);
   }
   return out;
 }
@@ -73,7 +81,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, 
 template <int D, int B>
 std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
   std::vector<Panel> panels = B == 1 ? scalar_panels(shown, notes) : elastic_panels(shown, notes);
-  std::erase_if(panels, [](const Panel& panel) { return panel.patches.empty() && panel.curve.empty(); });
+  std::erase_if(panels, [](const Panel& panel) { return panel.patches.empty() && panel.lines.empty(); });
   return panels;
 }
 
@@ -92,7 +100,10 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
   ContactFields contact = contact_fields(results.contact, mesh.points.size());
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
-  if (B > 1) fields.push_back({"tangential_traction", 3, std::move(contact.tangential)});
+  if (B > 1) {
+    fields.push_back({"normal_traction", 3, std::move(contact.normal)});
+    fields.push_back({"tangential_traction", 3, std::move(contact.tangential)});
+  }
   fields.push_back({"contact", 1, std::move(contact.contact)});
   return fields;
 }
@@ -100,16 +111,17 @@ std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& res
 std::string body_suffix(std::size_t body, std::size_t bodies) { return bodies > 1 ? fmt::format("_body{}", body) : ""; }
 
 template <int D>
-void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t, std::size_t body,
-                        const VtuPacking& packing) {
-  const std::string step = steps_ == 1 ? "" : fmt::format("_{:03}", entries_.size() / bodies_ + 1);
+void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, const Report& report,
+                        std::size_t body, const VtuPacking& packing) {
+  several_ = bodies_ > 1 || report.has_steps();
+  const std::string step = report.has_steps() ? fmt::format("_{:03}", steps() + 1) : "";
   const std::string name = "solution" + body_suffix(body, bodies_) + step + ".vtu";
   write_vtu(files_.stage(name), mesh, fields, {}, packing);
-  entries_.push_back({t, name, static_cast<int>(body)});
+  entries_.push_back({report.last().t, name, static_cast<int>(body)});
 }
 
 void SolutionFiles::finish() const {
-  if (!entries_.empty() && (steps_ > 1 || bodies_ > 1)) write_pvd(files_.stage("solution.pvd"), entries_);
+  if (several_) write_pvd(files_.stage("solution.pvd"), entries_);
 }
 
 namespace {
@@ -132,8 +144,8 @@ bool take(std::string_view& text, std::string_view start) {
 }  // namespace
 
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 5> fixed = {"report.json", "solution.pvd", "convergence.csv", "phases.csv",
-                                                     "convergence.png"};
+  constexpr std::array<std::string_view, 7> fixed = {"report.json", "solution.pvd",    "convergence.csv", "phases.csv",
+                                                     "steps.csv",   "convergence.png", "steps.png"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
   std::string_view rest = name;
   const bool solution = take(rest, "solution");
@@ -174,11 +186,20 @@ void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Re
   });
 }
 
+void draw_steps(AtomicFiles& files, Report& report) {
+  if (!report.has_steps()) return;
+  paint(report, [&](const Painter& draw) {
+    const std::vector<Panel> panels = steps_panels(report);
+    if (!panels.empty()) draw.panels(files.stage("steps.png"), panels);
+  });
+}
+
 void write_tables(AtomicFiles& files, const Report& report) {
   std::vector<const Summary*> summaries;
   for (const StepReport& step : report.steps) summaries.push_back(&step.summary);
   write_text(files.stage("convergence.csv"), convergence_csv(summaries));
   write_text(files.stage("phases.csv"), phases_csv(summaries));
+  if (report.has_steps()) write_text(files.stage("steps.csv"), steps_csv(report));
 }
 #define SIGNORINI_OUTPUT(D, B)                                                                                       \
   template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&, const std::vector<Stress>&);     \
@@ -189,7 +210,9 @@ SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)
 SIGNORINI_OUTPUT(3, 3)
 
-template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, double, std::size_t, const VtuPacking&);
-template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, double, std::size_t, const VtuPacking&);
+template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, const Report&, std::size_t,
+                                 const VtuPacking&);
+template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, const Report&, std::size_t,
+                                 const VtuPacking&);
 
 }  // namespace signorini

@@ -23,18 +23,21 @@ std::string body_suffix(std::size_t body, std::size_t bodies);
 /// several.
 class SolutionFiles {
  public:
-  SolutionFiles(AtomicFiles& files, int steps, std::size_t bodies) : files_(files), steps_(steps), bodies_(bodies) {}
+  SolutionFiles(AtomicFiles& files, std::size_t bodies) : files_(files), bodies_(bodies) {}
 
+  /// @param report up to the step that is added
   /// @param body number of the body, the last of each step being the last one
   template <int D>
-  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, double t, std::size_t body,
+  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, const Report& report, std::size_t body,
            const VtuPacking& packing);
+  /// That were added.
+  std::size_t steps() const { return entries_.size() / bodies_; }
   void finish() const;
 
  private:
   AtomicFiles& files_;
-  int steps_;
   std::size_t bodies_;
+  bool several_ = false;
   std::vector<PvdEntry> entries_;
 };
 
@@ -48,7 +51,10 @@ template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
                  const std::vector<Stress>& stress, const std::string& suffix, Report& report);
 
-/// convergence.csv and phases.csv.
+/// The forces of the obstacles over the steps, where there are several; else nothing.
+void draw_steps(AtomicFiles& files, Report& report);
+
+/// convergence.csv and phases.csv; steps.csv where there are several steps.
 void write_tables(AtomicFiles& files, const Report& report);
 
 }  // namespace signorini

@@ -14,14 +14,16 @@ struct Shown {
   std::vector<double> displacement;  ///< D per vertex, empty for scalar problems
   std::vector<double> value;         ///< von Mises stress, or u
   std::string label;
-  std::vector<Flags> contact;    ///< 0 where the vertex is free
+  std::vector<Flags> contact;    ///< 0 where the vertex is free, 1 in contact, with friction 2 where it slips, 3 sticks
   std::vector<double> pressure;  ///< contact pressure, empty for scalar problems
-  std::vector<Index> touched;    ///< vertices that an obstacle may reach
+  std::vector<double> tangential;  ///< tangential traction, three per vertex, likewise
+  std::vector<Index> touched;      ///< vertices that an obstacle may reach
 };
 
 /// The panels of result.png. Meshes too fine to be seen are drawn on a coarser level; a note in `notes` says when even
 /// the coarsest is too fine. Panels may be empty.
-/// The deformed body coloured by `value`, and the contact pressure along its normal (3D) or as a profile (2D).
+/// The deformed body coloured by `value`, and the contact pressure seen along its normal (3D) or as a profile (2D);
+/// where there is friction, besides, where it slips and sticks, in 2D with the tangential traction.
 template <int D>
 std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes);
 /// The graph of u (2D) or a section (3D), and the coincidence set likewise.

@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "apps/signorini/drawn_level.hpp"
@@ -107,37 +109,108 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
   return panel;
 }
 
-/// The pressure around the contact zone, seen along its normal.
-Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
-  Panel panel{"contact pressure", "contact pressure", View::flat, {}, {}, {}};
+/// The faces around the contact zone, seen along its normal.
+/// @param add called as add(corners, vertices of the finest mesh, patches)
+template <class Add>
+std::vector<Patch> zone_patches(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes,
+                                const Add& add) {
   const auto axes = tangents(zone.normal);
-  panel.patches = few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
+  return few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
     std::vector<Patch> patches;
     for (const auto& face : drawn.mesh->boundary) {
       if (is_too_many(patches)) break;
-      Patch patch;
+      std::array<Point<2>, 3> corners;
+      std::array<Index, 3> vertices;
       bool inside = dot(area_normal(*drawn.mesh, face), zone.normal) > 0;
       for (int c = 0; c < 3 && inside; ++c) {
         const Point<3> d = difference<3>(drawn.mesh->points[face.vertices[c]], zone.middle);
-        set_corner(patch, c, Point<2>{dot(d, axes[0]), dot(d, axes[1])}, shown.pressure[drawn.fine[face.vertices[c]]]);
+        corners[c] = {dot(d, axes[0]), dot(d, axes[1])};
+        vertices[c] = drawn.fine[face.vertices[c]];
         inside = length<3>(d) < 1.5 * zone.radius;
       }
-      if (inside) patches.push_back(patch);
+      if (inside) add(corners, vertices, patches);
     }
     return patches;
+  });
+}
+
+Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+  Panel panel;
+  panel.title = panel.label = "contact pressure";
+  panel.patches = zone_patches(shown, zone, notes, [&](const auto& corners, const auto& vertices, auto& patches) {
+    Patch& patch = patches.emplace_back();
+    for (int c = 0; c < 3; ++c) set_corner(patch, c, corners[c], shown.pressure[vertices[c]]);
   });
   return panel;
 }
 
-Panel pressure_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vector<std::string>&) {
-  Panel panel{"contact pressure along the contact zone", "contact pressure", View::curve, {}, {}, {}};
+Point<2> middle(const Point<2>& a, const Point<2>& b) { return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; }
+
+/// Where it slips and sticks: the third of a face next to a vertex has that one's colour.
+Panel friction_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+  Panel panel;
+  panel.title = "slip and stick";
+  panel.words = {"open", "no friction", "slip", "stick"};
+  panel.patches = zone_patches(shown, zone, notes, [&](const auto& corners, const auto& vertices, auto& patches) {
+    const Point<2> centre{(corners[0][0] + corners[1][0] + corners[2][0]) / 3,
+                          (corners[0][1] + corners[1][1] + corners[2][1]) / 3};
+    for (int c = 0; c < 3; ++c)
+      for (const int other : {(c + 1) % 3, (c + 2) % 3}) {
+        Patch& patch = patches.emplace_back();
+        const double value = shown.contact[vertices[c]];
+        set_corner(patch, 0, corners[c], value);
+        set_corner(patch, 1, middle(corners[c], corners[other]), value);
+        set_corner(patch, 2, centre, value);
+      }
+  });
+  return panel;
+}
+
+/// What value(vertex) is along the contact zone, by ascending place.
+template <class Value>
+Line along_zone(const Shown<2>& shown, const ContactZone<2>& zone, const Value& value) {
   const Point<2> tangent = tangents(zone.normal)[0];
+  Line line;
   for (const Index v : shown.touched) {
     const Point<2> d = difference<2>(shown.hierarchy.finest().points[v], zone.middle);
-    if (length<2>(d) < 1.5 * zone.radius) panel.curve.push_back({dot(d, tangent), shown.pressure[v]});
+    if (length<2>(d) < 1.5 * zone.radius) line.points.push_back({dot(d, tangent), value(v)});
   }
-  std::sort(panel.curve.begin(), panel.curve.end());
+  std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
+  return line;
+}
+
+Panel pressure_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vector<std::string>&) {
+  Panel panel;
+  panel.title = "contact pressure along the contact zone";
+  panel.label = "contact pressure";
+  panel.view = View::lines;
+  panel.lines = {along_zone(shown, zone, [&](Index v) { return shown.pressure[v]; })};
   return panel;
+}
+
+/// The tangential traction, and where it slips and sticks.
+Panel friction_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vector<std::string>&) {
+  const Point<2> tangent = tangents(zone.normal)[0];
+  const auto traction = [&](Index v) {
+    return shown.tangential[3 * std::size_t(v)] * tangent[0] + shown.tangential[3 * std::size_t(v) + 1] * tangent[1];
+  };
+  const auto where = [&](Flags state, const char* name) {
+    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+    Line marks = along_zone(shown, zone, [&](Index v) { return shown.contact[v] == state ? traction(v) : nowhere; });
+    marks.name = name;
+    marks.joined = false;
+    return marks;
+  };
+  Panel panel;
+  panel.title = "slip and stick";
+  panel.label = "tangential traction";
+  panel.view = View::lines;
+  panel.lines = {along_zone(shown, zone, traction), where(2, "slip"), where(3, "stick")};
+  return panel;
+}
+
+bool has_friction(const std::vector<Flags>& contact) {
+  return std::any_of(contact.begin(), contact.end(), [](Flags state) { return state > 1; });
 }
 
 }  // namespace
@@ -146,7 +219,9 @@ template <int D>
 std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
   const auto zone = contact_zone(shown);
   std::vector<Panel> panels{body_panel(shown, zone, notes)};
-  if (zone) panels.push_back(pressure_panel(shown, *zone, notes));
+  if (!zone) return panels;
+  panels.push_back(pressure_panel(shown, *zone, notes));
+  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, *zone, notes));
   return panels;
 }
 

@@ -18,11 +18,11 @@ class ResultFiles {
  public:
   /// Keeps references to both.
   ResultFiles(Driver& driver, AtomicFiles& files)
-      : driver_(driver), files_(files), vtu_(files, scene().steps.count(), scene().bodies.size()) {}
+      : driver_(driver), files_(files), vtu_(files, scene().bodies.size()) {}
 
-  /// After a step: the last one is written in finish().
+  /// After a step or a part of one. The last one, after which none follows, is written in finish().
   void add_step() {
-    if (is_last_step()) return;
+    if (driver_.report().last().t == scene().steps.at.back()) return;
     const Stopwatch watch;
     read_stresses();
     write_solution();
@@ -32,18 +32,17 @@ class ResultFiles {
   void finish() {
     const Stopwatch watch;
     Report& report = driver_.report();
-    if (scene().output.pictures || is_last_step()) read_stresses();
+    const bool unwritten = vtu_.steps() < report.steps.size();
+    if (scene().output.pictures || unwritten) read_stresses();
     if (scene().output.convergence) write_tables(files_, report);
     if (scene().output.pictures) draw();
-    if (is_last_step()) write_solution();
+    if (unwritten) write_solution();
     vtu_.finish();
     report.time.output += watch.elapsed();
   }
 
  private:
   const Scene& scene() const { return driver_.scene(); }
-
-  bool is_last_step() const { return static_cast<int>(driver_.report().steps.size()) == scene().steps.count(); }
 
   void read_stresses() {
     if (!scene().output.vtu && !scene().output.pictures) return;
@@ -54,6 +53,7 @@ class ResultFiles {
 
   void draw() {
     draw_convergence(files_, driver_.report());
+    draw_steps(files_, driver_.report());
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&](const auto& run) {
         draw_result(files_, run.hierarchy(), run.results(), stresses_[body], body_suffix(body, driver_.bodies()),
@@ -67,7 +67,7 @@ class ResultFiles {
       driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
         // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
         constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
-        vtu_.add(run.mesh(), point_fields(run.mesh(), run.results(), stresses_[body]), driver_.report().last().t, body,
+        vtu_.add(run.mesh(), point_fields(run.mesh(), run.results(), stresses_[body]), driver_.report(), body,
                  {worthwhile, scene().solver.threads});
       });
   }
@@ -91,13 +91,31 @@ std::vector<std::filesystem::path> inputs(const Scene& scene) {
   return files;
 }
 
+void print_contact(const ContactReport& contact) {
+  fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
+             contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);
+  if (contact.slip_nodes + contact.stick_nodes == 0 && !(contact.dissipated > 0)) return;
+  fmt::print("  friction: {} nodes slip, {} stick; tangential force ({:.6g}), dissipated {:.6g}\n", contact.slip_nodes,
+             contact.stick_nodes, fmt::join(contact.tangential_force, ", "), contact.dissipated);
+}
+
+/// Which step is shown, where there are several.
+void print_steps(const Report& report) {
+  if (!report.has_steps()) return;
+  int iterations = 0;
+  for (const StepReport& step : report.steps) iterations += step.summary.iterations;
+  const StepReport& last = report.last();
+  fmt::print("step {} of {}, to t = {}, the last of {} solves with {} iterations{}\n", last.step, report.planned_steps,
+             last.t, report.steps.size(), iterations,
+             report.failed.empty() ? "" : fmt::format("; {} more failed and were cut in two", report.failed.size()));
+}
+
 void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
   fmt::print("{}\n", report.title);
+  print_steps(report);
   print_summary(last.summary, report.converged(), report.reason());
-  for (const ContactReport& contact : last.contact)
-    fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
-               contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);
+  for (const ContactReport& contact : last.contact) print_contact(contact);
   for (const ProbeReport& probe : last.probes) fmt::print("{}: ({:.9g})\n", probe.name, fmt::join(probe.value, ", "));
   const Times& time = report.time;
   fmt::print(
@@ -122,11 +140,15 @@ Exit solve_command(const SolveArguments& arguments) {
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  if (scene.steps.count() == 1) progress.stop_if_interrupted();
+  if (!report.has_steps()) progress.stop_if_interrupted();
   const auto written = files.commit();
-  if (report.interrupted)
-    throw Error(Exit::interrupted, fmt::format("interrupted; {} of {} steps were finished and are written",
-                                               report.steps.size(), scene.steps.count()));
+  if (report.interrupted) {
+    const StepReport& last = report.last();
+    const bool within = last.t < scene.steps.at[last.step - 1];
+    throw Error(Exit::interrupted,
+                fmt::format("interrupted; {} of {} steps were finished and are written{}", last.step - within,
+                            report.planned_steps, within ? ", and a part of the next" : ""));
+  }
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

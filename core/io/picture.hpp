@@ -19,7 +19,14 @@ enum class View {
   space,  ///< a surface in true proportions, seen from direction `from`
   flat,   ///< a plane figure, z = 0
   graph,  ///< a function of two variables: x and y in true proportions, z not
-  curve   ///< `curve`, a function of one variable
+  lines   ///< `lines`, over two axes
+};
+
+/// Points that are joined by a line, or marked alone. One that is no number interrupts the line.
+struct Line {
+  std::vector<std::array<double, 2>> points;
+  std::string name = {};  ///< for the key; empty: not in it
+  bool joined = true;
 };
 
 /// One picture beside others, coloured by the values of its patches.
@@ -28,7 +35,9 @@ struct Panel {
   std::string label;  ///< what the values are
   View view = View::flat;
   std::vector<Patch> patches;
-  std::vector<std::array<double, 2>> curve;
+  std::vector<Line> lines;
+  std::string across;                    ///< label of their first axis; `label` is that of the second
+  std::vector<std::string> words;        ///< what the values 0, 1, 2... mean, for a legend of these in place of numbers
   double from[3] = {0.433, -0.75, 0.5};  ///< unit vector towards the viewer
 };
 

@@ -34,14 +34,21 @@ Json record(const Summary& summary, const IterationRecord& record) {
 
 Json contact(const ContactReport& contact) {
   return {{"obstacle", contact.obstacle},
+          {"body", contact.body},
           {"nodes", contact.nodes},
+          {"open_nodes", contact.open_nodes},
           {"area", contact.area},
           {"force", contact.force},
           {"max_pressure", contact.max_pressure},
           {"slip_nodes", contact.slip_nodes},
           {"stick_nodes", contact.stick_nodes},
+          {"normal_force", contact.normal_force},
           {"tangential_force", contact.tangential_force},
+          {"moment", contact.moment},
+          {"moment_about", contact.moment_about},
+          {"dissipated_in_step", contact.dissipated_in_step},
           {"dissipated", contact.dissipated},
+          {"displacement", contact.displacement},
           {"undetermined_nodes", contact.undetermined_nodes},
           {"undetermined_force", contact.undetermined_force},
           {"largest_penetration", contact.largest_penetration},
@@ -153,10 +160,22 @@ void add_results(Json& json, const StepReport& step) {
 }
 
 Json step(const StepReport& step) {
-  Json json{{"t", step.t}, {"converged", step.summary.converged()}};
+  Json json{{"t", step.t},
+            {"step", step.step},
+            {"from", step.from},
+            {"halvings", step.halvings},
+            {"converged", step.summary.converged()}};
   add_summary(json, step.summary);
   add_results(json, step);
   return json;
+}
+
+Json failed_step(const FailedStep& step) {
+  return {{"step", step.step},
+          {"from", step.from},
+          {"t", step.t},
+          {"iterations", step.iterations},
+          {"reason", step.reason}};
 }
 
 Json time(const Times& time) {
@@ -193,10 +212,10 @@ bool Report::converged() const {
 }
 
 std::string Report::reason() const {
-  const auto failed =
+  const auto first =
       std::find_if(steps.begin(), steps.end() - 1, [](const StepReport& step) { return !step.summary.converged(); });
-  if (failed == steps.end() - 1 || !last().summary.converged()) return last().summary.reason;
-  return fmt::format("the step at t = {:.4g}: {}", failed->t, failed->summary.reason);
+  if (first == steps.end() - 1 || !last().summary.converged()) return last().summary.reason;
+  return fmt::format("the step at t = {:.4g}: {}", first->t, first->summary.reason);
 }
 
 Json to_json(const Summary& summary) {
@@ -223,7 +242,10 @@ Json to_json(const Report& report) {
   json["assemblies"] = assemblies(report.time.assemblies);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());
-  if (report.steps.size() > 1 || report.interrupted) json["steps"] = array(report.steps, step);
+  if (report.has_steps()) {
+    json["steps"] = array(report.steps, step);
+    json["failed_steps"] = array(report.failed, failed_step);
+  }
   json["estimate"] = nullptr;  // no estimator ran
   json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
     return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};

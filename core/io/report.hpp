@@ -11,13 +11,20 @@ namespace signorini {
 /// What one obstacle does to the body it acts on.
 struct ContactReport {
   int obstacle = 0;           ///< number of the scene's [[obstacle]], from 0
+  std::string body;           ///< that it acts on
   Index nodes = 0;            ///< vertices in contact
+  Index open_nodes = 0;       ///< those it may reach besides
   double area = 0;            ///< measure of the contact (or coincidence) set; a length in 2D
   std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
   double max_pressure = 0;
-  Index slip_nodes = 0, stick_nodes = 0;  ///< of those in contact, where there is friction
-  std::vector<double> tangential_force;   ///< part of `force` along the surface
-  double dissipated = 0;                  ///< work of friction
+  Index slip_nodes = 0, stick_nodes = 0;               ///< of those in contact, where there is friction
+  std::vector<double> normal_force, tangential_force;  ///< the parts of `force` along the obstacle's normal, and across
+  /// Of an elastic body: of `force` about the point `moment_about`, with the undeformed positions: about the z-axis in
+  /// 2D, else three entries.
+  std::vector<double> moment, moment_about;
+  double dissipated_in_step = 0;     ///< work of friction, not negative
+  double dissipated = 0;             ///< the same since the first step
+  std::vector<double> displacement;  ///< mean of the surface that it may reach, one entry per unknown of a vertex
   Index undetermined_nodes = 0;   ///< of those in contact, held by a fix along the obstacle's normal, see ContactNode
   double undetermined_force = 0;  ///< sum of what presses there
   /// Of the deformed boundary against the true obstacle: the deepest vertex inside it, the farthest one off it where
@@ -47,7 +54,7 @@ struct BodyReport {
 
 /// The solution at a point.
 struct ProbeReport {
-  std::string name;
+  std::string name, body;
   std::vector<double> value;  ///< one entry per unknown of a vertex
 };
 
@@ -68,9 +75,11 @@ struct Times {
   Assemblies assemblies;
 };
 
-/// One quasi-static step.
+/// One quasi-static step, or part of one.
 struct StepReport {
-  double t = 1;
+  int step = 1;            ///< number of the scene's step, from 1
+  double from = 0, t = 1;  ///< where it starts and ends
+  int halvings = 0;        ///< how often the step was cut in two to get this part
   Summary summary;
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
@@ -80,18 +89,30 @@ struct StepReport {
   std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
 };
 
+/// A step, or part of one, that was not solved as a whole.
+struct FailedStep {
+  int step = 1;
+  double from = 0, t = 1;
+  int iterations = 0;
+  std::string reason;
+};
+
 /// Everything `report.json` says.
 struct Report {
   std::string scene, title;
   int dimension = 0;
   std::string hierarchy = "meshes";  ///< or "matrix": all levels below the finest mesh are algebraic
+  int planned_steps = 1;             ///< by the scene
   std::vector<StepReport> steps;     ///< at least one; the top-level keys are those of the last
+  std::vector<FailedStep> failed;    ///< what was then solved in parts
   std::vector<std::string> warnings;
   std::vector<PluginReport> plugins;
   Times time;
   double peak_memory_mb = 0;
   bool interrupted = false;  ///< before the last step; those that were finished are there
 
+  /// Whether there are several steps, or were to be: of the scene or parts of its only one.
+  bool has_steps() const { return planned_steps > 1 || !failed.empty(); }
   const StepReport& last() const { return steps.back(); }
   bool converged() const;
   /// Why the last step ended; where another one failed and the last one did not, that one's reason.

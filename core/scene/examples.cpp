@@ -40,7 +40,8 @@ number or an expression. Where the traction is smaller the node sticks, else it 
 nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
 the motion since the last step. The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
-3 where it sticks. Some things to know:
+3 where it sticks. All keys of the report and the columns of `steps.csv` are in [solver.md](solver.md), "Steps". Some things
+to know:
 
 - The bound counts on all picked faces, the field `tangential_traction` is force over those that face the obstacle. At the
   edge of what is picked it may be larger than the bound.

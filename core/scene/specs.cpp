@@ -156,8 +156,8 @@ constexpr KeySpec plugins[] = {
 constexpr KeySpec output[] = {
     {"vtu", boolean, "true", "", "",
      "write the solution for ParaView, packed where it pays; `gap` is NaN where no obstacle can be reached"},
-    {"pictures", boolean, "true", "", "", "draw the convergence history and the result"},
-    {"convergence", boolean, "true", "", "", "write the convergence table"},
+    {"pictures", boolean, "true", "", "", "draw the convergence history and the result, and forces over several steps"},
+    {"convergence", boolean, "true", "", "", "write the tables: of convergence and, with several steps, `steps.csv`"},
 };
 
 const std::vector<TableSpec>& tables() {

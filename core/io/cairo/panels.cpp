@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "core/io/cairo/painter.hpp"
 #include "core/io/cairo/plot.hpp"
@@ -9,9 +11,11 @@ namespace {
 constexpr int panel_width = 640, panel_height = 560, raster_size = 450;
 constexpr Area figure{30, 60, raster_size, raster_size};  // of a panel
 
+constexpr Area palette_area{505, 85, 20, 400};
+
 /// The legend of the colours.
 void draw_palette(Sheet& sheet, double left, const std::string& label, const ColourRange& range) {
-  const Area area{left + 505, 85, 20, 400};
+  const Area area{left + palette_area.left, palette_area.top, palette_area.width, palette_area.height};
   for (int row = 0; row < area.height; ++row)
     sheet.fill({area.left, area.top + row}, area.width, 1, colour(1 - (row + 0.5) / area.height));
   Plot plot(sheet, area, {0, 1, {}}, linear_axis(range.low, range.high));
@@ -19,22 +23,85 @@ void draw_palette(Sheet& sheet, double left, const std::string& label, const Col
   plot.second_axis(label);
 }
 
+/// The legend of colours that have a meaning each.
+void draw_words(Sheet& sheet, double left, const std::string& label, const std::vector<std::string>& words) {
+  const Area area{left + palette_area.left, palette_area.top, palette_area.width, palette_area.height};
+  const auto count = static_cast<double>(words.size());
+  Axis axis{0, count, {}};
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const auto at = static_cast<double>(k);
+    axis.ticks.push_back({at + 0.5, words[k], ""});
+    sheet.fill({area.left, area.top + (count - 1 - at) / count * area.height}, area.width, area.height / count,
+               colour(at / (count - 1)));
+  }
+  Plot plot(sheet, area, {0, 1, {}}, axis);
+  sheet.frame({area.left, area.top}, area.width, area.height);
+  plot.second_axis(label);
+}
+
 void draw_raster(Sheet& sheet, double left, const Panel& panel) {
-  const ColourRange range = colour_range(panel.patches);
+  const bool numbers = panel.words.size() < 2;
+  const ColourRange range =
+      numbers ? colour_range(panel.patches) : ColourRange{0, static_cast<double>(panel.words.size() - 1)};
   const Raster raster = draw_patches(panel, range, raster_size);
   sheet.image({left + figure.left + (raster_size - raster.width) / 2, figure.top + (raster_size - raster.height) / 2},
               raster);
-  draw_palette(sheet, left, panel.label, range);
+  if (numbers)
+    draw_palette(sheet, left, panel.label, range);
+  else
+    draw_words(sheet, left, panel.label, panel.words);
 }
 
-void draw_curve(Sheet& sheet, double left, const Panel& panel) {
+struct Style {
+  Marker marker;
+  Stroke stroke;
+};
+/// Of lines, one after the other.
+Style style(std::size_t number) {
+  constexpr std::array<std::array<int, 3>, 4> colours{
+      {{0xb2, 0x18, 0x2b}, {0x21, 0x66, 0xac}, {0x1b, 0x78, 0x37}, {0x76, 0x2a, 0x83}}};
+  constexpr std::array<Marker, 3> markers{Marker::disk, Marker::square, Marker::circle};
+  return {markers[number % markers.size()], {colours[number % colours.size()], 2}};
+}
+
+/// What the lines with a name are, two in a row; the height of it.
+double draw_key(Sheet& sheet, double left, double top, const std::vector<Line>& lines) {
+  constexpr double between = 250, high = 20, length = 30;
+  std::size_t shown = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (lines[k].name.empty()) continue;
+    const auto [marker, stroke] = style(k);
+    const Spot at{left + between * static_cast<double>(shown % 2), top + high * (0.5 + static_cast<double>(shown / 2))};
+    if (lines[k].joined) sheet.line(at, {at.x + length, at.y}, stroke);
+    sheet.mark({at.x + length / 2, at.y}, marker, stroke);
+    sheet.text({at.x + length + 8, at.y}, lines[k].name, {0, 0.5});
+    ++shown;
+  }
+  return high * static_cast<double>((shown + 1) / 2);
+}
+
+void draw_lines(Sheet& sheet, double left, const Panel& panel) {
   std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
-  for (const auto& point : panel.curve)
-    for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], point[k]), high[k] = std::max(high[k], point[k]);
-  Plot plot(sheet, {left + 110, 60, raster_size, raster_size - 10}, widened_axis(low[0], high[0]),
+  for (const Line& line : panel.lines)
+    for (const auto& point : line.points) {
+      if (!std::isfinite(point[0]) || !std::isfinite(point[1])) continue;
+      for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], point[k]), high[k] = std::max(high[k], point[k]);
+    }
+  if (!(low[0] <= high[0])) return;
+  constexpr double one_value = 1e-3;  // relative: what differs less is shown over zero
+  if (high[1] - low[1] <= one_value * std::max(std::abs(low[1]), std::abs(high[1])))
+    low[1] = std::min(low[1], 0.0), high[1] = std::max(high[1], 0.0);
+  const double key = draw_key(sheet, left + 110, 50, panel.lines), top = 60 + key;
+  Plot plot(sheet, {left + 110, top, raster_size, 500 - top}, widened_axis(low[0], high[0]),
             widened_axis(low[1], high[1]));
-  plot.curve(panel.curve, Marker::disk, {{0xb2, 0x18, 0x2b}, 2});
-  plot.x_axis("");
+  for (std::size_t k = 0; k < panel.lines.size(); ++k) {
+    const auto [marker, stroke] = style(k);
+    if (panel.lines[k].joined)
+      plot.curve(panel.lines[k].points, marker, stroke);
+    else
+      plot.marks(panel.lines[k].points, marker, stroke);
+  }
+  plot.x_axis(panel.across);
   plot.y_axis(panel.label);
 }
 
@@ -45,8 +112,8 @@ void draw_panels(const std::filesystem::path& picture, const std::vector<Panel>&
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const double left = panel_width * static_cast<double>(k);
     sheet.text({left + panel_width / 2.0, 30}, panels[k].title, {});
-    if (panels[k].view == View::curve)
-      draw_curve(sheet, left, panels[k]);
+    if (panels[k].view == View::lines)
+      draw_lines(sheet, left, panels[k]);
     else
       draw_raster(sheet, left, panels[k]);
   }

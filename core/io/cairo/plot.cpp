@@ -7,7 +7,7 @@ namespace signorini {
 namespace {
 constexpr Stroke faint{{0xdd, 0xdd, 0xdd}, 1, false};
 constexpr std::size_t marks_up_to = 60;  ///< curves of more points have none
-constexpr double tick_length = 5, tick_gap = 9, label_gap = 68;
+constexpr double tick_length = 5, tick_gap = 9, label_gap = 78;
 }  // namespace
 
 Spot Plot::spot(double x, double y) const {
@@ -48,6 +48,11 @@ void Plot::second_axis(const std::string& label) {
     sheet_.text({at.x + tick_gap, at.y}, tick.text, {0, 0.5}, tick.power);
   }
   sheet_.text({right() + label_gap, area_.top + area_.height / 2}, label, {0.5, 0.5, true});
+}
+
+void Plot::marks(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke) {
+  for (const auto& [x, y] : points)
+    if (std::isfinite(x) && std::isfinite(y)) sheet_.mark(spot(x, y), marker, stroke);
 }
 
 void Plot::curve(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke) {

@@ -25,6 +25,8 @@ class Plot {
   void second_axis(const std::string& label);
   /// Points that are not numbers interrupt the line.
   void curve(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke);
+  /// The points alone.
+  void marks(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke);
 
  private:
   Spot spot(double x, double y) const;

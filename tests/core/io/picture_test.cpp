@@ -133,8 +133,8 @@ TEST_F(Picture, HoldsTheRastersOfItsPanels) {
   Panel panel;
   panel.patches = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {2, 2, 2}}, {{{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {2, 2, 2}}};
   Panel curve;
-  curve.view = View::curve;
-  curve.curve = {{0, 1}, {1, 2}};
+  curve.view = View::lines;
+  curve.lines.push_back({{{0, 1}, {1, 2}}});
   painter().panels(folder_ / "a.png", {panel});
   const Decoded one = drawn();
   painter().panels(folder_ / "a.png", {panel, curve});

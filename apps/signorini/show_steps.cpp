@@ -1,0 +1,104 @@
+#include "apps/signorini/show_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace signorini {
+namespace {
+
+using Vector = std::vector<double>;
+
+double length(const Vector& v) { return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0)); }
+
+/// Of the obstacles' numbers in the report's lists.
+std::string named(const StepReport& step, std::size_t k, const char* what) {
+  const std::string name = step.contact.size() > 1 ? fmt::format("obstacle {}", step.contact[k].obstacle) : "";
+  return name.empty() || *what == 0 ? name + what : name + ": " + what;
+}
+
+bool has_friction(const Report& report, std::size_t k) {
+  return std::ranges::any_of(report.steps, [&](const StepReport& step) {
+    return step.contact[k].slip_nodes + step.contact[k].stick_nodes > 0 || step.contact[k].dissipated > 0;
+  });
+}
+
+bool has_friction(const Report& report) {
+  for (std::size_t k = 0; k < report.last().contact.size(); ++k)
+    if (has_friction(report, k)) return true;
+  return false;
+}
+
+Line over_t(const Report& report, std::size_t k, Vector ContactReport::*force, std::string name) {
+  Line line{{{0, 0}}, std::move(name)};
+  for (const StepReport& step : report.steps) line.points.push_back({step.t, length(step.contact[k].*force)});
+  return line;
+}
+
+Panel forces_over_t(const Report& report) {
+  Panel panel;
+  panel.title = "forces of the obstacles";
+  panel.label = "force";
+  panel.across = "t";
+  panel.view = View::lines;
+  for (std::size_t k = 0; k < report.last().contact.size(); ++k) {
+    panel.lines.push_back(over_t(report, k, &ContactReport::normal_force, named(report.last(), k, "normal")));
+    if (has_friction(report, k))
+      panel.lines.push_back(over_t(report, k, &ContactReport::tangential_force, named(report.last(), k, "tangential")));
+  }
+  return panel;
+}
+
+/// How far what the force acts on has moved, see steps_panels().
+Vector displacement(const Report& report, const StepReport& step, std::size_t k) {
+  const ContactReport& contact = step.contact[k];
+  const auto probe = std::ranges::find(step.probes, contact.body, &ProbeReport::body);
+  Vector u = probe == step.probes.end() ? contact.displacement : probe->value;
+  const Vector& first = report.steps.front().contact[k].moment_about;
+  for (std::size_t i = 0; i < contact.moment_about.size(); ++i) u[i] -= contact.moment_about[i] - first[i];
+  return u;
+}
+
+/// What moves the body against the force of the obstacle, along the direction in which that is largest.
+Line over_displacement(const Report& report, std::size_t k, Vector ContactReport::*force, std::string name) {
+  const auto& largest = *std::ranges::max_element(
+      report.steps, {}, [&](const StepReport& step) { return length(step.contact[k].*force); });
+  Vector axis = largest.contact[k].*force;
+  const double size = length(axis);
+  Line line{{}, std::move(name)};
+  if (!(size > 0)) return line;
+  for (double& a : axis) a /= -size;
+  const auto along = [&](const Vector& v) { return std::inner_product(axis.begin(), axis.end(), v.begin(), 0.0); };
+  line.points.push_back({0, 0});
+  for (const StepReport& step : report.steps)
+    line.points.push_back({along(displacement(report, step, k)), -along(step.contact[k].*force)});
+  return line;
+}
+
+Panel force_over_displacement(const Report& report) {
+  const bool friction = has_friction(report);
+  const auto force = friction ? &ContactReport::tangential_force : &ContactReport::normal_force;
+  Panel panel;
+  panel.title = friction ? "tangential force over displacement" : "normal force over displacement";
+  panel.label = "force";
+  panel.across = "displacement against it";
+  panel.view = View::lines;
+  for (std::size_t k = 0; k < report.last().contact.size(); ++k) {
+    Line line =
+        over_displacement(report, k, force, report.last().contact.size() > 1 ? named(report.last(), k, "") : "");
+    if (!line.points.empty()) panel.lines.push_back(std::move(line));
+  }
+  return panel;
+}
+
+}  // namespace
+
+std::vector<Panel> steps_panels(const Report& report) {
+  std::vector<Panel> panels{forces_over_t(report), force_over_displacement(report)};
+  std::erase_if(panels, [](const Panel& panel) { return panel.lines.empty(); });
+  return panels;
+}
+
+}  // namespace signorini

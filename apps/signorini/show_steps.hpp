@@ -1,0 +1,15 @@
+#pragma once
+#include <vector>
+
+#include "core/io/picture.hpp"
+#include "core/io/report.hpp"
+
+namespace signorini {
+
+/// The panels of steps.png: the forces of the obstacles over t, and over the displacement. That is of the first probe
+/// of the obstacle's body, without one the mean of the surface that it may reach, less the motion of the obstacle's
+/// reference point since the first step. Where there is friction, tangential forces are shown over it, else normal
+/// ones. Empty where nothing touches.
+std::vector<Panel> steps_panels(const Report& report);
+
+}  // namespace signorini

@@ -1,0 +1,106 @@
+#include "driver/contact_report.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/scene/reference_point.hpp"
+#include "driver/numbers.hpp"
+
+namespace signorini {
+namespace {
+
+template <class Array>
+std::vector<double> list(const Array& array) {
+  return {array.begin(), array.end()};
+}
+
+template <int B>
+ContactReport totals(const ContactSummary<B>& contact, const std::optional<DeformedContact>& deformed) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, unknown});
+  ContactReport report;
+  report.nodes = contact.nodes;
+  report.area = contact.area;
+  report.force = list(contact.force);
+  report.max_pressure = contact.max_pressure;
+  report.slip_nodes = contact.slip_nodes;
+  report.stick_nodes = contact.stick_nodes;
+  report.normal_force = report.force;
+  for (int i = 0; i < B; ++i) report.normal_force[i] -= contact.tangential_force[i];
+  report.tangential_force = list(contact.tangential_force);
+  report.dissipated_in_step = report.dissipated = contact.dissipated;
+  report.undetermined_nodes = contact.undetermined_nodes;
+  report.undetermined_force = contact.undetermined_force;
+  report.largest_penetration = at.penetration;
+  report.largest_opening = at.opening;
+  report.largest_displacement = at.displacement;
+  return report;
+}
+
+/// Adds the moment of a force at a lever: three entries, or that about the z-axis alone.
+template <int D>
+void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::vector<double>& moment) {
+  moment.back() += lever[0] * force[1] - lever[1] * force[0];
+  if constexpr (D == 3) {
+    moment[0] += lever[1] * force[2] - lever[2] * force[1];
+    moment[1] += lever[2] * force[0] - lever[0] * force[2];
+  }
+}
+
+template <int D, int B>
+void add_moments(const Mesh<D>& mesh, const Results<D, B>& results, std::vector<ContactReport>& reports) {
+  if constexpr (B == D) {
+    for (ContactReport& report : reports) report.moment.resize(D == 2 ? 1 : 3);
+    for (const ContactNode<B>& node : results.contact.nodes) {
+      ContactReport& report = reports[node.obstacle];
+      Point<D> lever = mesh.points[node.vertex];
+      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
+      add_moment<D>(lever, node.force, report.moment);
+    }
+  }
+}
+
+/// Nodes that are open, and the mean displacement of those that each obstacle may reach.
+template <int D, int B>
+void add_reachable(const Results<D, B>& results, std::vector<ContactReport>& reports) {
+  std::vector<double> area(reports.size());
+  for (ContactReport& report : reports) report.displacement.resize(B);
+  for (const ContactNode<B>& node : results.contact.nodes) {
+    ContactReport& report = reports[node.obstacle];
+    report.open_nodes += !node.contact;
+    area[node.obstacle] += node.area;
+    for (int i = 0; i < B; ++i) report.displacement[i] += node.area * results.u[std::size_t(node.vertex) * B + i];
+  }
+  for (std::size_t k = 0; k < reports.size(); ++k)
+    for (double& u : reports[k].displacement) u = area[k] > 0 ? u / area[k] : 0;
+}
+
+}  // namespace
+
+template <int D, int B>
+std::vector<ContactReport> contact_reports(const Scene& scene, const Mesh<D>& mesh, const Results<D, B>& results,
+                                           double t, std::size_t body) {
+  const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
+  std::vector<ContactReport> reports;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    ContactReport& report = reports.emplace_back(totals(results.contact.obstacles[k], results.deformed[k]));
+    report.obstacle = numbers[k];
+    report.body = scene.bodies[body].name;
+    if (B == 1) continue;
+    const std::array<double, 3> about = reference_point(scene.obstacles[numbers[k]], t);
+    report.moment_about.assign(about.begin(), about.begin() + D);
+  }
+  add_moments(mesh, results, reports);
+  add_reachable(results, reports);
+  return reports;
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                                               \
+  template std::vector<ContactReport> contact_reports(const Scene&, const Mesh<D>&, const Results<D, B>&, double, \
+                                                      std::size_t);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+
+}  // namespace signorini
