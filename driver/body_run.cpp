@@ -108,6 +108,7 @@ template <int D, int B>
 StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_ = model(t);
   model_.follows = std::exchange(follows_, true);
+  place_before(scene_, D, std::exchange(last_t_, t), body_, model_);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);

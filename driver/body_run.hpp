@@ -21,7 +21,10 @@ class BodyRun {
           std::vector<std::string>& warnings);
 
   /// The next step is the first one of its steps: friction counts from the undeformed body.
-  void begin() { follows_ = false; }
+  void begin() {
+    follows_ = false;
+    last_t_ = 0;
+  }
   /// Solves the step at t, from the last solution where there is one, and says what came out. Errors: see NestedSolver.
   StepReport solve(double t, std::vector<std::string>& warnings);
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
@@ -55,6 +58,7 @@ class BodyRun {
   NestedSolver<D, B> solver_;
   Model<B> model_;  // of the last step
   bool follows_ = false;
+  double last_t_ = 0;  // of the last step
   Results<D, B> results_;
 };
 
