@@ -47,6 +47,9 @@ void register_linear_solvers(Registry& registry) {
   const std::string file = file_of(reinterpret_cast<const void*>(&register_linear_solvers));
   registry.add<LinearSolver>(
       {"linear", "cholmod", "supernodal Cholesky factorisation, for method \"pdas\"", {}, file, {}}, cholmod_solver);
+  registry.add<UnsymmetricSolver>(
+      {"unsymmetric", "umfpack", "unsymmetric multifrontal factorisation, for method \"newton\"", {}, file, {}},
+      umfpack_solver);
   registry.add<LinearSolver>({"linear",
                               "amg_cg",
                               "conjugate gradients with an algebraic multigrid cycle, for active sets of scalar "

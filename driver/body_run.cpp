@@ -75,6 +75,7 @@ template <int D, int B>
 void BodyRun<D, B>::accept() {
   accepted_ = results_.u;
   follows_ = true;
+  accepted_t_ = t_;
   solver_.accept();
 }
 
@@ -121,6 +122,8 @@ template <int D, int B>
 StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_ = model(t);
   model_.follows = follows_;
+  place_before(scene_, D, accepted_t_, body_, model_);
+  t_ = t;
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(mesh(), model_, solution);

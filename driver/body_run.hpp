@@ -21,7 +21,10 @@ class BodyRun {
           std::vector<std::string>& warnings);
 
   /// The next step is the first one of its steps: friction counts from the undeformed body.
-  void begin() { follows_ = false; }
+  void begin() {
+    follows_ = false;
+    accepted_t_ = 0;
+  }
   /// Tries the step at t, from the last solution that was accepted where there is one, and says what came out. Errors:
   /// see NestedSolver.
   StepReport solve(double t, std::vector<std::string>& warnings);
@@ -61,6 +64,7 @@ class BodyRun {
   Model<B> model_;                // of the last step
   std::vector<double> accepted_;  // displacements or values; empty: none yet
   bool follows_ = false;
+  double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;
 };
 

@@ -82,7 +82,7 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
                                           scene.type, found, most_directions));
   check_asked(*settings, origin);
   std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
-  return {std::move(shared), scene.on, origin, std::move(shape), std::move(settings)};
+  return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
 }
 
 template <int B>
@@ -117,6 +117,20 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   return model;
 }
 
+template <int B>
+void place_before(const Scene& scene, int dimension, double t, std::size_t body, Model<B>& model) {
+  std::size_t next = 0;
+  for (const int k : numbers_of(scene.obstacles, scene.bodies[body])) {
+    ObstacleTerm<B>& term = model.obstacles[next++];
+    const auto& shape = scene.obstacles[k].shape;
+    if (!term.obstacle->nonlinearity() || !shape || std::holds_alternative<Scene::SurfaceShape>(*shape)) continue;
+    term.shape_before = rigid_shape(*shape, dimension, t, term.origin);
+  }
+}
+
+template void place_before(const Scene&, int, double, std::size_t, Model<1>&);
+template void place_before(const Scene&, int, double, std::size_t, Model<2>&);
+template void place_before(const Scene&, int, double, std::size_t, Model<3>&);
 template Model<1> build_model(const Scene&, int, const Registry&, double, std::size_t);
 template Model<2> build_model(const Scene&, int, const Registry&, double, std::size_t);
 template Model<3> build_model(const Scene&, int, const Registry&, double, std::size_t);

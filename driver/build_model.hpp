@@ -10,4 +10,8 @@ namespace signorini {
 template <int B>
 Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t body = 0);
 
+/// Says where the model's obstacles were at the step parameter t of the last step: friction counts from there.
+template <int B>
+void place_before(const Scene& scene, int dimension, double t, std::size_t body, Model<B>& model);
+
 }  // namespace signorini

@@ -178,11 +178,32 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   add(motion, step);
   double size = 0, extent = 0;
   for (const double v : step) size = std::max(size, std::abs(v));
+  if (follows_solution(problem.segments) && slides_along(step, negligible * size)) return infinity;
   for (const double v : problem.constraints.last) extent = std::max(extent, std::abs(v));
   for (const Point<D>& x : mesh_.points)
     for (const double v : x) extent = std::max(extent, std::abs(v));
   for (const double v : step) far.push_back(v / size * (extent / negligible));
   return functional::slope(problem, far.data(), step.data());
+}
+
+// Whether a motion goes along an obstacle with a functional and does not leave it: functionals that follow the solution
+// may resist as much as loads press.
+template <int D, int B>
+bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least) const {
+  const Constraints<B>& c = discretization_.problem.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    if (discretization_.functional[slot] < 0) continue;
+    double away = 0, along = 0;
+    for (int k = 0; k < B; ++k) {
+      const double v = step[Offset{c.vector[slot]} * B + k];
+      if (c.tangential[slot] >> k & 1u)
+        along = std::max(along, std::abs(v));
+      else
+        away = std::max(away, v);
+    }
+    if (along > least && away <= least) return true;
+  }
+  return false;
 }
 
 /// The same of what presses on a vertex with faces, among which the force is divided.

@@ -42,12 +42,13 @@ constexpr double slender = 16;
 /// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
 constexpr int patience_with_matrix = 40;
 
-/// Friction opposes the motion since the last step, of which x is the solution.
+/// Friction opposes the motion since the last step, of which x is the solution, relative to the obstacle, whose own
+/// motion is there already.
 template <int B>
 void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
   Constraints<B>& c = problem.constraints;
   for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
-    std::copy_n(x.begin() + Offset{c.vector[slot]} * B, B, c.last.begin() + static_cast<Offset>(slot) * B);
+    for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
 }
 
 template <int D>

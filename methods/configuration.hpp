@@ -7,7 +7,7 @@
 
 namespace signorini {
 
-enum class Method { automatic, monotone, tnnmg, pgs, pdas };
+enum class Method { automatic, monotone, tnnmg, pgs, pdas, newton };
 
 /// How levels are chosen by the matrix: by interpolation from some of the vectors, or by smoothed aggregation.
 enum class Coarsening {

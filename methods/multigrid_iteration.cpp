@@ -55,7 +55,10 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
-      nonlinear_(multigrid_.finest().nonlinear) {}
+      nonlinear_(multigrid_.finest().nonlinear),
+      renewal_(options) {
+  multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
+}
 
 template <int B>
 std::vector<Index> MultigridIteration<B>::unknowns() const {
@@ -71,6 +74,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
   multigrid_.extend_steps(!free && may_turn_ && rests_);
+  if (this->follows() && renewal_.due()) multigrid_.renew(this->data_, renewal_.part());
   ++cycles_;
   sums = {};
   recombination_.begin();
@@ -93,22 +97,27 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
-  const double error = idle ? infinity : estimate_.error();
+  const double error = idle ? infinity : remaining_error();
   // Where the linear model has no minimum, the functional may well have one.
   Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, {}};
   rests_ = rests(cycle.finest());
   compare_gains(free, cycle.cut_off);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds
-  if (nonlinear_) return step;                    // nothing else can treat functionals
+  if (this->follows()) {
+    renewal_.add(sums.natural_residual);
+    step.stuck = renewal_.stuck();
+  }
+  if (nonlinear_) return step;  // nothing else can treat functionals
   if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 
+// Where functionals follow the solution the steps are those of a fixed point iteration, too.
 template <int B>
-void MultigridIteration<B>::renew(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last) {
-  multigrid_.renew(x.data(), r.data(), first, last);
+double MultigridIteration<B>::remaining_error() const {
+  return this->follows() ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
 }
 
 template <int B>
@@ -188,7 +197,7 @@ void MultigridIteration<B>::set_forces() {
 
 template <int B>
 void MultigridIteration<B>::renew_forces() {
-  if (forces_.empty()) {
+  if (forces_.empty() || this->follows()) {
     forces_ = this->r_before_;
     multigrid_.subtract_gradient(this->x_before_.data(), forces_.data());
   }
@@ -209,7 +218,9 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
     if (admissible && !nonlinear_) this->add_sums(x_trial_, r_trial_, first, last, sums);
   });
   if (!admissible) return false;
+  data_trial_ = this->data_;
   if (nonlinear_) sums = this->evaluate(x_trial_, r_trial_);
+  data_trial_.swap(this->data_);
   if (!(sums.gain >= this->sums_.gain)) return false;
   const double bound = cycle.rounding > 0 ? cycle.rounding : rounding_of_work(multigrid_.finest());  // a single level
   const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));
@@ -217,6 +228,7 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   if (!falls_far && !(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
   this->x_.swap(x_trial_);
   this->r_.swap(r_trial_);
+  this->data_.swap(data_trial_);
   this->sums_ = sums;
   return true;
 }
@@ -227,7 +239,8 @@ void MultigridIteration<B>::add_gain() {
   this->refuse_nan(sums.size);
 #ifdef SIGNORINI_CHECKS
   // A step between nearly parallel facets is known to rounding over their angle only: there this does not tell.
-  if (this->problem_.constraints.facet.empty())
+  // Sweeps that follow the solution lower no energy.
+  if (this->problem_.constraints.facet.empty() && multigrid_.finest().frozen)
     assert(sums.gain >= -1e-8 * sums.size - rounding_of_gain() && "the energy must never grow");
 #endif
   estimate_.add(sums.gain, std::sqrt(std::max(sums.correction, 0.0)));

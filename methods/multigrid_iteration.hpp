@@ -3,6 +3,7 @@
 #include "core/solver/multigrid.hpp"
 #include "core/solver/recombination.hpp"
 #include "methods/configuration.hpp"
+#include "methods/renewal.hpp"
 #include "methods/stages.hpp"
 
 namespace signorini {
@@ -24,7 +25,6 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Index> unknowns() const override;
   std::string method() const override;
   Step advance() override;
-  void renew(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last) override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
   bool goes_without_bounds() const;
   void compare_gains(bool free, bool cut_off);
@@ -33,6 +33,7 @@ class MultigridIteration final : public Iteration<B> {
   bool take_combination(const CycleReport& cycle);
   void set_forces();
   void renew_forces();
+  double remaining_error() const;
   void add_gain();
   double rounding_of_gain() const;
 
@@ -50,8 +51,9 @@ class MultigridIteration final : public Iteration<B> {
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
-  std::vector<double> x_trial_, r_trial_;       // empty without acceleration
-  std::vector<double> forces_, forces_before_;  // empty without functionals
+  Renewal renewal_;
+  std::vector<double> x_trial_, r_trial_, data_trial_;  // empty without acceleration
+  std::vector<double> forces_, forces_before_;          // empty without functionals
 };
 
 }  // namespace signorini

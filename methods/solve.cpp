@@ -12,6 +12,7 @@
 #include "methods/configuration.hpp"
 #include "methods/interior_point.hpp"
 #include "methods/multigrid_iteration.hpp"
+#include "methods/newton.hpp"
 #include "methods/stages.hpp"
 
 namespace signorini {
@@ -56,6 +57,7 @@ class Automatic {
  private:
   bool unsolved() const {
     if (!situation_.begun) return true;
+    if (has_functional(problem_.segments)) return false;
     if (steps_ >= options_.max_iterations) return false;
     return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
   }
@@ -167,9 +169,10 @@ std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>&
     if (has_functional(problem.segments))
       input_error("solver.method",
                   "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
-                  "expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+                  "expected 'auto', 'monotone', 'tnnmg' or 'pgs', or 'newton' for friction");
     return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
   }
+  if (method == Method::newton) return std::make_unique<NewtonIteration<B>>(problem, x, options, registry);
   SolverOptions own = options;
   if (method == Method::pgs) {  // what is left without coarser levels
     own.coarse = "pgs";

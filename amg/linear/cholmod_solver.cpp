@@ -4,11 +4,22 @@
 
 namespace signorini {
 
-std::unique_ptr<LinearSolver> cholmod_solver() {
-  using Create = LinearSolver* (*)();
-  static const auto create = reinterpret_cast<Create>(
-      load_function(core_folder() / "libsignorini_cholmod.so", "signorini_linear_solver", "the direct solver"));
-  return std::unique_ptr<LinearSolver>(create());
+namespace {
+
+template <class Solver>
+std::unique_ptr<Solver> create(const char* function) {
+  using Create = Solver* (*)();
+  static const auto create =
+      reinterpret_cast<Create>(load_function(core_folder() / "libsignorini_cholmod.so", function, "the direct solver"));
+  return std::unique_ptr<Solver>(create());
+}
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> cholmod_solver() { return create<LinearSolver>("signorini_linear_solver"); }
+
+std::unique_ptr<UnsymmetricSolver> umfpack_solver() {
+  return create<UnsymmetricSolver>("signorini_unsymmetric_solver");
 }
 
 }  // namespace signorini

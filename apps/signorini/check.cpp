@@ -54,8 +54,9 @@ template <int D, int B>
 void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
   std::vector<std::set<Index>> candidates(numbers.size());
-  std::vector<double> data;
-  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model, data)) candidates[bound.obstacle].insert(bound.vertex);
+  std::vector<FunctionalNumbers<B>> functionals;
+  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model, functionals))
+    candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
                scene.obstacles[numbers[k]].type, candidates[k].size());
@@ -67,7 +68,7 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
   fmt::print("solver: method {}\n",
              options.method == "auto" ? "auto: " + automatic::describe(options, aggregates, block, unknowns, functional)
                                       : options.method);
-  if (options.method == "pdas") return;
+  if (options.method == "pdas" || options.method == "newton") return;
   if (options.method == "pgs") {
     fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
     return;

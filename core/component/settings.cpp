@@ -118,6 +118,13 @@ class CompiledSettings final : public Settings {
   std::size_t length(const char* name) const noexcept override { return get<std::vector<Field>>(name).size(); }
   const DistanceFunction* shape() const noexcept override { return shape_.get(); }
 
+  bool constant(const char* name, double& value) const noexcept override {
+    const auto& fields = get<std::vector<Field>>(name);
+    if (fields.size() != 1 || !fields[0].constant()) return false;
+    value = *fields[0].constant();
+    return true;
+  }
+
   double value(const char* name, std::size_t k, const double* point, const double* normal,
                Status& status) const noexcept override {
     try {

@@ -9,6 +9,7 @@
 #include "core/component/failure.hpp"
 #include "core/component/settings.hpp"
 #include "core/fem/element.hpp"
+#include "core/fem/obstacle_motion.hpp"
 #include "core/fem/select.hpp"
 #include "core/sdk/polyhedron.hpp"
 
@@ -66,8 +67,9 @@ struct Candidates {
 template <int D, int B>
 class Collector {
  public:
-  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds, std::vector<double>& data)
-      : mesh_(mesh), model_(model), bounds_(bounds), data_(data), constraints_(batch) {}
+  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds,
+            std::vector<FunctionalNumbers<B>>& functionals)
+      : mesh_(mesh), model_(model), bounds_(bounds), functionals_(functionals), constraints_(batch) {}
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
@@ -99,7 +101,7 @@ class Collector {
     if (!status.ok()) throw_failure(status, term.origin);
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       check_directions(numbers_[i], constraints_[i].directions);
-      for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], constraints_[i], k);
+      for (int k = 0; k < constraints_[i].directions; ++k) add(vertices_[i], constraints_[i], k);
     }
     numbers_.clear();
     vertices_.clear();
@@ -112,7 +114,8 @@ class Collector {
                               model_.obstacles[obstacle_].origin, directions, position(mesh_, vertex), B));
   }
 
-  void add(Index vertex, const LocalConstraint<B>& constraint, int k) {
+  void add(const SurfaceVertex& at, const LocalConstraint<B>& constraint, int k) {
+    const auto vertex = static_cast<Index>(at.vertex);
     Bound<B> bound{vertex, obstacle_, {}, constraint.lower[k], constraint.upper[k]};
     std::copy_n(constraint.direction[k], B, bound.direction.begin());
     const double length = normalise(bound.direction);
@@ -129,10 +132,18 @@ class Collector {
                               position(mesh_, vertex)));
     const bool bounded = bound.lower > -infinity || bound.upper < infinity;
     if (functional_ && k == 0 && (has_data(constraint, vertex) || bounded)) {
-      bound.data = static_cast<Index>(data_.size() / most_data);
-      data_.insert(data_.end(), std::begin(constraint.data), std::end(constraint.data));
+      bound.data = static_cast<Index>(functionals_.size());
+      add_functional(at, constraint);
     }
     if (bound.data >= 0 || bounded) bounds_.push_back(bound);
+  }
+
+  void add_functional(const SurfaceVertex& at, const LocalConstraint<B>& constraint) {
+    Status status;
+    FunctionalNumbers<B>& numbers = functionals_.emplace_back();
+    std::copy(std::begin(constraint.data), std::end(constraint.data), numbers.data.begin());
+    numbers.motion = obstacle_motion(model_.obstacles[obstacle_], at, status);
+    if (!status.ok()) throw_failure(status, model_.obstacles[obstacle_].origin);
   }
 
   // Any but zeros.
@@ -150,7 +161,7 @@ class Collector {
   const Mesh<D>& mesh_;
   const Model<B>& model_;
   std::vector<Bound<B>>& bounds_;
-  std::vector<double>& data_;
+  std::vector<FunctionalNumbers<B>>& functionals_;
   Index obstacle_ = 0;
   bool functional_ = false;
   std::vector<Index> numbers_;
@@ -161,9 +172,10 @@ class Collector {
 }  // namespace
 
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model, std::vector<double>& data) {
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model,
+                                     std::vector<FunctionalNumbers<B>>& numbers) {
   std::vector<Bound<B>> bounds;
-  Collector<D, B> collector(mesh, model, bounds, data);
+  Collector<D, B> collector(mesh, model, bounds, numbers);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k) collector.collect(static_cast<Index>(k));
   if (model.obstacles.size() > 1)
     std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
@@ -362,10 +374,10 @@ void BoundCombiner<D, B>::no_solution(Index obstacle, Index vertex, const std::s
                                              position(mesh_, vertex), why));
 }
 
-template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&, std::vector<double>&);
-template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&, std::vector<double>&);
-template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&, std::vector<double>&);
-template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&, std::vector<double>&);
+template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
+template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
+template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&, std::vector<FunctionalNumbers<2>>&);
+template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&, std::vector<FunctionalNumbers<3>>&);
 template class BoundCombiner<2, 1>;
 template class BoundCombiner<3, 1>;
 template class BoundCombiner<2, 2>;

@@ -10,15 +10,23 @@ struct Bound {
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> direction;
   double lower, upper;
-  Index data = -1;  ///< number of the obstacle's own numbers, where it has a functional here
+  Index data = -1;  ///< place of its FunctionalNumbers, where the obstacle has a functional here
+};
+
+/// What an obstacle with a functional says at a vertex beside its bound.
+template <int B>
+struct FunctionalNumbers {
+  std::array<double, most_data> data;  ///< LocalConstraint::data
+  std::array<double, B> motion;        ///< of the obstacle since the last load step: obstacle_motion()
 };
 
 /// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides unless a
 /// functional comes with them. An obstacle that fails is an Error with its code; a bound that no number satisfies is an
 /// Error(Exit::no_solution).
-/// @param data most_data numbers for each functional are appended, see Bound::data
+/// @param numbers of each functional are appended, see Bound::data
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model, std::vector<double>& data);
+std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model,
+                                     std::vector<FunctionalNumbers<B>>& numbers);
 
 /// One direction of a local constraint and the obstacles its two bounds come from.
 template <int B>

@@ -1,5 +1,8 @@
 #include "core/fem/discretize.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +10,7 @@
 
 #include "core/algebra/local_basis.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/magnitude.hpp"
@@ -49,13 +53,13 @@ class Discretizer {
       : mesh_(mesh),
         model_(model),
         fixes_(collect_fixes(mesh, model)),
-        bounds_(collect_bounds(mesh, model, data_)),
+        bounds_(collect_bounds(mesh, model, functionals_)),
         combiner_(mesh, model, bounds_, fixes_) {
     const std::size_t n = mesh.points.size();
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);
     problem().constraints.slot.assign(n, -1);
-    if (!data_.empty())
+    if (!functionals_.empty())
       for (const ObstacleTerm<B>& term : model.obstacles)
         if (term.obstacle->nonlinearity())
           constraints().width = std::max(constraints().width, term.obstacle->descriptor().data);
@@ -173,6 +177,7 @@ class Discretizer {
     if (B > 1 && (constrained || (fixed && fixed->count < B && !fixed->along_axes())))
       add_frame(p, combined, fixed, !faces.empty());
     if (constrained && constraints().width > 0) add_functional(p, functional);
+    if (functional) refuse_unknown_force(p, *functional, !faces.empty());
     if (!faces.empty()) add_facets(p, faces);
     if (constrained) own_.push_back(!functional && (!faces.empty() || combiner_.mixes_types()));
   }
@@ -185,8 +190,12 @@ class Discretizer {
     constraints().tangential.push_back(0);
     constraints().last.resize(constraints().last.size() + B);
     if (!bound) return;
-    std::copy_n(data_.begin() + Offset{bound->data} * most_data, constraints().width, data.end() - constraints().width);
+    const FunctionalNumbers<B>& numbers = functionals_[bound->data];
+    std::copy_n(numbers.data.begin(), constraints().width, data.end() - constraints().width);
     const double* N = problem().frames.dual_at(p);
+    double* last = constraints().last.data() + constraints().last.size() - B;  // of what sticks to the obstacle
+    std::copy_n(numbers.motion.begin(), B, last);
+    if (N) block::transposed_product<B>(N, numbers.motion.data(), last);
     for (int k = 0; k < B; ++k) {
       double across = 0;
       for (int i = 0; i < B; ++i) across += (N ? N[i * B + k] : i == k ? 1.0 : 0.0) * bound->direction[i];
@@ -195,6 +204,23 @@ class Discretizer {
       const std::size_t at = constraints().lower.size() - B + static_cast<std::size_t>(k);
       constraints().lower[at] = constraints().upper[at] = problem().start[Offset{p} * B + k];
     }
+  }
+
+  /// A functional that follows the force along its direction has to know that.
+  void refuse_unknown_force(Index p, const Bound<B>& bound, bool has_faces) const {
+    const ObstacleTerm<B>& term = model_.obstacles[bound.obstacle];
+    const Nonlinearity<B>& phi = *term.obstacle->nonlinearity();
+    FrictionLaw law;
+    if (!phi.follows_solution() || (phi.friction(functionals_[bound.data].data.data(), law) && law.coefficient == 0))
+      return;
+    const bool held = out_.problem.fixed[p] & ~out_.problem.constraints.tangential.back();
+    if (!has_faces && !held) return;
+    input_error(term.origin,
+                fmt::format("at ({}) {}, so that the force that friction depends on is not known there, which is not "
+                            "available in this version",
+                            fmt::join(mesh_.points[p], ", "),
+                            has_faces ? "other obstacles hold the body along other directions"
+                                      : "a fix prescribes the displacement along the normal"));
   }
 
   void prescribe_global(Index p, const FixedDirections<B>& fixed) {
@@ -318,8 +344,8 @@ class Discretizer {
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
-  std::vector<char> own_;     // per slot: ruled by the kernel's own obstacle
-  std::vector<double> data_;  // of functionals, see Bound::data
+  std::vector<char> own_;                          // per slot: ruled by the kernel's own obstacle
+  std::vector<FunctionalNumbers<B>> functionals_;  // see Bound::data
   std::vector<Bound<B>> bounds_, held_;
   BoundCombiner<D, B> combiner_;
 };

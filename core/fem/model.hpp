@@ -45,6 +45,8 @@ struct ObstacleTerm {
   std::string origin;
   /// Of a rigid obstacle: bounds at a vertex are its distances to this shape.
   std::shared_ptr<const DistanceFunction> shape = {};
+  /// The same where it was at the last load step; null where that is not known, or it does not move.
+  std::shared_ptr<const DistanceFunction> shape_before = {};
   /// Where it has any: they know what the obstacle wrongly asked of them.
   std::shared_ptr<const Settings> settings = {};
 };

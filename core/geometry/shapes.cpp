@@ -24,20 +24,31 @@ Point<3> minus(const Point<3>& a, const Point<3>& b) { return {a[0] - b[0], a[1]
 /// The parameters of a shape at a site, and what its distance is there.
 using Evaluation = std::function<Distance(const Site&)>;
 
+using Place = std::function<Placement(const Site&)>;
+
 class Shape : public DistanceFunction {
  public:
-  Shape(Evaluation evaluation, double t) : evaluation_(std::move(evaluation)), t_(t) {}
+  Shape(Evaluation evaluation, double t, Place place = {})
+      : evaluation_(std::move(evaluation)), place_(std::move(place)), t_(t) {}
+
+  void place(const double* point, const double* normal, Placement& out, Status& status) const noexcept override {
+    if (!place_) return;
+    try {
+      out = place_(site(point, normal));
+      return;
+    } catch (const Error& error) {
+      status.fail(static_cast<int>(error.status()), error.what());
+    } catch (const std::exception& error) {
+      status.fail(static_cast<int>(Exit::input), error.what());
+    }
+  }
 
   Distance at(const double* point, const double* normal, Status& status) const noexcept override {
     try {
-      Site site;
-      std::copy_n(point, 3, site.x);
-      std::copy_n(normal, 3, site.n);
-      site.t = t_;
       // Checked first: the library's hypot of three numbers loses a NaN.
       if (!std::all_of(point, point + 3, [](double x) { return std::isfinite(x); }))
         input_error("point", "the distance to the obstacle was asked for at a point that is not finite");
-      const Distance d = evaluation_(site);
+      const Distance d = evaluation_(site(point, normal));
       if (std::isfinite(d.value + d.normal[0] + d.normal[1] + d.normal[2])) return d;
       status.fail(static_cast<int>(Exit::input), "the distance to the obstacle is not finite");
     } catch (const Error& error) {
@@ -49,9 +60,22 @@ class Shape : public DistanceFunction {
   }
 
  private:
+  Site site(const double* point, const double* normal) const {
+    Site out;
+    std::copy_n(point, 3, out.x);
+    std::copy_n(normal, 3, out.n);
+    out.t = t_;
+    return out;
+  }
+
   Evaluation evaluation_;
+  Place place_;
   double t_;
 };
+
+Placement placement(const Point<3>& origin, const Point<3>& axis = {}) {
+  return {{origin[0], origin[1], origin[2]}, {axis[0], axis[1], axis[2]}};
+}
 
 Point<3> value(const Vector& fields, const Site& site) {
   Point<3> v{};
@@ -114,7 +138,7 @@ std::unique_ptr<DistanceFunction> plane(const Vector& point, const Vector& norma
         const Point<3> n = direction(normal, site, "normal", origin);
         return {dot(minus({site.x[0], site.x[1], site.x[2]}, value(point, site)), n), {n[0], n[1], n[2]}};
       },
-      t);
+      t, [=](const Site& site) { return placement(value(point, site), direction(normal, site, "normal", origin)); });
 }
 
 std::unique_ptr<DistanceFunction> sphere(const Vector& center, const Field& radius, bool inside, double t,
@@ -125,7 +149,7 @@ std::unique_ptr<DistanceFunction> sphere(const Vector& center, const Field& radi
         const Point<3> offset = minus({site.x[0], site.x[1], site.x[2]}, value(center, site));
         return radial(offset, positive(radius, site, "radius", origin), inside, {1, 0, 0});
       },
-      t);
+      t, [=](const Site& site) { return placement(value(center, site)); });
 }
 
 std::unique_ptr<DistanceFunction> cylinder(const Vector& center, const Vector& axis, const Field& radius, bool inside,
@@ -139,7 +163,7 @@ std::unique_ptr<DistanceFunction> cylinder(const Vector& center, const Vector& a
         offset = minus(offset, scaled(dot(offset, a), a));
         return radial(offset, positive(radius, site, "radius", origin), inside, orthogonal(a));
       },
-      t);
+      t, [=](const Site& site) { return placement(value(center, site), direction(axis, site, "axis", origin)); });
 }
 
 std::unique_ptr<DistanceFunction> expression(const Field& distance, const Vector& normal, int dimension, double length,

@@ -35,10 +35,14 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 
 A warning is given where one of them is over 1 % of the displacements there.
 
-**Friction.** `tresca` is contact with a rigid obstacle, and friction with a given `bound` on the tangential traction, a
-number or an expression. Where the traction is smaller the node sticks, else it slips against it. The bound holds on all
-nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
-the motion since the last step. The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
+**Friction.** `coulomb` is contact with a rigid obstacle, and friction whose tangential force at a node is at most the
+coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential
+traction. Both are numbers or expressions. Where the traction is smaller the node sticks, else it slips against it. The bound of `tresca` holds on
+all nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
+the motion since the last step. An obstacle whose `point`, `center`,
+`normal` or `axis` depends on `t` drags the body with it: what counts is the motion along the obstacle relative to it. (From
+one step to the next it turns the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape
+`expression` and `surface` do not drag.) The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
 3 where it sticks. All keys of the report and the columns of `steps.csv` are in [solver.md](solver.md), "Steps". Some things
 to know:
@@ -46,6 +50,11 @@ to know:
 - The bound counts on all picked faces, the field `tangential_traction` is force over those that face the obstacle. At the
   edge of what is picked it may be larger than the bound.
 - Nodes all of whose components are prescribed have no friction; they count in `nodes` alone.
+- With `coulomb` a fix must not prescribe the displacement along the obstacle's normal, and no other obstacle may hold the
+  body along another direction, where there is friction: the force that presses is not known there. Such scenes are refused.
+- For large coefficients Coulomb's law may have no solution, or several. Where the iteration finds none it ends with exit
+  status 3 and says so ([solver.md](solver.md), "Friction").
+- `friction = 0` is contact without friction, to the last bit.
 - At a vertex one obstacle has friction, and no other holds there along another direction. Two that meet at a vertex are
   refused: take one with an expression as its bound. A fix is along the obstacle's normal or across it, else it is refused.
 - A body that nothing but very little friction holds along the surface (bounds below a thousandth of the modulus times the

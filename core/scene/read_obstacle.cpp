@@ -27,7 +27,7 @@ Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std
 /// Their keys are no fault of the user's: what is missing is the type.
 void refuse_later_type(const TableReader& reader, const std::string& type) {
   if (type.empty()) input_error(reader.origin("type"), "the type is empty, expected one of `signorini list obstacles`");
-  for (const char* key : {"friction", "other", "other_on", "other_where"})
+  for (const char* key : {"other", "other_on", "other_where"})
     if (is_later_obstacle(type) && reader.given(key))
       input_error(reader.origin("type"), fmt::format("type = '{}' is not available in this version", type));
 }

@@ -91,7 +91,6 @@ constexpr KeySpec obstacle[] = {
     {"on", text, "", "", "", on_help},
     {"where", condition, "", "", "", where_help},
     {"shape", text, "", "", "", "one of the obstacle shapes below, for plugins that want a rigid obstacle"},
-    {"friction", field, "", "[0, inf)", every_value, "coefficient of friction"},
     {"other", text, "", "", every_value, "name of the second body"},
     {"other_on", text, "", "", every_value, "part of the second body"},
     {"other_where", condition, "", "", every_value, "faces of the second body"},
@@ -209,9 +208,7 @@ const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view nam
 std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }
 std::vector<std::string> names_of(std::span<const ShapeSpec> all) { return names(all); }
 
-bool is_later_obstacle(std::string_view type) {
-  return type == "coulomb" || type == "elastic" || type == "elastic_coulomb";
-}
+bool is_later_obstacle(std::string_view type) { return type == "elastic" || type == "elastic_coulomb"; }
 
 std::vector<std::string> all_names(const TableSpec& table) {
   std::vector<std::string> all = names_of(table.keys);

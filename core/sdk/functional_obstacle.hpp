@@ -14,6 +14,7 @@ struct Slot {
   const double* data;           ///< as LocalConstraint::data
   const double* last;           ///< its values after the last load step, zero in the first
   Flags tangential;             ///< components orthogonal to the obstacle's direction
+  bool frozen = true;           ///< as LevelView::frozen
 };
 
 /// An obstacle with bounds in local coordinates and a functional phi. What is left to an implementation is
@@ -92,12 +93,13 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
     });
   }
 
- private:
+ protected:
   static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
     return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
-            level.last + Offset{slot} * B, level.tangential[slot]};
+            level.last + Offset{slot} * B,  level.tangential[slot],         level.frozen};
   }
 
+ private:
   /// False where faces leave nothing admissible.
   static bool minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {
     const Index p = level.constrained[slot];
@@ -106,10 +108,12 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
       Local::minimise(slot_of(level, slot), M, r, x, y);
       return true;
     }
+    Slot<B> convex = slot_of(level, slot);
+    convex.frozen = true;
     const auto with_force = [&](const double* force, double* out) {
       double sum[B];
       for (int i = 0; i < B; ++i) sum[i] = r[i] + force[i];
-      Local::minimise(slot_of(level, slot), M, sum, x, out);
+      Local::minimise(convex, M, sum, x, out);
     };
     double stiffness[B];
     for (int i = 0; i < B; ++i) stiffness[i] = M[i * (B + 1)];

@@ -17,6 +17,18 @@ Nonlinearity<B>::~Nonlinearity() = default;
 template <int B>
 void Nonlinearity<B>::renew(const LevelView<B>&, Index, Index, const double*, double*) const noexcept {}
 
+template <int B>
+bool Nonlinearity<B>::follows_solution() const noexcept {
+  return false;
+}
+
+template <int B>
+bool Nonlinearity<B>::friction(const double*, FrictionLaw&) const noexcept {
+  return false;
+}
+
+void DistanceFunction::place(const double*, const double*, Placement&, Status&) const noexcept {}
+
 template class Obstacle<1>;
 template class Obstacle<2>;
 template class Obstacle<3>;

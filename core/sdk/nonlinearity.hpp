@@ -14,6 +14,11 @@ struct Linearisation {
   Flags* critical;  ///< on entry what the bounds hold; components in which phi is not smooth are added
 };
 
+/// Friction at a slot: its tangential force is at most bound + coefficient * (the force that presses).
+struct FrictionLaw {
+  double coefficient, bound;
+};
+
 /// What an obstacle adds to the energy beside its bounds: the sum of phi_p(x_p) over its slots, each phi_p convex and
 /// piecewise smooth while LevelView::data rest (Krause, 2.3; Graeser and Kornhuber 2009). An optional extension of
 /// Obstacle: see Obstacle::nonlinearity(). Plugins derive from FunctionalObstacle (core/sdk/functional_obstacle.hpp).
@@ -35,9 +40,17 @@ class Nonlinearity {
   virtual void linearise(const LevelView<B>& level, Index first, Index last,
                          const Linearisation<B>& out) const noexcept = 0;
 
+  /// Whether phi depends on the solution, and with it the data that renew() writes.
+  virtual bool follows_solution() const noexcept;
+
   /// Renews data that are frozen during a cycle from the iterate level.x and r = b - A x, as the normal force in
-  /// Coulomb's bound. @param data LevelView::data, to be written
+  /// Coulomb's bound. @param data written like LevelView::data, which it need not be
   virtual void renew(const LevelView<B>& level, Index first, Index last, const double* r, double* data) const noexcept;
+
+  /// Where phi is friction on the tangential components its law, for methods with a formulation of their own.
+  /// @param data of one slot
+  /// @return false: it is anything else
+  virtual bool friction(const double* data, FrictionLaw& law) const noexcept;
 };
 
 }  // namespace signorini

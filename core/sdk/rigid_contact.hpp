@@ -5,7 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/sdk/block.hpp"
-#include "core/sdk/obstacle.hpp"
+#include "core/sdk/box_obstacle.hpp"
 
 namespace signorini {
 
@@ -57,6 +57,23 @@ class RigidContact {
 
   const DistanceFunction* shape_;
   bool body_normal_;
+};
+
+/// Contact and nothing else.
+template <int B>
+class FrictionlessContact : public BoxObstacle<B> {
+ public:
+  FrictionlessContact(const Settings& settings, const char* type) : contact_(settings, type) {}
+
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", B, 1}}}; }
+
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
+                Status& status) const noexcept override {
+    for (std::size_t k = 0; k < count && status.ok(); ++k) contact_.assemble(vertices[k], constraints[k], status);
+  }
+
+ private:
+  RigidContact<B> contact_;
 };
 
 }  // namespace signorini

@@ -24,11 +24,19 @@ struct Distance {
   double normal[3];
 };
 
+/// Where a rigid obstacle is: a point of it, and a unit vector that turns with it, zero where it has none. Two of them
+/// say how it has moved in between.
+struct Placement {
+  double origin[3] = {}, axis[3] = {};
+};
+
 class DistanceFunction {
  public:
   virtual ~DistanceFunction();
   /// Distance at a point [3] with outer body normal [3]; never throws, a failed evaluation sets status.
   virtual Distance at(const double* point, const double* normal, Status& status) const noexcept = 0;
+  /// Where the obstacle is that `point` meets; stays as it is for obstacles that never move.
+  virtual void place(const double* point, const double* normal, Placement& out, Status& status) const noexcept;
 };
 
 /// The values a user gave to a component's options, already validated against its specs; defaults are filled in.
@@ -42,6 +50,8 @@ class Settings {
   virtual double number(const char* name) const noexcept = 0;
   virtual const char* text(const char* name) const noexcept = 0;
   virtual std::size_t length(const char* name) const noexcept = 0;  ///< of a vector
+  /// Whether a field is a number, not an expression; then `value` is that number.
+  virtual bool constant(const char* name, double& value) const noexcept = 0;
   /// Value of a field, or of entry k of a vector, at a point [3] with outer normal [3].
   virtual double value(const char* name, std::size_t k, const double* point, const double* normal,
                        Status& status) const noexcept = 0;

@@ -7,9 +7,14 @@
 
 namespace signorini {
 
+namespace {
+
+constexpr double slowest = 0.999;  // ratio of steps that is believed
+
+}  // namespace
+
 void ErrorEstimate::add(double gain, double correction) {
-  gain = std::abs(gain);  // a negative one is rounding, which hides as much
-  constexpr double slowest = 0.999;
+  gain = std::abs(gain);           // a negative one is rounding, which hides as much
   constexpr double caution = 1.1;  // the last gains are the fast components', what is left the slow ones
   // Until there are two gains nothing is known of the rate: a middling one, 0.7.
   double ratio = 0.5;
@@ -21,6 +26,16 @@ void ErrorEstimate::add(double gain, double correction) {
   error_ = caution * std::sqrt(2 * gain * ratio / (1 - ratio));
   gains_.push_back(gain);
   corrections_.push_back(correction);
+}
+
+double ErrorEstimate::error_of_steps() const {
+  const std::size_t n = corrections_.size();
+  if (n == 0) return 0;
+  double ratio = 0.7;
+  if (n > 1 && corrections_[n - 2] > 0) ratio = corrections_[n - 1] / corrections_[n - 2];
+  if (n > 2 && corrections_[n - 3] > 0) ratio = std::max(ratio, std::sqrt(corrections_[n - 1] / corrections_[n - 3]));
+  ratio = std::min(ratio, slowest);
+  return corrections_[n - 1] * ratio / (1 - ratio);
 }
 
 double ErrorEstimate::rate() const {

@@ -15,6 +15,8 @@ class ErrorEstimate {
   void add(double gain, double correction);
   /// Estimate of ||x - x*||_A after the last cycle.
   double error() const { return error_; }
+  /// The same by the steps alone, which fall geometrically, too, where the energy changes from cycle to cycle.
+  double error_of_steps() const;
   /// Mean reduction of the correction's energy norm over the last (at most four) cycles with one above rounding;
   /// `unknown_rate` before the second of them.
   double rate() const;

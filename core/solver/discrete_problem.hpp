@@ -123,6 +123,15 @@ bool has_functional(const std::vector<Segment<B>>& segments) {
                      [](const Segment<B>& s) { return s.obstacle->nonlinearity() != nullptr; });
 }
 
+/// Whether the energy that an obstacle adds depends on the solution.
+template <int B>
+bool follows_solution(const std::vector<Segment<B>>& segments) {
+  return std::any_of(segments.begin(), segments.end(), [](const Segment<B>& s) {
+    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    return phi && phi->follows_solution();
+  });
+}
+
 /// The matrix of a coarser level without any truncation.
 template <int B>
 struct GalerkinMatrix {

@@ -1,16 +1,20 @@
 #pragma once
 #include <vector>
 
+#include "core/algebra/products.hpp"
 #include "core/solver/level.hpp"
 
 /// The part of the energy that obstacles add: the sum of phi_p(x_p). See core/sdk/nonlinearity.hpp.
 namespace signorini::functional {
 
 /// phi(to) - phi(from) at the vectors first <= p < last of a level; 0 without functionals.
+/// @param data of phi, in place of what is frozen; null: that
 template <int B>
-double change(const Level<B>& level, const double* from, const double* to, Index first, Index last) {
+double change(const Level<B>& level, const double* from, const double* to, Index first, Index last,
+              const double* data = nullptr) {
   if (!level.nonlinear) return 0;
-  const LevelView<B> view = level.view();
+  LevelView<B> view = level.view();
+  if (data) view.data = data;
   double sum = 0;
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->change(view, begin, end, from, to);
@@ -69,11 +73,28 @@ double slope(const DiscreteProblem<B>& problem, const double* at, const double* 
   return sum;
 }
 
-/// Gradient of phi at x where it is smooth, B per slot; empty without functionals.
+/// What phi is frozen with at x, as LevelView::data. Empty without functionals.
+template <int B>
+std::vector<double> data_at(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
+  std::vector<double> data = problem.constraints.data;
+  if (!follows_solution(problem.segments)) return data;
+  LevelView<B> level = view(problem);
+  level.x = const_cast<double*>(x.data());
+  std::vector<double> r(x.size());
+  residual<B>(problem.A, x.data(), problem.b.data(), r.data());
+  for (const Segment<B>& s : problem.segments)
+    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity())
+      phi->renew(level, s.first, s.last, r.data(), data.data());
+  return data;
+}
+
+/// Gradient of phi, frozen at x, at x where it is smooth, B per slot; empty without functionals.
 template <int B>
 std::vector<double> gradient(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
   if (!has_functional(problem.segments)) return {};
+  const std::vector<double> data = data_at(problem, x);
   LevelView<B> level = view(problem);
+  level.data = data.data();
   level.x = const_cast<double*>(x.data());
   const auto slots = static_cast<std::size_t>(level.slots);
   std::vector<double> out(slots * B), hessian(slots * B * B), lower(slots * B, -infinity), upper(slots * B, infinity);
@@ -85,13 +106,13 @@ std::vector<double> gradient(const DiscreteProblem<B>& problem, const std::vecto
 }
 
 /// Renews what is frozen in phi at the vectors first <= p < last from the iterate x and its residual r = b - A x.
+/// @param data to be written, like Constraints::data
 template <int B>
-void renew(Level<B>& level, const double* x, const double* r, Index first, Index last) {
+void renew(const Level<B>& level, const double* x, const double* r, Index first, Index last, double* data) {
   LevelView<B> view = level.view();
   view.x = const_cast<double*>(x);
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity())
-      phi->renew(view, begin, end, r, level.constraints.data.data());
+    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) phi->renew(view, begin, end, r, data);
   });
 }
 

@@ -90,7 +90,7 @@ template <int B>
 void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) {
   rest_on_facets(x, first, last);
   const double added = functional::change(finest(), x_before_.data(), x.data(), first, last);
-  if (finest().nonlinear) renew(x, r, first, last);  // the residual is that of what is renewed from x itself
+  if (follows()) functional::renew(finest(), x.data(), r.data(), first, last, data_.data());
   add_natural_residual(x, first, last, r, sums.natural_residual);
   // J(before) - J(x) = d'(r_before + r) / 2 and ||d||_A^2 = d'(r_before - r): no cancellation of energies.
   double gain = 0, correction = 0, size = 0, largest = sums.largest, moved = sums.moved;
@@ -149,6 +149,8 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
   const Level<B>& level = finest();
   LevelView<B> view = level.view();
   view.x = x.data();
+  view.frozen = true;
+  if (follows()) view.data = data_.data();
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     largest = block::larger(largest, s.obstacle->natural_residual(view, begin, end, r.data()));
   });
@@ -166,7 +168,8 @@ void Iteration<B>::measure(double error) {
   s.energy = energy(problem_, sums_.products);
   if (finest().nonlinear) {
     zero_.resize(x_.size());
-    s.energy += functional::change(finest(), zero_.data(), x_.data(), 0, problem_.A.size());
+    s.energy +=
+        functional::change(finest(), zero_.data(), x_.data(), 0, problem_.A.size(), follows() ? data_.data() : nullptr);
   }
 }
 
@@ -276,9 +279,11 @@ bool Iteration<B>::end(Outcome outcome, std::string reason) {
   return true;
 }
 
-// The energies themselves are differences of what may be far larger, the gains are not.
+// The energies themselves are differences of what may be far larger, the gains are not. Where functionals follow the
+// solution gains belong to energies of their own, and do not add up.
 template <int B>
 void Iteration<B>::finish_energies() {
+  if (follows()) return;
   auto& history = summary_.history;
   for (std::size_t k = history.size(); k-- > 1;) history[k - 1].energy = history[k].energy + gains_[k];
 }

@@ -44,7 +44,9 @@ class Iteration {
 
   /// Keeps references to all of them.
   Iteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options)
-      : problem_(problem), options_(options), x_(x), r_(x.size()), x_before_(x.size()), r_before_(x.size()) {}
+      : problem_(problem), options_(options), x_(x), r_(x.size()), x_before_(x.size()), r_before_(x.size()) {
+    if (follows_solution(problem.segments)) data_ = problem.constraints.data;
+  }
 
   virtual const Level<B>& finest() const = 0;
   virtual std::vector<Index> unknowns() const = 0;
@@ -54,11 +56,11 @@ class Iteration {
   virtual Step advance() = 0;
   /// Adds the linear solver and what it has done, on the finest level.
   virtual void add_work(Stage&) const {}
-  /// Renews what functionals keep frozen, at the vectors first <= p < last.
-  virtual void renew(const std::vector<double>&, const std::vector<double>&, Index, Index) {}
   /// Response of the components of x_ that no bound holds.
   virtual std::optional<double> response(const std::vector<double>& forces, double enough) = 0;
 
+  /// Whether functionals depend on the solution.
+  bool follows() const { return !data_.empty(); }
   /// r = b - A x and what follows from it.
   Sums evaluate(std::vector<double>& x, std::vector<double>& r);
   /// The same at the vectors first <= p < last.
@@ -80,6 +82,10 @@ class Iteration {
   std::vector<double>& x_;
   std::vector<double> r_, x_before_, r_before_;
   Sums sums_;
+  /// What functionals that follow the solution are frozen with at the iterate evaluated last, see Constraints::data:
+  /// the natural residual and the energy are those of this phi, gains those of what was frozen. Empty where none
+  /// follows.
+  std::vector<double> data_;
 
  private:
   bool step(const Monitor& monitor);

@@ -97,6 +97,7 @@ template <int B>
 struct Level : LevelSystem<B> {
   std::vector<Segment<B>> segments;
   bool nonlinear = false;         ///< an obstacle of this level adds to the energy
+  bool frozen = true;             ///< LevelView::frozen
   double relaxation = 1;          ///< of sweeps: LevelView::relaxation
   double inherited_rounding = 0;  ///< rounding_of_work() of the finer levels
 
@@ -188,7 +189,8 @@ struct Level : LevelSystem<B> {
             c.last.data(),
             c.tangential.data(),
             c.facet_row.empty() ? nullptr : c.facet_row.data(),
-            c.facet.data()};
+            c.facet.data(),
+            frozen};
   }
 
   /// Phases of the iterate at the vectors first <= p < last: what the bounds admit and hold, and phi's linearisation.

@@ -189,8 +189,10 @@ void MonotoneMultigrid<B>::subtract_gradient(const double* x, double* r) {
 }
 
 template <int B>
-void MonotoneMultigrid<B>::renew(const double* x, const double* r, Index first, Index last) {
-  if (levels_.back().nonlinear) functional::renew(levels_.back(), x, r, first, last);
+void MonotoneMultigrid<B>::renew(const std::vector<double>& data, double part) {
+  std::vector<double>& frozen = levels_.back().constraints.data;
+  for (std::size_t k = 0; k < frozen.size(); ++k)
+    frozen[k] = part == 1 ? data[k] : frozen[k] + part * (data[k] - frozen[k]);
 }
 
 template <int B>

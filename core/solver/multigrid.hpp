@@ -68,8 +68,12 @@ class MonotoneMultigrid {
   /// @param enough smaller ones need not be known exactly
   std::optional<double> response(const std::vector<double>& x, const std::vector<double>& forces, double enough);
 
-  /// Renews what functionals keep frozen during a cycle, from x and r = b - A x, at the vectors first <= p < last.
-  void renew(const double* x, const double* r, Index first, Index last);
+  /// What functionals keep frozen during a cycle goes this part of the way to `data`, see Constraints::data.
+  void renew(const std::vector<double>& data, double part);
+
+  /// From now on sweeps of the finest level let it follow the vectors that they move: LevelView::frozen; or no longer
+  /// so.
+  void follow_in_sweeps(bool on) { levels_.back().frozen = !on; }
 
   /// Subtracts the gradient of the functionals at x, where these are smooth.
   void subtract_gradient(const double* x, double* r);

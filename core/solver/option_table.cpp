@@ -19,9 +19,10 @@ constexpr OptionRow<S> table[] = {
     {"tolerance", &S::tolerance, "(0, 1)", "for the relative algebraic error and for the natural residual"},
     {"max_iterations", &S::max_iterations, "[1, 1000000]",
      "limit on the number of steps of all methods together: cycles, and the linear solves of others"},
-    {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas",
+    {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas | newton",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
-     "pdas: primal-dual active sets with a direct solver; auto: monotone, tnnmg while phases rest, pdas where cycles "
+     "pdas: primal-dual active sets with a direct solver; newton: the same with friction, a semismooth Newton method; "
+     "auto: monotone, tnnmg while phases rest, pdas where cycles "
      "are slow and unknowns no more than 150000 or scalar"},
     {"cycle", &S::cycle, "V | W | F", "shape of the cycle"},
     {"pre", &S::pre, "[0, 100]", "smoothing steps before the coarse correction"},
@@ -51,6 +52,9 @@ constexpr OptionRow<S> table[] = {
      of_levels},
     {"aggregates", &S::aggregates, "",
      "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels},
+    {"renew", &S::renew, "cycle | sweep | outer",
+     "when obstacles take anew what they keep frozen of the solution, as Coulomb friction does with the normal force: "
+     "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle"},
     {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest"},
     {"threads", &S::threads, "[1, 4096]", "threads of the cycles, for large problems; results do not depend on them"},
 };

@@ -8,7 +8,7 @@ namespace signorini {
 struct SolverOptions {
   double tolerance = 1e-8;  ///< for the relative algebraic error and for the natural residual
   int max_iterations = 200;
-  std::string method = "auto";         ///< auto, monotone, tnnmg, pgs or pdas
+  std::string method = "auto";         ///< auto, monotone, tnnmg, pgs, pdas or newton
   std::string cycle = "V";             ///< V, W or F
   int pre = 2, post = 2;               ///< smoothing steps before and after the coarse correction
   std::string smoother = "forward";    ///< a registered smoother
@@ -23,6 +23,7 @@ struct SolverOptions {
   bool reassemble = true;      ///< renew the matrices of algebraic levels where phases have changed
   std::string reach = "all";   ///< all or twins: what corrects constrained vectors from algebraic levels
   std::string interpolate = "global";  ///< global or local: components between algebraic levels
+  std::string renew = "cycle";         ///< cycle, sweep or outer: when functionals that follow the solution are renewed
   bool krylov = true;                  ///< accelerate the cycles while the phases rest
   int threads = 1;                     ///< at most; small problems start none, and results do not depend on them
 };

@@ -1,7 +1,6 @@
 /// Frictionless contact with a rigid obstacle: see RigidContact.
 #include <iterator>
 
-#include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/plugin.hpp"
 #include "core/sdk/rigid_contact.hpp"
 
@@ -9,19 +8,9 @@ namespace signorini {
 namespace {
 
 template <int B>
-class Contact final : public BoxObstacle<B> {
+class Contact final : public FrictionlessContact<B> {
  public:
-  explicit Contact(const Settings& settings) : contact_(settings, "contact") {}
-
-  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", B, 1}}}; }
-
-  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
-                Status& status) const noexcept override {
-    for (std::size_t k = 0; k < count && status.ok(); ++k) contact_.assemble(vertices[k], constraints[k], status);
-  }
-
- private:
-  RigidContact<B> contact_;
+  explicit Contact(const Settings& settings) : FrictionlessContact<B>(settings, "contact") {}
 };
 
 constexpr OptionSpec options[] = {RigidContact<2>::normal_option};

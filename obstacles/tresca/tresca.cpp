@@ -1,9 +1,9 @@
 /// Contact with a rigid obstacle and friction with a given bound on the tangential traction.
 #include <iterator>
 
+#include "core/sdk/given_friction.hpp"
 #include "core/sdk/plugin.hpp"
 #include "core/sdk/rigid_contact.hpp"
-#include "obstacles/tresca/given_friction.hpp"
 
 namespace signorini {
 namespace {
@@ -29,6 +29,11 @@ class Tresca final : public FunctionalObstacle<B, GivenFriction<B>> {
       if (status.ok() && !(bound >= 0)) RigidContact<B>::fail(v, "'bound' is negative", status);
       constraints[k].data[0] = bound * v.measure;
     }
+  }
+
+  bool friction(const double* data, FrictionLaw& law) const noexcept override {
+    law = {0, data[0]};
+    return true;
   }
 
  private:

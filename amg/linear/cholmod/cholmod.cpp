@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <new>
 
+#include "amg/linear/cholmod/umfpack.hpp"
 #include "amg/linear/cholmod_solver.hpp"
 
 namespace signorini {
@@ -109,4 +110,9 @@ bool take_working_memory() {
 extern "C" __attribute__((visibility("default"))) signorini::LinearSolver* signorini_linear_solver() {
   [[maybe_unused]] static const bool can_work = signorini::take_working_memory();
   return new signorini::Cholmod;
+}
+
+extern "C" __attribute__((visibility("default"))) signorini::UnsymmetricSolver* signorini_unsymmetric_solver() {
+  [[maybe_unused]] static const bool can_work = signorini::take_working_memory();
+  return signorini::new_umfpack().release();
 }

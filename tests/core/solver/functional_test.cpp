@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "obstacles/tresca/given_friction.hpp"
+#include "core/sdk/given_friction.hpp"
 #include "tests/obstacles/kink/convex_kink.hpp"
 #include "tests/support/friction.hpp"
 #include "tests/support/problems.hpp"

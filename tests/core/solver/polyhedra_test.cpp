@@ -2,8 +2,8 @@
 // shares nothing with the sweeps, and what has to hold on the way.
 #include <gtest/gtest.h>
 
+#include "core/sdk/given_friction.hpp"
 #include "core/solver/polyhedral_box.hpp"
-#include "obstacles/tresca/given_friction.hpp"
 #include "tests/support/friction.hpp"
 #include "tests/support/polyhedra.hpp"
 #include "tests/support/problems.hpp"

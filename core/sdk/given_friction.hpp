@@ -5,7 +5,7 @@
 
 namespace signorini {
 
-/// phi(v) = g |v_T - l_T|: friction with a given bound g on the tangential force, the only number in Slot::data. v_T
+/// phi(v) = g |v_T - l_T|: friction with a given bound g on the tangential force, the first number in Slot::data. v_T
 /// are the tangential components, l_T those after the last load step. (Tresca friction: Duvaut and Lions, Inequalities
 /// in mechanics and physics, 1976, chapter III.)
 template <int B>
@@ -58,6 +58,14 @@ struct GivenFriction {
     }
   }
 
+ protected:
+  /// The one that is not tangential; -1: it is prescribed.
+  static int normal_component(const Slot<B>& slot) {
+    for (int k = 0; k < B; ++k)
+      if (!(slot.tangential >> k & 1u)) return slot.lower[k] == slot.upper[k] ? -1 : k;
+    return -1;
+  }
+
  private:
   /// How far v has slipped.
   static double size(const Slot<B>& slot, const double* v) {
@@ -72,13 +80,6 @@ struct GivenFriction {
     for (int k = 0; k < B; ++k)
       if (slot.tangential >> k & 1u) sum += v[k] * v[k];
     return std::sqrt(sum);
-  }
-
-  /// The one that is not tangential; -1: it is prescribed.
-  static int normal_component(const Slot<B>& slot) {
-    for (int k = 0; k < B; ++k)
-      if (!(slot.tangential >> k & 1u)) return slot.lower[k] == slot.upper[k] ? -1 : k;
-    return -1;
   }
 
   /// Minimises over the free tangential components of y, and over component `free` with them unless that is -1; the

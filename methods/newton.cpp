@@ -1,0 +1,230 @@
+#include "methods/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/algebra/products.hpp"
+#include "core/base/clock.hpp"
+#include "core/base/error.hpp"
+#include "core/solver/admissible.hpp"
+#include "core/solver/multigrid.hpp"
+
+namespace signorini {
+
+namespace {
+
+constexpr double slip_stiffness = 1e-3;  // of that of the vector
+
+}  // namespace
+
+template <int B>
+NewtonIteration<B>::NewtonIteration(const DiscreteProblem<B>& problem, std::vector<double>& x,
+                                    const SolverOptions& options, const Registry& registry)
+    : Iteration<B>(problem, x, options),
+      level_(finest_level(problem)),
+      linear_(registry.create<UnsymmetricSolver>("unsymmetric", "umfpack")) {
+  if (!problem.constraints.facet.empty())
+    input_error("solver.method",
+                "'newton' treats one direction of contact at a vertex, and obstacles hold some along "
+                "several; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+  read_laws();
+  analyse();
+}
+
+template <int B>
+void NewtonIteration<B>::read_laws() {
+  const Constraints<B>& c = level_.constraints;
+  const auto slots = static_cast<std::size_t>(c.size());
+  laws_.assign(slots, {});
+  tangential_.assign(slots, 0);
+  states_.assign(slots, {});
+  for (const Segment<B>& s : level_.segments) {
+    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    const auto [from, to] = slots_between(c, s.first, s.last);
+    for (Index slot = from; phi && slot < to; ++slot) {
+      if (!phi->friction(c.data.data() + Offset{slot} * c.width, laws_[slot]))
+        input_error("solver.method",
+                    "'newton' treats bounds and friction, and an obstacle adds something else to the "
+                    "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+      tangential_[slot] = c.tangential[slot];
+    }
+  }
+  stiffness_.resize(slots * B);
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k)
+      stiffness_[Offset{slot} * B + k] = this->problem_.A.diagonal(c.vector[slot])[k * (B + 1)];
+}
+
+// Rows of A with ascending columns: there the diagonal block is not the first one.
+template <int B>
+void NewtonIteration<B>::analyse() {
+  const BlockMatrix<B>& A = this->problem_.A;
+  std::vector<Offset> start{0};
+  std::vector<Index> column;
+  place_.resize(A.column.size());
+  stride_.resize(static_cast<std::size_t>(A.size()));
+  for (Index p = 0; p < A.size(); ++p) {
+    const Offset first = A.row[p], count = A.row[p + 1] - first;
+    const auto others = A.column.begin() + first + 1;
+    const Offset before = std::lower_bound(others, others + (count - 1), p) - others;
+    stride_[p] = count * B;
+    for (Offset m = 0; m < count; ++m) {
+      const Offset at = m == 0 ? before : m <= before ? m - 1 : m;
+      place_[first + m] = start.back() + at * B;
+    }
+    for (int i = 0; i < B; ++i) {
+      for (Offset at = 0; at < count; ++at) {
+        const Index q = at == before ? p : A.column[first + (at < before ? at + 1 : at)];
+        for (int j = 0; j < B; ++j) column.push_back(q * B + j);
+      }
+      start.push_back(start.back() + stride_[p]);
+    }
+  }
+  values_.resize(column.size());
+  linear_->analyse(start, column);
+}
+
+/// The rows of a vector: by_force A_p, and by_value on the diagonal.
+template <int B>
+void NewtonIteration<B>::set_row(Index p, const double* by_force, const double* by_value) {
+  const BlockMatrix<B>& A = this->problem_.A;
+  for (Offset m = A.row[p]; m < A.row[p + 1]; ++m) {
+    double block[B * B];
+    block::multiply<B>(by_force, A.at(m), block);
+    if (m == A.row[p])
+      for (int i = 0; i < B * B; ++i) block[i] += by_value[i];
+    for (int i = 0; i < B; ++i) std::copy_n(block + i * B, B, values_.data() + place_[m] + i * stride_[p]);
+  }
+}
+
+/// One step from y_: false where the matrix is singular.
+template <int B>
+bool NewtonIteration<B>::solve() {
+  const DiscreteProblem<B>& problem = this->problem_;
+  const Constraints<B>& c = level_.constraints;
+  double unit[B * B] = {}, none[B * B] = {};
+  for (int k = 0; k < B; ++k) unit[k * (B + 1)] = 1;
+  d_ = force_;
+  for (Index p = 0; p < problem.A.size(); ++p) {
+    const Index slot = c.slot[p];
+    if (slot < 0) {
+      set_row(p, unit, none);
+      continue;
+    }
+    const Offset at = Offset{slot} * B;
+    const Complementarity<B> equations{c.lower.data() + at,
+                                       c.upper.data() + at,
+                                       level_.off[p],
+                                       tangential_[slot],
+                                       c.last.empty() ? nullptr : c.last.data() + at,
+                                       laws_[slot],
+                                       stiffness_.data() + at,
+                                       slip_stiffness * largest_stiffness(slot)};
+    double by_force[B * B], by_value[B * B];
+    states_[slot] = equations.evaluate(y_.data() + Offset{p} * B, force_.data() + Offset{p} * B,
+                                       d_.data() + Offset{p} * B, by_force, by_value);
+    set_row(p, by_force, by_value);
+  }
+  ++factorisations_;
+  if (!linear_->factorise(values_)) return false;
+  ++solves_;
+  linear_->solve(d_);
+  for (std::size_t i = 0; i < d_.size(); ++i) y_[i] -= d_[i];
+  return true;
+}
+
+template <int B>
+double NewtonIteration<B>::largest_stiffness(Index slot) const {
+  return *std::max_element(stiffness_.begin() + Offset{slot} * B, stiffness_.begin() + (Offset{slot} + 1) * B);
+}
+
+template <int B>
+typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
+  const double begin = seconds();
+  this->x_before_ = this->x_;
+  if (factorisations_ == 0) {
+    y_ = this->x_;
+    force_ = this->r_before_;
+    for (double& f : force_) f = -f;
+  }
+  const std::vector<State> last = states_;
+  const bool solved = solve();
+  put_onto_sets();
+  this->sums_ = this->evaluate(this->x_, this->r_);
+  this->refuse_nan(this->sums_.natural_residual);
+  residual<B>(this->problem_.A, y_.data(), this->problem_.b.data(), force_.data());
+  for (double& f : force_) f = -f;
+  Step step;
+  // The step itself bounds the error of the iterate before.
+  step.error = solved ? std::sqrt(std::abs(this->sums_.correction)) : infinity;
+  if (!solved) step.stuck = "the matrix of Newton's method is singular: nothing holds the body there";
+  step.levels = {report(last)};
+  step.levels.front().renewed = level_.vectors;
+  step.levels.front().seconds = seconds() - begin;
+  return step;
+}
+
+/// What touches is on its bound, and what sticks where it was.
+template <int B>
+void NewtonIteration<B>::put_onto_sets() {
+  const Constraints<B>& c = level_.constraints;
+  this->x_ = y_;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const State& state = states_[slot];
+      const Offset at = Offset{slot} * B + k;
+      double& x = this->x_[Offset{c.vector[slot]} * B + k];
+      if (state.side[k] != 0) x = state.side[k] < 0 ? c.lower[at] : c.upper[at];
+      if (rests_on(slot, k)) x = c.last[at];
+    }
+  make_admissible(this->problem_, this->x_);
+}
+
+template <int B>
+bool NewtonIteration<B>::rests_on(Index slot, int k) const {
+  return states_[slot].friction == Complementarity<B>::Friction::sticks && (tangential_[slot] >> k & 1u) &&
+         !(level_.off[level_.constraints.vector[slot]] >> k & 1u);
+}
+
+template <int B>
+LevelReport NewtonIteration<B>::report(const std::vector<State>& last) const {
+  LevelReport out;
+  out.vectors = level_.vectors;
+  for (Index slot = 0; slot < level_.constraints.size(); ++slot) {
+    bool critical = false;
+    for (int k = 0; k < B; ++k) {
+      const bool holds = states_[slot].side[k] != 0 || rests_on(slot, k);
+      out.contact[static_cast<std::size_t>(k)] += holds;
+      critical = critical || holds;
+    }
+    out.critical += critical;
+    out.changed += !(states_[slot] == last[slot]);
+  }
+  return out;
+}
+
+template <int B>
+void NewtonIteration<B>::add_work(Stage& stage) const {
+  stage.linear = "umfpack";
+  stage.linear_solves = solves_;
+  stage.factorisations = factorisations_;
+}
+
+// By the matrix of the last step.
+template <int B>
+std::optional<double> NewtonIteration<B>::response(const std::vector<double>& forces, double) {
+  std::vector<double> d = forces;
+  const Constraints<B>& c = level_.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k)
+      if (states_[slot].side[k] != 0 || rests_on(slot, k)) d[Offset{c.vector[slot]} * B + k] = 0;
+  linear_->solve(d);
+  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
+}
+
+template class NewtonIteration<1>;
+template class NewtonIteration<2>;
+template class NewtonIteration<3>;
+
+}  // namespace signorini

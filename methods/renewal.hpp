@@ -1,0 +1,39 @@
+#pragma once
+#include <string>
+
+#include "core/base/types.hpp"
+#include "core/solver/options.hpp"
+
+namespace signorini {
+
+/// When cycles renew what functionals that follow the solution keep frozen (the normal force in Coulomb's bound), and
+/// by how much. Where that is no contraction the iterates go round: then they are damped, and given up in the end, for
+/// there may be no solution, or several.
+class Renewal {
+ public:
+  enum class When { cycle, sweep, outer };  ///< as option `renew` has them
+
+  explicit Renewal(const SolverOptions& options);
+
+  bool in_sweeps() const { return when_ == When::sweep; }
+  /// Whether the next cycle begins with data that are renewed.
+  bool due() const { return when_ != When::outer || cycles_ % cycles_between == 0; }
+  /// How far the data go from those of the cycle before to those of its iterate.
+  double part() const { return part_; }
+  /// A cycle has ended with this natural residual.
+  void add(double natural_residual);
+  /// Why it makes no sense to go on; empty: it does.
+  std::string stuck() const;
+
+ private:
+  static constexpr int cycles_between = 4;  ///< of When::outer
+  static constexpr int patience = 15;       ///< cycles in which the residual has to fall
+  static constexpr double enough = 0.7;     ///< to so much of what it was
+  static constexpr double least_part = 1.0 / 16;
+
+  When when_;
+  double part_ = 1, least_ = infinity;
+  int cycles_ = 0, idle_ = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,250 @@
+// Friction by Coulomb's law: closed forms, what has to hold at every vertex, steps, invariances, what is refused.
+#include "core/base/error.hpp"
+#include "core/mesh/structured.hpp"
+#include "driver/driver.hpp"
+#include "mesh_file.hpp"
+#include "run.hpp"
+#include "scene_text.hpp"
+
+namespace signorini::test {
+namespace {
+
+constexpr const char* on_plane = "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]";
+constexpr const char* on_floor = "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]";
+
+std::string coulomb(const std::string& where, const std::string& friction) {
+  return where + "\ntype = \"coulomb\"\nfriction = " + friction;
+}
+
+SceneText block2(const std::string& obstacle, int refinements, const char* poisson = "0.3") {
+  return {
+      .body = std::string("shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = ") +
+              poisson,
+      .fixes = {"on = \"top\"\nvalue = [0.01, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
+}
+
+SceneText block3(const std::string& obstacle, int refinements) {
+  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\nyoung = 1\npoisson = 0.3",
+          .fixes = {"on = \"top\"\nvalue = [0.01, 0.005, -0.03]"},
+          .obstacle = obstacle,
+          .refinements = refinements};
+}
+
+/// Coulomb's law at every vertex, from the results alone.
+template <int D>
+void expect_law(const ContactState<D>& contact, double friction, double tolerance) {
+  double largest = 0;
+  for (const ContactNode<D>& node : contact.nodes)
+    for (const double f : node.force) largest = std::max(largest, std::abs(f));
+  for (const ContactNode<D>& node : contact.nodes) {
+    double pressing = 0, across = 0;
+    for (int i = 0; i < D; ++i) pressing += (node.force[i] - node.tangential[i]) * node.direction[i];
+    for (const double f : node.tangential) across = std::hypot(across, f);
+    EXPECT_GE(pressing, 0);
+    EXPECT_LE(across, friction * pressing + tolerance * largest) << node.vertex;
+    if (!node.sticks) EXPECT_NEAR(across, friction * pressing, tolerance * largest) << node.vertex;
+    EXPECT_GE(node.dissipated, 0);
+  }
+}
+
+// Uniform pressure p = 0.03 and shear q by loads on all sides: it sticks below mu p and slides above, in the whole.
+TEST(Coulomb, ABlockUnderPressureSticksBelowTheLimitAndSlidesAbove) {
+  const double p = 0.03, shear = 0.5;
+  const auto pushed = [&](double q, double friction) {
+    SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 2, "0");
+    scene.fixes = {"on = \"top\"\nvalue = [\"free\", -0.03]"};
+    scene.loads = {fmt::format("on = \"top\"\nvalue = [{}, 0]", q), fmt::format("on = \"right\"\nvalue = [0, {}]", q),
+                   fmt::format("on = \"left\"\nvalue = [0, {}]", -q)};
+    return scene;
+  };
+  const double q = 0.4 * p;
+  const auto r = run<2, 2>(pushed(q, 0.41));
+  for (Index v = 0; v < r.mesh().vertices(); ++v) {
+    const double y = r.mesh().points[v][1];
+    EXPECT_NEAR(r.u()[2 * v], q * y / shear, 1e-9);
+    EXPECT_NEAR(r.u()[2 * v + 1], -p * y, 1e-9);
+    if (y == 0) EXPECT_EQ(r.u()[2 * v], 0);
+  }
+  EXPECT_EQ(r.contact().slip_nodes, 0);
+  Driver driver(parse_scene(pushed(q, 0.39), "test.toml", "."));
+  const Summary& summary = driver.solve().last().summary;
+  EXPECT_FALSE(summary.converged());
+  EXPECT_EQ(summary.outcome, Outcome::stuck) << summary.reason;
+}
+
+// The same with the top moved: the shear is mu p wherever the top goes.
+TEST(Coulomb, UniformSlipIsExact) {
+  const double p = 0.03, friction = 0.2, g = friction * p, shear = 0.5;
+  SceneText scene = block2(coulomb(on_plane, "0.2"), 2, "0");
+  scene.fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"};
+  scene.loads = {fmt::format("on = \"right\"\nvalue = [0, {}]", g), fmt::format("on = \"left\"\nvalue = [0, {}]", -g)};
+  const auto r = run<2, 2>(scene);
+  for (Index v = 0; v < r.mesh().vertices(); ++v) {
+    const double y = r.mesh().points[v][1];
+    EXPECT_NEAR(r.u()[2 * v], 0.02 - g * (1 - y) / shear, 1e-10);
+    EXPECT_NEAR(r.u()[2 * v + 1], -p * y, 1e-10);
+  }
+  EXPECT_EQ(r.contact().stick_nodes, 0);
+  EXPECT_NEAR(r.contact().dissipated, 2 * g * (0.02 - g / shear), 1e-11);
+  expect_law(r.results.contact, friction, 1e-7);
+}
+
+TEST(Coulomb, ItsLawHoldsAtEveryVertex) {
+  for (const char* friction : {"0.1", "0.3", "1"}) {
+    const auto plane = run<2, 2>(block2(coulomb(on_plane, friction), 3));
+    expect_law(plane.results.contact, std::atof(friction), 1e-7);
+    const auto space = run<3, 3>(block3(coulomb(on_floor, friction), 2));
+    expect_law(space.results.contact, std::atof(friction), 1e-7);
+  }
+}
+
+// No plugin of friction takes part: not even the last bit differs.
+TEST(Coulomb, WithoutFrictionItIsContactToTheBit) {
+  const auto slides = run<3, 3>(block3(coulomb(on_floor, "0"), 2));
+  const auto contact = run<3, 3>(block3(std::string(on_floor) + "\ntype = \"contact\"", 2));
+  EXPECT_EQ(slides.u(), contact.u());
+  EXPECT_EQ(slides.summary().iterations, contact.summary().iterations);
+  EXPECT_FALSE(has_functional(slides.problem().segments));
+  // An expression that is zero is friction without any force.
+  const auto zero = run<2, 2>(block2(coulomb(on_plane, "\"0 * x\""), 3));
+  const auto flat = run<2, 2>(block2(std::string(on_plane) + "\ntype = \"contact\"", 3));
+  for (std::size_t i = 0; i < zero.u().size(); ++i) ASSERT_NEAR(zero.u()[i], flat.u()[i], 1e-9);
+}
+
+TEST(Coulomb, TheStartAndHowItsBoundIsRenewedDoNotMatter) {
+  const std::string scene = block2(coulomb(on_plane, "0.3"), 3);
+  const auto first = run<2, 2>(scene, {"solver.tolerance=1e-11"});
+  for (const char* other : {"solver.start=zero", "solver.renew=sweep", "solver.renew=outer", "solver.method=monotone",
+                            "solver.method=tnnmg", "solver.krylov=false", "solver.threads=2", "solver.pre=1"}) {
+    const auto second = run<2, 2>(scene, {"solver.tolerance=1e-11", other});
+    for (std::size_t i = 0; i < first.u().size(); ++i) ASSERT_NEAR(first.u()[i], second.u()[i], 1e-10) << other;
+    EXPECT_EQ(first.contact().slip_nodes, second.contact().slip_nodes) << other;
+  }
+}
+
+const Report& solve(Driver& driver) {
+  const Report& report = driver.solve();
+  for (const StepReport& step : report.steps) EXPECT_TRUE(step.summary.converged()) << step.summary.reason;
+  return report;
+}
+
+// A block that is held at its top on a plane that slides: the same as the top moved over a plane at rest, but for the
+// motion of the whole; tresca friction likewise.
+TEST(Coulomb, ASlidingPlaneDragsTheBlockWithIt) {
+  for (const char* law : {"type = \"coulomb\"\nfriction = 0.3", "type = \"tresca\"\nbound = 0.006"}) {
+    SceneText resting = block2(std::string(on_plane) + "\n" + law, 3), sliding = resting;
+    resting.fixes = {"on = \"top\"\nvalue = [\"0.04*t*(1 - t)\", -0.03]"};
+    sliding.fixes = {"on = \"top\"\nvalue = [0, -0.03]"};
+    sliding.obstacle =
+        std::string("on = \"bottom\"\nshape = \"plane\"\npoint = [\"-0.04*t*(1 - t)\", 0]\nnormal = [0, 1]\n") + law;
+    Driver first(parse_scene(std::string(resting) + "[steps]\ncount = 4\n", "test.toml", ".")),
+        second(parse_scene(std::string(sliding) + "[steps]\ncount = 4\n", "test.toml", "."));
+    const Report &a = solve(first), &b = solve(second);
+    double last = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double t = 0.25 * static_cast<double>(k + 1);
+      EXPECT_NEAR(a.steps[k].contact[0].tangential_force[0], b.steps[k].contact[0].tangential_force[0], 1e-9) << t;
+      EXPECT_NEAR(a.steps[k].contact[0].dissipated, b.steps[k].contact[0].dissipated, 1e-10);
+      EXPECT_EQ(a.steps[k].contact[0].slip_nodes, b.steps[k].contact[0].slip_nodes);
+      EXPECT_GE(a.steps[k].contact[0].dissipated, last);
+      last = a.steps[k].contact[0].dissipated;
+    }
+    EXPECT_GT(last, 0);
+    for (std::size_t i = 0; i < first.solution().size(); i += 2)
+      EXPECT_NEAR(first.solution()[i], second.solution()[i], 1e-8);
+  }
+}
+
+// Nothing but a sliding plane moves a block that loads press on it: it follows exactly while it sticks.
+TEST(Coulomb, ABlockThatSticksFollowsASlidingPlane) {
+  SceneText scene = block3(
+      "type = \"coulomb\"\nfriction = 0.5\non = \"bottom\"\nshape = \"plane\"\n"
+      "point = [\"0.3*t\", \"-0.1*t\", 0]\nnormal = [0, 0, 1]",
+      1);
+  scene.fixes.clear();
+  scene.loads = {"on = \"top\"\nvalue = [0, 0, -0.01]"};
+  Driver driver(parse_scene(std::string(scene) + "[steps]\ncount = 2\n", "test.toml", "."));
+  solve(driver);
+  const std::vector<double>&u = driver.solution(), points = driver.points();
+  SceneText still = scene;
+  still.obstacle = coulomb(on_floor, "0.5");
+  const auto pressed = run<3, 3>(still);
+  for (std::size_t i = 0; i < u.size(); i += 3) {
+    EXPECT_NEAR(u[i], 0.3 + pressed.u()[i], 1e-8);
+    EXPECT_NEAR(u[i + 1], -0.1 + pressed.u()[i + 1], 1e-8);
+    EXPECT_NEAR(u[i + 2], pressed.u()[i + 2], 1e-8);
+  }
+}
+
+TEST(Coulomb, ScenesMayBeTurnedAndScaled) {
+  const TemporaryFolder folder;
+  const Mesh<2> mesh = rectangle({0, 0}, {2, 1}, {4, 2});
+  const auto scene = [&](Motion<2> motion, double scale, double stress) {
+    motion.scale = scale;
+    const std::string file = folder.write(fmt::format("{}.msh", scale), msh(mesh, motion));
+    const Point<2> lowered = motion.turned({0.01 * scale, -0.03 * scale});
+    return SceneText{
+        .body = fmt::format("mesh = \"{}\"\nyoung = {}\npoisson = 0.3", file, stress),
+        .fixes = {"on = \"top\"\nvalue = " + text(lowered)},
+        .obstacle = coulomb(
+            "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = " + text(motion.turned({0, 1})), "0.3"),
+        .refinements = 2};
+  };
+  const auto first = run<2, 2>(scene({}, 1, 1)), other = run<2, 2>(scene(rotation2(0.7), 1e3, 2e5));
+  const double size = 1e3 * 2e5;
+  const Point<2> force = rotation2(0.7).turned(first.contact().force);
+  EXPECT_NEAR(other.contact().force[0] / size, force[0], 1e-8);
+  EXPECT_NEAR(other.contact().force[1] / size, force[1], 1e-8);
+  EXPECT_NEAR(other.contact().dissipated / size / 1e3, first.contact().dissipated, 1e-9);
+  EXPECT_EQ(other.contact().slip_nodes, first.contact().slip_nodes);
+  EXPECT_EQ(other.summary().iterations, first.summary().iterations);
+}
+
+TEST(Coulomb, TheOrderOfVerticesDoesNotMatter) {
+  const TemporaryFolder folder;
+  const Mesh<2> mesh = rectangle({0, 0}, {2, 1}, {8, 4});
+  std::vector<Index> number(mesh.points.size());
+  for (std::size_t p = 0; p < number.size(); ++p) number[p] = static_cast<Index>((p * 7) % number.size());
+  const auto scene = [&](const std::string& file) {
+    SceneText text = block2(coulomb(on_plane, "0.3"), 1);
+    text.body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3", file);
+    return text;
+  };
+  const auto first = run<2, 2>(scene(folder.write("a.msh", msh(mesh))), {"solver.tolerance=1e-10"});
+  const auto other =
+      run<2, 2>(scene(folder.write("b.msh", msh(mesh, Motion<2>(), number))), {"solver.tolerance=1e-10"});
+  EXPECT_NEAR(first.contact().tangential_force[0], other.contact().tangential_force[0], 1e-9);
+  EXPECT_NEAR(first.contact().dissipated, other.contact().dissipated, 1e-10);
+  EXPECT_EQ(first.contact().slip_nodes, other.contact().slip_nodes);
+}
+
+void expect_refused(const std::string& scene, const std::string& what) {
+  try {
+    Driver driver(parse_scene(scene, "test.toml", "."));
+    driver.solve();
+    FAIL() << "solved";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::input) << error.what();
+    EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+  }
+}
+
+TEST(Coulomb, BadInputIsRefusedWithItsPlace) {
+  expect_refused(block2(coulomb(on_plane, "-0.1"), 0), "obstacle.0.friction");
+  expect_refused(block2(coulomb(on_plane, "\"x - 1\""), 0), "'friction' is negative at (0, 0, 0)");
+  expect_refused(block2(coulomb(on_plane, "\"log(x - 1)\""), 0), "obstacle.0.friction");
+  expect_refused(block2(coulomb(on_plane, "nan"), 0), "obstacle.0.friction");
+  expect_refused(block2(std::string(on_plane) + "\ntype = \"coulomb\"", 0), "needs 'friction'");
+  SceneText scalar = block2(coulomb(on_plane, "0.1"), 0);
+  scalar.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nequation = \"diffusion\"";
+  scalar.fixes = {"on = \"top\"\nvalue = 0"};
+  expect_refused(scalar, "is for elastic bodies");
+  SceneText held = block2(coulomb(on_plane, "0.1"), 0);
+  held.fixes.push_back("on = \"bottom\"\nvalue = [\"free\", 0]");
+  expect_refused(held, "prescribes the displacement along the normal");
+}
+
+}  // namespace
+}  // namespace signorini::test
