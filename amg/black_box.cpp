@@ -214,7 +214,7 @@ class BlackBox::BlockSolver final : public Solver {
     const double load = problem_.b[i];
     const double value = load > 0   ? bounds.upper
                          : load < 0 ? bounds.lower
-                                    : std::clamp(start.empty() ? 0.0 : start[i], bounds.lower, bounds.upper);
+                                    : block::clamp(start.empty() ? 0.0 : start[i], bounds.lower, bounds.upper);
     if (!std::isfinite(value))
       throw Error(Exit::no_solution,
                   fmt::format("the energy is unbounded below: row {} of the matrix is zero, and no bound holds its "

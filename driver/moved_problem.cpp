@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
 
@@ -72,7 +72,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   prescribe_anew(discretization);
   const std::vector<double> moved = to_global(problem, way_);
-  problem.prescribed_work += std::inner_product(moved.begin(), moved.end(), discretization.load.begin(), 0.0);
+  problem.prescribed_work += dot(moved, discretization.load);
 }
 
 template <int B>

@@ -17,6 +17,7 @@
 #include "core/solver/functional.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
+#include "methods/nested_iteration.hpp"
 #include "methods/solve.hpp"
 
 namespace signorini {
@@ -365,28 +366,29 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
 }
 
-/// What fails on a coarse level (a selection without faces there, too few nodes to hold the body) may well hold on the
-/// finest one, which alone decides: such a level gives no start.
+/// The solution on the next coarser mesh than the finest one, as far as that gives a start.
 template <int D, int B>
-bool NestedSolver<D, B>::try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
-  const Stopwatch watch;
-  try {
-    const SolverOptions options = for_a_start<B>(options_, !coarse.x.empty());
+Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
+  Solution<B> coarse;
+  const auto solve = [&](std::size_t k, const SolverOptions& options, bool) -> std::string {
+    const std::size_t level = first_ + k;
     Solution<B> solution = begin_level(model, level, coarse);
     std::optional<LooseBody<D, B>> body;
-    if (solution.discretization.functional.empty())
-      body.emplace(hierarchy_.levels[level], model, solution.discretization);
+    if (solution.discretization.functional.empty()) body.emplace(hierarchy_.levels[level], model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
-    return true;
-  } catch (const Error& error) {
-    if (error.status() == Exit::interrupted) throw;
-    const std::string reason = fmt::format("level {} gives no start: {}", level, error.what());
-    progress_.phase(reason);
-    dropped_.push_back(dropped_start(watch.elapsed(), reason));
-    return false;
-  }
+    return "";
+  };
+  const auto failed = [&](std::size_t k, Stage stage) {
+    stage.reason = fmt::format("level {} gives no start: {}", first_ + k, stage.reason);
+    progress_.phase(stage.reason);
+    dropped_.push_back(std::move(stage));
+    coarse = {};
+    forget_products();
+  };
+  nested_iteration<B>(hierarchy_.levels.size() - 1 - first_, options_, solve, failed);
+  return coarse;
 }
 
 template <int D, int B>
@@ -394,9 +396,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   for (auto& of_level : now_) of_level = {};
   Solution<B> coarse;
-  if (options_.start == "nested")
-    for (std::size_t level = first_; level < finest; ++level)
-      if (!try_level(model, level, coarse)) coarse = {}, forget_products();
+  if (options_.start == "nested") coarse = solve_coarser_meshes(model);
   if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};

@@ -100,7 +100,7 @@ class NestedSolver {
   void solve_finest(const Model<B>& model, Solution<B>& solution);
   void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>* body,
                    Solution<B>& solution);  // without a body it is not moved first
-  bool try_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  Solution<B> solve_coarser_meshes(const Model<B>& model);
 
   const MeshHierarchy<D>& hierarchy_;
   Scene::Solver options_;

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string_view>
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
 
@@ -199,7 +199,7 @@ std::optional<double> ActiveSetIteration<B>::response(const std::vector<double>&
     if (active_[at] != 0) d[i] = 0;
   });
   if (!system_.solve(d)) return {};
-  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
+  return std::sqrt(std::abs(dot(d, forces)));
 }
 
 template class ActiveSetIteration<1>;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/multigrid.hpp"
 
 namespace signorini {
@@ -60,7 +60,7 @@ void InteriorPointIteration<B>::start() {
   for (Side& s : sides_) {
     const Offset at = Offset{c.slot[s.i / B]} * B + s.i % B;
     const double lower = c.lower[at], upper = c.upper[at], margin = inside * std::min(upper - lower, size);
-    y_[s.i] = std::clamp(y_[s.i], lower + margin, upper - margin);
+    y_[s.i] = block::clamp(y_[s.i], lower + margin, upper - margin);
   }
   residual<B>(*level_.A, y_.data(), this->problem_.b.data(), force_.data());
   for (Side& s : sides_) {
@@ -206,7 +206,7 @@ std::optional<double> InteriorPointIteration<B>::response(const std::vector<doub
   for (std::size_t i = 0; i < d.size(); ++i)
     if (held_[i]) d[i] = 0;
   if (!system_.solve(d)) return {};
-  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
+  return std::sqrt(std::abs(dot(d, forces)));
 }
 
 template class InteriorPointIteration<1>;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 
 #include "amg/black_box/block_rows.hpp"
 #include "core/algebra/products.hpp"
+#include "core/algebra/random_vector.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/weights.hpp"
 
@@ -84,9 +84,7 @@ std::vector<double> product_of_moduli(const Given<B>& matrix, Prolongation P, st
 
 template <int B>
 void require_galerkin(const Given<B>& A, const Prolongation& P, const Given<B>& coarse, const std::string& place) {
-  std::vector<double> z(Offset{P.coarse} * B);
-  std::minstd_rand random;
-  for (double& value : z) value = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+  const std::vector<double> z = random_vector(static_cast<std::size_t>(P.coarse) * B);
   const std::vector<double> found = coarse.times(z), expected = galerkin_product(A, P, z),
                             size = product_of_moduli(A, P, z);
   for (std::size_t i = 0; i < z.size(); ++i)

@@ -1,6 +1,8 @@
 #include "amg/black_box/nested_start.hpp"
 
+#include <deque>
 #include <optional>
+#include <utility>
 
 #include "amg/linear/masked_cg.hpp"
 #include "core/algebra/energy_along.hpp"
@@ -10,6 +12,7 @@
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
 #include "core/solver/weights.hpp"
+#include "methods/nested_iteration.hpp"
 
 namespace signorini {
 
@@ -102,6 +105,30 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
   return out;
 }
 
+/// The problem on the next coarser level than `fine`, to which it refers.
+template <int B>
+struct Coarser {
+  const DiscreteProblem<B>& fine;
+  const Prolongation& P;
+  std::vector<Index> twin = P.twins();
+  std::vector<double> forces, base;  // on the free components of the finer level; what corrections are added to
+  DiscreteProblem<B> problem;
+
+  Coarser(const DiscreteProblem<B>& fine_problem, const Prolongation& prolongation, Transfer<B>& transfer)
+      : fine(fine_problem), P(prolongation), forces(free_forces(fine)), base(forces.size(), 0.0) {
+    relax_between_twins(fine, twin, forces, base);
+    problem = coarse_problem(fine, P, twin, transfer, forces, base);
+  }
+
+  /// What a solution x here is on the finer level.
+  std::vector<double> start_above(const std::vector<double>& x) const {
+    std::vector<double> out = interpolate(problem, x, P, fine);
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] += base[k];
+    relax_between_twins(fine, twin, forces, out);
+    return out;
+  }
+};
+
 /// A sweep to either side.
 template <int B>
 void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
@@ -183,48 +210,39 @@ double rough_energy(const DiscreteProblem<B>& problem, const Prolongation& P, co
 
 }  // namespace
 
-Stage dropped_start(double seconds, const std::string& reason) {
-  Stage stage;
-  stage.method = "nested start";
-  stage.seconds = seconds;
-  stage.reason = reason;
-  stage.kept = false;
-  return stage;
-}
-
 template <int B>
 std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                                  const SolverOptions& options, const Registry& registry, const Monitor& monitor,
                                  std::vector<Stage>* dropped) {
-  if (prolongations.empty()) return problem.start;
-  const double begin = seconds();
-  const auto none = [&](const std::string& reason) {
-    if (dropped) dropped->push_back(dropped_start(seconds() - begin, reason));
-    return problem.start;
+  const auto drop = [&](Stage stage) {
+    if (dropped) dropped->push_back(std::move(stage));
   };
-  const std::size_t below = prolongations.size() - 1;
-  const Prolongation& P = prolongations[below];
+  const double begin = seconds();
+  std::deque<Coarser<B>> levels;  // finest first; they refer to each other
   try {
-    const auto transfer = registry.create<Transfer<B>>("transfer", options.transfer);
-    const std::vector<Index> twin = P.twins();
-    const std::vector<double> forces = free_forces(problem);
-    std::vector<double> base(forces.size(), 0.0);
-    relax_between_twins(problem, twin, forces, base);
-    const DiscreteProblem<B> coarse = coarse_problem(problem, P, twin, *transfer, forces, base);
-    auto x = nested_start(coarse, prolongations.first(below), options, registry, monitor, dropped);
-    const Summary summary =
-        solve(coarse, prolongations.first(below), x, for_a_start<B>(options, below > 0), registry, monitor);
-    if (summary.outcome == Outcome::unbounded) return none(summary.reason);
-    x = interpolate(coarse, x, P, problem);
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] += base[k];
-    relax_between_twins(problem, twin, forces, x);
-    auto better = better_start(problem, std::move(x));
-    return better ? std::move(*better) : none("its energy is above that of no start");
+    while (levels.size() < prolongations.size()) {
+      const DiscreteProblem<B>& fine = levels.empty() ? problem : levels.back().problem;
+      const Prolongation& P = prolongations[prolongations.size() - 1 - levels.size()];
+      levels.emplace_back(fine, P, *registry.create<Transfer<B>>("transfer", options.transfer));
+    }
   } catch (const Error& error) {
-    // What fails on a coarse level may well hold on the finest one, which alone decides.
     if (error.status() == Exit::interrupted) throw;
-    return none(error.what());
+    drop(dropped_start(seconds() - begin, error.what()));
   }
+  const std::size_t left_out = prolongations.size() - levels.size();
+  std::vector<double> x;
+  const auto solve_level = [&](std::size_t k, const SolverOptions& own, bool started) -> std::string {
+    const Coarser<B>& level = levels[levels.size() - 1 - k];
+    if (!started) x = level.problem.start;
+    const Summary summary = solve(level.problem, prolongations.first(left_out + k), x, own, registry, monitor);
+    if (summary.outcome == Outcome::unbounded) return summary.reason;
+    auto better = better_start(level.fine, level.start_above(x));
+    if (!better) return "its energy is above that of no start";
+    x = std::move(*better);
+    return "";
+  };
+  const auto failed = [&](std::size_t, Stage stage) { drop(std::move(stage)); };
+  return nested_iteration<B>(levels.size(), options, solve_level, failed) ? x : problem.start;
 }
 
 template <int B>

@@ -22,9 +22,6 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
                                  const SolverOptions& options, const Registry& registry, const Monitor& monitor = {},
                                  std::vector<Stage>* dropped = nullptr);
 
-/// The stage of a level that gave no start.
-Stage dropped_start(double seconds, const std::string& reason);
-
 /// The same from a start that is given: nested iteration for the correction to it, so that what coarser levels get
 /// wrong is that of the correction only. Where they represent the correction hardly better than the solution, nested
 /// iteration without the given start as well, and of the two what has less energy.

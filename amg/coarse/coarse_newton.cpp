@@ -97,7 +97,7 @@ void clamp(const Level<B>& level) {
     for (int k = 0; k < B; ++k) {
       const Bound<B> bound(level, slot, k);
       double& x = level.x[Offset{level.constraints.vector[slot]} * B + k];
-      x = x < bound.lower ? bound.lower : x > bound.upper ? bound.upper : x;
+      x = block::clamp(x, bound.lower, bound.upper);
     }
 }
 

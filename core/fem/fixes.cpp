@@ -7,6 +7,7 @@
 
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/sdk/block.hpp"
 
 namespace signorini {
 namespace {
@@ -137,13 +138,13 @@ typename FixedDirections<B>::Found FixedDirections<B>::add(const double* d, doub
   Index other = -1;
   std::copy_n(d, B, rest);
   for (int k = 0; k < count; ++k) {
-    const double c = std::inner_product(direction[k], direction[k] + B, rest, 0.0);
+    const double c = block::dot<B>(direction[k], rest);
     for (int i = 0; i < B; ++i) rest[i] -= c * direction[k][i];
     rest_value -= c * value[k];
     if (std::fabs(c) > most) other = fix[k];
     most = std::max(most, std::fabs(c));
   }
-  const double length = std::sqrt(std::inner_product(rest, rest + B, rest, 0.0));
+  const double length = block::norm<B>(rest);
   if (length < same_direction || count == B) return {other, std::fabs(rest_value)};
   for (int i = 0; i < B; ++i) direction[count][i] = rest[i] / length;
   snap_to_axis<B>(direction[count]);

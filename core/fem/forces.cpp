@@ -1,7 +1,5 @@
 #include "core/fem/forces.hpp"
 
-#include <numeric>
-
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -43,8 +41,7 @@ Forces<B> forces(const Model<B>& model, const Discretization<B>& discretization,
     }
   each_at_fixes(fixes, contact, [&](const ContactNode<B>& node, const FixedDirections<B>& fixed) {
     for (int k = 0; k < fixed.count; ++k)
-      add<B>(out.reactions, fixed, k,
-             -std::inner_product(node.force.begin(), node.force.end(), fixed.direction[k], 0.0));
+      add<B>(out.reactions, fixed, k, -block::dot<B>(node.force.data(), fixed.direction[k]));
   });
   return out;
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "core/algebra/energy_along.hpp"
+#include "core/algebra/random_vector.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/weights.hpp"
 
@@ -85,9 +85,7 @@ std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vec
 template <int B>
 bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
   if (!same_frames(coarse, prolongation, fine)) return false;
-  std::vector<double> z(Offset{prolongation.coarse} * B);
-  std::minstd_rand random;
-  for (double& value : z) value = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+  std::vector<double> z = random_vector(static_cast<std::size_t>(prolongation.coarse) * B);
   clear_fixed(coarse, z);
   std::vector<double> Pz = interpolate(coarse, z, prolongation, fine);
   clear_fixed(fine, Pz);

@@ -6,6 +6,20 @@
 /// Dense B x B blocks, row-major, sizes known at compile time so that every loop unrolls.
 namespace signorini::block {
 
+/// x, or the bound that it lies beyond. NaN stays visible.
+inline double clamp(double x, double lower, double upper) {
+  const double above = x < lower ? lower : x;
+  return above > upper ? upper : above;
+}
+
+/// a'b
+template <int B>
+inline double dot(const double* a, const double* b) {
+  double sum = 0;
+  for (int i = 0; i < B; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
 /// y += M x
 template <int B>
 inline void add_product(const double* M, const double* x, double* y) {

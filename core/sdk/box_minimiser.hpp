@@ -8,17 +8,14 @@ namespace signorini {
 template <int B>
 struct BoxMinimiser {
   /// The minimiser of a scalar problem, from that of the unbounded one. NaN stays visible.
-  static double clamp(double x, double lower, double upper) requires(B == 1) {
-    const double above = x < lower ? lower : x;
-    return above > upper ? upper : above;
-  }
+  static double clamp(double x, double lower, double upper) requires(B == 1) { return block::clamp(x, lower, upper); }
 
   static void correct(const double* M, const double* inverse, const double* r, const double* lower, const double* upper,
                       double* d) {
     block::product<B>(inverse, r, d);
     if (inside(d, lower, upper, (1u << B) - 1)) return;
     if constexpr (B == 1)
-      d[0] = d[0] < lower[0] ? lower[0] : d[0] > upper[0] ? upper[0] : d[0];  // NaN stays visible
+      d[0] = block::clamp(d[0], lower[0], upper[0]);
     else
       search_faces(M, r, lower, upper, d);
   }

@@ -50,7 +50,7 @@ class Polyhedron {
   /// What is left of facet k at x on both sides; 0 where it is touched, but for rounding.
   std::pair<double, double> room(int k, const double* x) const {
     const Facet<B>& f = first_[k];
-    const double value = dot(f.normal, x), terms = terms_of(f.normal, x);
+    const double value = block::dot<B>(f.normal, x), terms = terms_of(f.normal, x);
     const auto left = [&](double room, double bound) {
       return room < infinity && room <= touching * (std::fabs(bound) + terms) ? 0 : room;
     };
@@ -131,7 +131,7 @@ class Polyhedron {
     return side.bound < infinity;
   }
 
-  static double excess(const Side& side, const double* x) { return dot(side.normal, x) - side.bound; }
+  static double excess(const Side& side, const double* x) { return block::dot<B>(side.normal, x) - side.bound; }
   /// What rounding makes of that; nothing at bounds of components.
   static double rounding_at(const Side& side, const double* x) {
     return side.component >= 0 ? 0 : rounding * (std::fabs(side.bound) + terms_of(side.normal, x));
@@ -151,7 +151,7 @@ class Polyhedron {
     std::copy_n(normal, B, row);
     for (int pass = 0; pass < 2; ++pass)
       for (int k = 0; k < count; ++k) {
-        const double c = dot(row, rows + k * B);
+        const double c = block::dot<B>(row, rows + k * B);
         for (int i = 0; i < B; ++i) row[i] -= c * rows[k * B + i];
       }
     const double length = block::norm<B>(row);
@@ -167,12 +167,6 @@ class Polyhedron {
   static constexpr double oblique = 1e-3;      // the same of what is small
   static constexpr double negligible = 1e-12;  // parts of a normal
   static constexpr double singular = 1e-8;     // raises pivots that are smaller, relative to the diagonal
-
-  static double dot(const double* a, const double* b) {
-    double sum = 0;
-    for (int i = 0; i < B; ++i) sum += a[i] * b[i];
-    return sum;
-  }
 
   static double terms_of(const double* a, const double* b) {
     double sum = 0;
@@ -227,8 +221,9 @@ class Polyhedron {
       if (!get((s.first + k) % sides_, side) || !violates(side, y)) continue;
       if constexpr (N > 0) {
         double n[N], length2 = 0, whole2 = 0;
-        for (int i = 0; i < N; ++i) n[i] = dot(axes + i * B, side.normal), length2 += n[i] * n[i];
-        for (int i = 0; i < B; ++i) whole2 += dot(s.axes + i * B, side.normal) * dot(s.axes + i * B, side.normal);
+        for (int i = 0; i < N; ++i) n[i] = block::dot<B>(axes + i * B, side.normal), length2 += n[i] * n[i];
+        for (int i = 0; i < B; ++i)
+          whole2 += block::dot<B>(s.axes + i * B, side.normal) * block::dot<B>(s.axes + i * B, side.normal);
         if (length2 > dependent * dependent * whole2) {
           s.met[B - N].oblique = length2 < oblique * oblique * whole2;
           if (!search_on<N>(s, side, k, n, std::sqrt(length2), origin, axes, y)) return false;

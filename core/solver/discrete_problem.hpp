@@ -68,7 +68,7 @@ struct Constraints {
   /// The admissible point next to v at a slot: component by component, and then in local coordinates.
   void project(Index at, double* v) const {
     const double *low = lower.data() + Offset{at} * B, *high = upper.data() + Offset{at} * B;
-    for (int k = 0; k < B; ++k) v[k] = v[k] < low[k] ? low[k] : v[k] > high[k] ? high[k] : v[k];  // NaN stays visible
+    for (int k = 0; k < B; ++k) v[k] = block::clamp(v[k], low[k], high[k]);
     if (B == 1 || !has_facets(at)) return;
     double unit[B * B] = {}, y[B];
     for (int k = 0; k < B; ++k) unit[k * (B + 1)] = 1;

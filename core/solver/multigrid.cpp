@@ -7,6 +7,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/line_search.hpp"
 #include "core/solver/polyhedral_box.hpp"
@@ -168,7 +169,7 @@ std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& 
   for (int k = 0; k < response_cycles && bounded && squared > grown * last; ++k) {
     bounded = cycle(d.data()).bounded;
     last = squared;
-    squared = std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0));
+    squared = std::abs(dot(d, forces));
     if (squared <= far_below * enough * enough) break;
   }
   std::swap(level.constraints, linear);

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <string>
 
 namespace signorini {
@@ -27,14 +26,5 @@ struct SolverOptions {
   bool krylov = true;                  ///< accelerate the cycles while the phases rest
   int threads = 1;                     ///< at most; small problems start none, and results do not depend on them
 };
-
-/// For a start on a finer level, which need not be better than the discretisation error: one cycle from a coarser start
-/// brings a scalar problem below that, as in linear full multigrid; cycles of elastic bodies reduce the error far less.
-template <int B>
-SolverOptions for_a_start(SolverOptions options, bool started) {
-  options.tolerance = std::max(options.tolerance, 1e-3);
-  options.max_iterations = std::min(options.max_iterations, B == 1 && started ? 1 : 5);
-  return options;
-}
 
 }  // namespace signorini

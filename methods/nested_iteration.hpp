@@ -1,0 +1,59 @@
+#pragma once
+#include <algorithm>
+#include <string>
+
+#include "core/base/clock.hpp"
+#include "core/base/error.hpp"
+#include "core/solver/options.hpp"
+#include "core/solver/summary.hpp"
+
+namespace signorini {
+
+/// The stage of a level that gave no start.
+inline Stage dropped_start(double seconds, std::string reason) {
+  Stage stage;
+  stage.method = "nested start";
+  stage.seconds = seconds;
+  stage.reason = std::move(reason);
+  stage.kept = false;
+  return stage;
+}
+
+/// For a start on a finer level, which need not be better than the discretisation error: one cycle from a coarser start
+/// brings a scalar problem below that, as in linear full multigrid; cycles of elastic bodies reduce the error far less.
+template <int B>
+SolverOptions for_a_start(SolverOptions options, bool started) {
+  options.tolerance = std::max(options.tolerance, 1e-3);
+  options.max_iterations = std::min(options.max_iterations, B == 1 && started ? 1 : 5);
+  return options;
+}
+
+/// Nested iteration: levels are solved from the coarsest one up, each from the solution on the one before it. What
+/// fails on a coarse level (a part of the boundary without faces there, too few vectors to hold the body) may well hold
+/// on the finest one, which alone decides: such a level gives no start, and the next one begins anew.
+/// @param levels how many give a start for the finest one, which is none of them
+/// @param options of the solve that is to come; the levels are solved less accurately
+/// @param solve solve(k, options, started) solves level k, from the solution on the level before where that `started`
+/// it; what it returns says why this is no start, and is empty where it is one
+/// @param failed failed(k, stage) is told that level k gives none, and the reason
+/// @return whether the last one gives a start
+/// @throws Error(Exit::interrupted) only, where solve() does
+template <int B, class Solve, class Failed>
+bool nested_iteration(std::size_t levels, const SolverOptions& options, const Solve& solve, const Failed& failed) {
+  bool started = false;
+  for (std::size_t k = 0; k < levels; ++k) {
+    const double begin = seconds();
+    std::string reason;
+    try {
+      reason = solve(k, for_a_start<B>(options, started), started);
+    } catch (const Error& error) {
+      if (error.status() == Exit::interrupted) throw;
+      reason = error.what();
+    }
+    started = reason.empty();
+    if (!started) failed(k, dropped_start(seconds() - begin, std::move(reason)));
+  }
+  return started;
+}
+
+}  // namespace signorini
