@@ -45,18 +45,18 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model(t);
-  append(warnings, model_warnings(scene_, mesh(), now, body_));
-  append(warnings, start_warnings(hierarchy_.levels.front(), now));
+  append(warnings, model_warnings(scene_, nodes(), now, body_));
+  append(warnings, start_warnings(Nodes(hierarchy_.levels.front()), now));
 }
 
 template <int D, int B>
 void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) const {
-  append(warnings, chord_warnings<D, B>(model_, hierarchy_, results_));
+  append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
 }
 
 template <int D, int B>
 std::vector<Stress> BodyRun<D, B>::stress() const {
-  if constexpr (B == D) return nodal_stress(mesh(), element_stress(mesh(), model_, results_.u));
+  if constexpr (B == D) return nodal_stress(mesh(), element_stress(nodes(), model_, results_.u));
   return {};
 }
 
@@ -68,7 +68,7 @@ void BodyRun<D, B>::start_from(const std::vector<double>& u) {
                             u.size(), mesh().points.size() * B, B, mesh().points.size()));
   if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
     throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
-  results_.u = u;
+  results_.u = nodes().at_nodes(u, B);
 }
 
 /// Where there is no solution, perhaps the body was meant to be on the other side.
@@ -78,7 +78,7 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
     return results_.u.empty() ? solver_.solve(model) : solver_.solve_after(model, results_.u);
   } catch (const Error& error) {
     if (error.status() != Exit::no_solution) throw;
-    const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
+    const auto reasons = start_warnings(Nodes(hierarchy_.levels.front()), model, true);
     if (reasons.empty()) throw;
     throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
   }
@@ -110,8 +110,8 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_.follows = std::exchange(follows_, true);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
-  results_ = signorini::results<D, B>(mesh(), model_, solution);
-  StepReport report = step_report<D, B>(scene_, mesh(), probes_, results_, t, solution.summary, body_);
+  results_ = signorini::results<D, B>(nodes(), model_, solution);
+  StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {
     std::string warning = fmt::format(

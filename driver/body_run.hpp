@@ -35,8 +35,12 @@ class BodyRun {
   const Scene::Body& body() const { return scene_.bodies[body_]; }
   const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }
   const Mesh<D>& mesh() const { return hierarchy_.finest(); }
-  /// Of the last step.
+  /// Of that mesh: results are numbered as these.
+  const Nodes<D>& nodes() const { return solver_.nodes(); }
+  /// Of the last step, per node.
   const Results<D, B>& results() const { return results_; }
+  /// Displacements or values of the last step, B per vertex.
+  std::vector<double> solution() const { return nodes().at_vertices(results_.u, B); }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
   std::vector<Stress> stress() const;
   /// Whether all levels below the finest mesh are chosen by its matrix.

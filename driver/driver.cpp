@@ -107,8 +107,8 @@ void Driver::start_from(std::size_t body, std::vector<double> u) {
   visit(body, [&](auto& run) { run.start_from(std::move(u)); });
 }
 
-const std::vector<double>& Driver::solution(std::size_t body) const {
-  return visit(body, [](const auto& run) -> const std::vector<double>& { return run.results().u; });
+std::vector<double> Driver::solution(std::size_t body) const {
+  return visit(body, [](const auto& run) { return run.solution(); });
 }
 
 std::vector<double> Driver::points(std::size_t body) const {

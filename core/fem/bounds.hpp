@@ -13,12 +13,12 @@ struct Bound {
   Index data = -1;  ///< number of the obstacle's own numbers, where it has a functional here
 };
 
-/// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides unless a
+/// All bounds of a model's obstacles by ascending node, without those that are infinite on both sides unless a
 /// functional comes with them. An obstacle that fails is an Error with its code; a bound that no number satisfies is an
 /// Error(Exit::no_solution).
 /// @param data most_data numbers for each functional are appended, see Bound::data
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model, std::vector<double>& data);
+std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& model, std::vector<double>& data);
 
 /// One direction of a local constraint and the obstacles its two bounds come from.
 template <int B>
@@ -33,7 +33,7 @@ struct CombinedBound {
 template <int D, int B>
 class BoundCombiner {
  public:
-  BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, const std::vector<Bound<B>>& bounds,
+  BoundCombiner(const Nodes<D>& nodes, const Model<B>& model, const std::vector<Bound<B>>& bounds,
                 const std::vector<FixedDirections<B>>& fixes);
 
   /// Combines the bounds first <= bound < last of one vertex; `fixed` may be null. Each bound is reduced to the part of
@@ -75,7 +75,7 @@ class BoundCombiner {
   double rounding(Index obstacle);
   [[noreturn]] void no_solution(Index obstacle, Index vertex, const std::string& why) const;
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   const Model<B>& model_;
   const std::vector<Bound<B>>& bounds_;
   double size_;                   // of prescribed values, and of coordinates where bounds are computed from them
