@@ -25,7 +25,7 @@ void append(std::vector<std::string>& warnings, std::vector<std::string> more) {
 
 template <int D, int B>
 BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress,
-                       Times& times, std::vector<std::string>& warnings)
+                       Times& times, std::vector<std::string>& warnings, PromisedMemory* promised)
     : scene_(scene),
       body_(body),
       registry_(registry),
@@ -33,7 +33,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
       hierarchy_([&] {
         const Stopwatch watch;
         progress.phase("meshing");
-        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body);
+        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body, promised);
         times.mesh += watch.elapsed();
         return hierarchy;
       }()),

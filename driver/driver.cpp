@@ -31,13 +31,15 @@ Driver::Driver(Scene scene, const Progress& progress)
 Driver::~Driver() = default;
 
 void Driver::build_bodies() {
-  report_.dimension = dimension_of(scene_);
-  for (std::size_t body = 0; body < scene_.bodies.size(); ++body)
+  report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
+  PromisedMemory promised;
+  const std::size_t bodies = scene_.bodies.size();
+  for (std::size_t body = 0; body < bodies; ++body)
     dispatch(
         scene_,
         [&]<int D, int B>() {
-          bodies_.emplace_back(
-              std::make_unique<BodyRun<D, B>>(scene_, body, registry_, progress_, report_.time, mesh_warnings_));
+          bodies_.emplace_back(std::make_unique<BodyRun<D, B>>(scene_, body, registry_, progress_, report_.time,
+                                                               mesh_warnings_, bodies > 1 ? &promised : nullptr));
         },
         body);
 }
