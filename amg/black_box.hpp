@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "amg/near_null_space.hpp"
+#include "core/algebra/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/solver/options.hpp"
 #include "methods/solve.hpp"

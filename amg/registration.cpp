@@ -57,7 +57,7 @@ void register_linear_solvers(Registry& registry) {
                               {},
                               file,
                               {}},
-                             [] { return std::make_unique<AmgConjugateGradients>(); });
+                             [] { return std::make_unique<AmgConjugateGradients>(solver_components); });
 }
 
 std::vector<Entry> coarsenings() {

@@ -31,7 +31,7 @@ install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
 install(DIRECTORY core driver methods ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
   COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE PATTERN cairo EXCLUDE)
-install(FILES amg/black_box.hpp amg/near_null_space.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
+install(FILES amg/black_box.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
 # Once more where it was before it had a folder of its own.
 foreach(folder c amg)
   install(FILES c/signorini.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/${folder} COMPONENT sdk)

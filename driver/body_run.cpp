@@ -25,7 +25,7 @@ void append(std::vector<std::string>& warnings, std::vector<std::string> more) {
 
 template <int D, int B>
 BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress,
-                       Times& times, std::vector<std::string>& warnings)
+                       Times& times, std::vector<std::string>& warnings, PromisedMemory* promised)
     : scene_(scene),
       body_(body),
       registry_(registry),
@@ -33,7 +33,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
       hierarchy_([&] {
         const Stopwatch watch;
         progress.phase("meshing");
-        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body);
+        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body, promised);
         times.mesh += watch.elapsed();
         return hierarchy;
       }()),
@@ -45,18 +45,18 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model(t);
-  append(warnings, model_warnings(scene_, mesh(), now, body_));
-  append(warnings, start_warnings(hierarchy_.levels.front(), now));
+  append(warnings, model_warnings(scene_, nodes(), now, body_));
+  append(warnings, start_warnings(Nodes(hierarchy_.levels.front()), now));
 }
 
 template <int D, int B>
 void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) const {
-  append(warnings, chord_warnings<D, B>(model_, hierarchy_, results_));
+  append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
 }
 
 template <int D, int B>
 std::vector<Stress> BodyRun<D, B>::stress() const {
-  if constexpr (B == D) return nodal_stress(mesh(), element_stress(mesh(), model_, results_.u));
+  if constexpr (B == D) return nodal_stress(mesh(), element_stress(nodes(), model_, results_.u));
   return {};
 }
 
@@ -68,7 +68,7 @@ void BodyRun<D, B>::start_from(const std::vector<double>& u) {
                             u.size(), mesh().points.size() * B, B, mesh().points.size()));
   if (!std::ranges::all_of(u, [](double value) { return std::isfinite(value); }))
     throw Error(Exit::usage, fmt::format("{}: a start that is not finite", body().source.table));
-  accepted_ = u;
+  accepted_ = nodes().at_nodes(u, B);
 }
 
 template <int D, int B>
@@ -92,7 +92,7 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
     return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
   } catch (const Error& error) {
     if (error.status() != Exit::no_solution) throw;
-    const auto reasons = start_warnings(hierarchy_.levels.front(), model, true);
+    const auto reasons = start_warnings(Nodes(hierarchy_.levels.front()), model, true);
     if (reasons.empty()) throw;
     throw Error(error.status(), fmt::format("{}; {}", error.what(), fmt::join(reasons, "; ")));
   }
@@ -126,8 +126,8 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   t_ = t;
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
-  results_ = signorini::results<D, B>(mesh(), model_, solution);
-  StepReport report = step_report<D, B>(scene_, mesh(), probes_, results_, t, solution.summary, body_);
+  results_ = signorini::results<D, B>(nodes(), model_, solution);
+  StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {
     std::string warning = fmt::format(

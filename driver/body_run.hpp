@@ -6,6 +6,7 @@
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
 #include "driver/nested_solver.hpp"
+#include "driver/memory.hpp"
 #include "driver/progress.hpp"
 #include "driver/results.hpp"
 
@@ -17,8 +18,9 @@ class BodyRun {
  public:
   /// Builds the meshes. Keeps references to all but the warnings, to which it adds what is odd about the meshes, and
   /// adds to `times` what everything takes. Error(Exit::input) as read_scene() has them.
+  /// @param promised memory of the bodies before it; null: it is alone
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
-          std::vector<std::string>& warnings);
+          std::vector<std::string>& warnings, PromisedMemory* promised = nullptr);
 
   /// The next step is the first one of its steps: friction counts from the undeformed body.
   void begin() {
@@ -43,8 +45,12 @@ class BodyRun {
   const Scene::Body& body() const { return scene_.bodies[body_]; }
   const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }
   const Mesh<D>& mesh() const { return hierarchy_.finest(); }
-  /// Of the last step, accepted or not.
+  /// Of that mesh: results are numbered as these.
+  const Nodes<D>& nodes() const { return solver_.nodes(); }
+  /// Of the last step, accepted or not, per node.
   const Results<D, B>& results() const { return results_; }
+  /// Displacements or values of the last step, B per vertex.
+  std::vector<double> solution() const { return nodes().at_vertices(results_.u, B); }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
   std::vector<Stress> stress() const;
   /// Whether all levels below the finest mesh are chosen by its matrix.

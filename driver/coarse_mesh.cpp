@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
@@ -16,6 +19,12 @@
 
 namespace signorini {
 namespace {
+
+[[noreturn]] void refuse_dimension(const Scene::Body& body, int found, int expected) {
+  input_error(body.source.of("mesh"), fmt::format("a mesh with {} dimensions, expected {} as the other bodies have; "
+                                                  "bodies of different dimensions need a scene each",
+                                                  found, expected));
+}
 
 template <int D>
 geometry::Size<D> target_size(const Scene::Body& body, const Progress& progress) {
@@ -43,7 +52,9 @@ struct Mesher {
 
   Mesh<D> operator()(const Scene::MeshFile& given) const {
     FileGroups groups;
-    Mesh<D> mesh = read_mesh<D>(given.file, &groups);
+    AnyMesh any = read_any_mesh(given.file, &groups);
+    if (!std::holds_alternative<Mesh<D>>(any)) refuse_dimension(body, 5 - D, D);
+    auto mesh = std::get<Mesh<D>>(std::move(any));
     refuse_lost_groups(scene, body, mesh, groups);
     mesh.region = regions(scene, body, mesh, groups);
     if (warnings)
@@ -81,9 +92,14 @@ struct Mesher {
 
 int dimension_of(const Scene& scene) {
   if (scene.dimension != 0) return scene.dimension;
-  const int dimension = mesh_dimension(std::get<Scene::MeshFile>(scene.bodies.front().shape).file);
-  check_dimension(scene, dimension);
-  return dimension;
+  std::optional<int> dimension;
+  for (const Scene::Body& body : scene.bodies) {
+    const int found = mesh_dimension(std::get<Scene::MeshFile>(body.shape).file);
+    if (dimension && found != *dimension) refuse_dimension(body, found, *dimension);
+    dimension = found;
+  }
+  check_dimension(scene, *dimension);
+  return *dimension;
 }
 
 template <int D>

@@ -43,11 +43,11 @@ std::string at_step(const Report& report, const StepReport& step) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> start_warnings(const Mesh<D>& mesh, const Model<B>& model, bool everywhere) {
+std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere) {
   std::vector<std::string> warnings;
   if constexpr (B == D)
     for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
-      const auto start = start_depth(mesh, model, static_cast<Index>(k), everywhere);
+      const auto start = start_depth(nodes, model, static_cast<Index>(k), everywhere);
       // Away from the faces that may touch, a convex obstacle may well reach into the body.
       const bool deeply = start && !everywhere && start->depth > deep * start->extent;
       if (!start || !(start->completely || deeply)) continue;
@@ -105,7 +105,7 @@ double flattened(const Results<D, B>& results, Index obstacle) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy,
+std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                                         const Results<D, B>& results) {
   std::vector<std::string> warnings;
   for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
@@ -122,18 +122,20 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
           model.obstacles[k].origin, whose, sagitta,
           depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
     };
-    std::vector<bool> touching(hierarchy.finest().points.size());
+    std::vector<bool> touching(nodes.size()), at_vertex;
     for (const ContactNode<B>& node : results.contact.nodes)
       if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
-    add("body", chord_sagitta(hierarchy, std::move(touching)));
+    for (Index v = 0; v < nodes.mesh().vertices(); ++v) at_vertex.push_back(touching[nodes.of_vertex(v)]);
+    add("body", chord_sagitta(hierarchy, std::move(at_vertex)));
     add("obstacle", results.deformed[k]->sagitta);
   }
   return warnings;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                        \
-  template std::vector<std::string> start_warnings(const Mesh<D>&, const Model<B>&, bool); \
-  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Results<D, B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                           \
+  template std::vector<std::string> start_warnings(const Nodes<D>&, const Model<B>&, bool);                   \
+  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&, \
+                                                   const Results<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -10,7 +10,7 @@ namespace signorini {
 /// normal is reversed. One sentence each.
 /// @param everywhere asks the whole boundary, not just the part the obstacle acts on
 template <int D, int B>
-std::vector<std::string> start_warnings(const Mesh<D>& mesh, const Model<B>& model, bool everywhere = false);
+std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere = false);
 
 /// Where the deformed body is inside an obstacle, or off it where contact is claimed, by more than a hundredth of the
 /// displacements there; and forces that held vertices share with the obstacle. One sentence per obstacle and kind, for
@@ -20,7 +20,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
 /// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined
 /// mesh: with a distance between both that counts beside the displacements there. One sentence per obstacle and kind.
 template <int D, int B>
-std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy,
+std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                                         const Results<D, B>& results);
 
 }  // namespace signorini

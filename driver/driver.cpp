@@ -32,13 +32,15 @@ Driver::Driver(Scene scene, const Progress& progress)
 Driver::~Driver() = default;
 
 void Driver::build_bodies() {
-  report_.dimension = dimension_of(scene_);
-  for (std::size_t body = 0; body < scene_.bodies.size(); ++body)
+  report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
+  PromisedMemory promised;
+  const std::size_t bodies = scene_.bodies.size();
+  for (std::size_t body = 0; body < bodies; ++body)
     dispatch(
         scene_,
         [&]<int D, int B>() {
-          bodies_.emplace_back(
-              std::make_unique<BodyRun<D, B>>(scene_, body, registry_, progress_, report_.time, mesh_warnings_));
+          bodies_.emplace_back(std::make_unique<BodyRun<D, B>>(scene_, body, registry_, progress_, report_.time,
+                                                               mesh_warnings_, bodies > 1 ? &promised : nullptr));
         },
         body);
 }
@@ -166,8 +168,8 @@ void Driver::start_from(std::size_t body, std::vector<double> u) {
   visit(body, [&](auto& run) { run.start_from(std::move(u)); });
 }
 
-const std::vector<double>& Driver::solution(std::size_t body) const {
-  return visit(body, [](const auto& run) -> const std::vector<double>& { return run.results().u; });
+std::vector<double> Driver::solution(std::size_t body) const {
+  return visit(body, [](const auto& run) { return run.solution(); });
 }
 
 std::vector<double> Driver::points(std::size_t body) const {

@@ -50,7 +50,7 @@ class Driver {
   const Report& report() const { return report_; }
   Report& report() { return report_; }
   /// Displacements, or values of a scalar body, at the vertices of its finest mesh, one vertex after the other.
-  const std::vector<double>& solution(std::size_t body = 0) const;
+  std::vector<double> solution(std::size_t body = 0) const;
   /// Coordinates of these vertices, likewise.
   std::vector<double> points(std::size_t body = 0) const;
 

@@ -78,11 +78,11 @@ Eigen::VectorXd within(const Eigen::VectorXd& wanted, const std::vector<Slab>& s
 }  // namespace
 
 template <int D, int B>
-LooseBody<D, B>::LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization)
-    : mesh_(mesh),
+LooseBody<D, B>::LooseBody(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization)
+    : nodes_(nodes),
       model_(model),
       discretization_(discretization),
-      motions_(mesh),
+      motions_(nodes),
       free_(motions_.free(discretization.problem)) {
   if (free_.cols() > 0) add_work();
 }
@@ -90,9 +90,9 @@ LooseBody<D, B>::LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Dis
 // Of the loads themselves: what prescribed values add to the right-hand side does none.
 template <int D, int B>
 void LooseBody<D, B>::add_work() {
-  const std::vector<double> loads = load_vector<D, B>(mesh_, model_);
+  const std::vector<double> loads = load_vector<D, B>(nodes_, model_);
   typename Motions::Row work = Motions::Row::Zero();
-  for (Index p = 0; p < mesh_.vertices(); ++p) {
+  for (Index p = 0; p < nodes_.size(); ++p) {
     const double* b = loads.data() + Offset{p} * B;
     const auto here = motions_.along(p, b);
     work += here;
@@ -180,7 +180,7 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   for (const double v : step) size = std::max(size, std::abs(v));
   if (follows_solution(problem.segments) && slides_along(step, negligible * size)) return infinity;
   for (const double v : problem.constraints.last) extent = std::max(extent, std::abs(v));
-  for (const Point<D>& x : mesh_.points)
+  for (const Point<D>& x : nodes_.mesh().points)
     for (const double v : x) extent = std::max(extent, std::abs(v));
   for (const double v : step) far.push_back(v / size * (extent / negligible));
   return functional::slope(problem, far.data(), step.data());
@@ -307,10 +307,10 @@ template <int D, int B>
 Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                               const Eigen::MatrixXd& costless) const {
   const Eigen::MatrixXd basis = free_ * costless;
-  const std::vector<double> u = to_global(discretization_.problem, x), mass = vertex_volumes(mesh_);
+  const std::vector<double> u = to_global(discretization_.problem, x), mass = node_volumes(nodes_);
   Eigen::Matrix<double, Motions::modes, Motions::modes> H = decltype(H)::Zero();
   typename Motions::Motion h = Motions::Motion::Zero();
-  for (Index p = 0; p < mesh_.vertices(); ++p)
+  for (Index p = 0; p < nodes_.size(); ++p)
     for (int i = 0; i < B; ++i) {
       double axis[B] = {};
       axis[i] = 1;
@@ -355,7 +355,7 @@ std::vector<double> LooseBody<D, B>::as_prescribed() const {
   const auto motion = motions_.nearest_to_prescribed(problem);
   if (motion.isZero(0) && free_.cols() == 0) return {};
   std::vector<double> out(problem.start.size());
-  for (Index p = 0; p < mesh_.vertices(); ++p)
+  for (Index p = 0; p < nodes_.size(); ++p)
     for (int k = 0; k < B; ++k) out[Offset{p} * B + k] = motions_.along(problem.frames, p, k) * motion;
   return out;
 }
@@ -409,7 +409,7 @@ template <int D, int B>
 void LooseBody<D, B>::add(const Eigen::VectorXd& motion, std::vector<double>& x) const {
   const DiscreteProblem<B>& problem = discretization_.problem;
   const double size = motion.norm();
-  for (Index p = 0; p < mesh_.vertices(); ++p)
+  for (Index p = 0; p < nodes_.size(); ++p)
     for (int k = 0; k < B; ++k) {
       if (problem.fixed[p] >> k & 1u) continue;
       const double by = motions_.along(problem.frames, p, k) * motion;

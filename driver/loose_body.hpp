@@ -14,7 +14,7 @@ template <int D, int B>
 class LooseBody {
  public:
   /// Keeps references to all of them.
-  LooseBody(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization);
+  LooseBody(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization);
 
   /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
   /// has no minimum. Friction takes its part
@@ -63,7 +63,7 @@ class LooseBody {
   void add(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   const Model<B>& model_;
   const Discretization<B>& discretization_;
   Motions motions_;

@@ -23,14 +23,20 @@ double bytes_needed(const HierarchySize& size, int block) {
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", bytes / 1e9); }
 }  // namespace
 
-void check_memory(const HierarchySize& size, int block, const std::string& origin) {
+void check_memory(const HierarchySize& size, int block, const std::string& origin, PromisedMemory* promised) {
   constexpr double most = std::numeric_limits<Index>::max();
+  const PromisedMemory before = promised ? *promised : PromisedMemory();
   const double unknowns = size.vertices * block, bytes = bytes_needed(size, block),
                available = proc_bytes("/proc/meminfo", "MemAvailable").value_or(infinity);
-  const std::string need = fmt::format("{:.4g} unknowns need about {} of memory", unknowns, gigabytes(bytes));
-  if (bytes > available) input_error(origin, fmt::format("{}, and {} are available", need, gigabytes(available)));
+  std::string need = fmt::format("{:.4g} unknowns need about {} of memory", unknowns, gigabytes(bytes));
+  if (before.bodies > 0)
+    need += fmt::format(" beside {} for the {} before", gigabytes(before.bytes),
+                        before.bodies == 1 ? "body" : fmt::format("{} bodies", before.bodies));
+  if (before.bytes + bytes > available)
+    input_error(origin, fmt::format("{}, and {} are available", need, gigabytes(available)));
   if (std::max(size.elements, unknowns) > most)
     input_error(origin, fmt::format("{}, and more than {} are beyond this version", need, most));
+  if (promised) *promised = {before.bytes + bytes - size.bytes, before.bodies + 1};
 }
 
 template <int D>

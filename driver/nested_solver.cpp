@@ -87,10 +87,11 @@ std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<st
 
 /// Of an elastic body.
 template <int D, int B>
-NearNullSpace near_null_space(const Mesh<D>& mesh) {
+NearNullSpace near_null_space(const Nodes<D>& nodes) {
   if constexpr (B == 1) return {};
   std::vector<double> coordinates;
-  for (const Point<D>& x : mesh.points) coordinates.insert(coordinates.end(), x.begin(), x.end());
+  for (Index p = 0; p < nodes.size(); ++p)
+    coordinates.insert(coordinates.end(), nodes.at(p).begin(), nodes.at(p).end());
   return rigid_body_modes<D>(coordinates);
 }
 
@@ -128,8 +129,10 @@ std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& o
 
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
-                                 const Registry& registry, const Progress& progress, Times& times)
+                                 const Registry& registry, const Progress& progress, Times& times,
+                                 std::vector<Nodes<D>> nodes)
     : hierarchy_(hierarchy),
+      nodes_(nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
       options_(options),
       first_(first_mesh(hierarchy, options, B)),
       factorised_(factorised_meshes(hierarchy, options, B)),
@@ -141,7 +144,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         return !progress_.interrupted();
       }) {
   Stopwatch watch;
-  if (first_ == 0) prolongations_ = prolongations(hierarchy);
+  if (first_ == 0) prolongations_ = prolongations(hierarchy, nodes_);
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
@@ -160,7 +163,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     solution.discretization = std::move(*renewed);
   } else {
     changed_[level] = true;
-    solution.discretization = discretize<D, B>(mesh, model);
+    solution.discretization = discretize<D, B>(nodes_[level], model);
     Assemblies& count = times_.assemblies;
     ++count.stiffness, ++count.load, ++count.constraints;
   }
@@ -185,7 +188,7 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
     problem.A = std::move(galerkin_[number(level)].A);
     problem.fixed = std::move(galerkin_[number(level)].off);
   }
-  const Assembled assembled = renew(hierarchy_.levels[level], kept->model, model, kept->discretization);
+  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization);
   changed_[level] = !assembled.same_matrix();
   times_.assemblies.stiffness += assembled.stiffness;
   times_.assemblies.load += assembled.load;
@@ -232,8 +235,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   AlgebraicSettings settings = algebraic_settings(options_);
   settings.stretched = is_stretched(hierarchy_.levels.front(), B);
-  auto modes =
-      *coarsening == Coarsening::aggregation ? near_null_space<D, B>(hierarchy_.levels[first_]) : NearNullSpace{};
+  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_]) : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();
@@ -248,7 +250,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
 /// For a start on the finest mesh, which alone has to hold the whole problem.
 template <int D, int B>
 void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
-  if (factorised_ > 0 || !coarsening_below(options_, B, hierarchy_.levels[first_].vertices())) return;
+  if (factorised_ > 0 || !coarsening_below(options_, B, nodes_[first_].size())) return;
   try {
     Solution<B> coarsest = discretize_level(model, first_);
     continue_algebraically(coarsest.discretization.problem);
@@ -357,7 +359,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
-  const LooseBody<D, B> body(hierarchy_.finest(), model, solution.discretization);
+  const LooseBody<D, B> body(nodes(), model, solution.discretization);
   body.require_minimum();
   const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
   SolverOptions options = options_;
@@ -374,7 +376,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     const std::size_t level = first_ + k;
     Solution<B> solution = begin_level(model, level, coarse);
     std::optional<LooseBody<D, B>> body;
-    if (solution.discretization.functional.empty()) body.emplace(hierarchy_.levels[level], model, solution.discretization);
+    if (solution.discretization.functional.empty()) body.emplace(nodes_[level], model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     coarse = std::move(solution);
@@ -429,7 +431,7 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   progress_.phase("levels chosen by the matrix do not reach the tolerance: once more with those of the meshes");
   Scene::Solver own = options_;
   own.hierarchy = "meshes";
-  auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_);
+  auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_, nodes_);
   Solution<B> second = before_.back().empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back());
   const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
   if (better) meshes_ = std::move(meshes);

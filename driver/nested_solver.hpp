@@ -50,9 +50,13 @@ std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::So
 template <int D, int B>
 class NestedSolver {
  public:
-  /// Keeps references to all but the options; adds to `times` what is spent on assembly, setup and solve.
+  /// Keeps references to all but options and nodes; adds to `times` what is spent on assembly, setup and solve.
+  /// @param nodes of each mesh; none: numbered as the vertices
   NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, const Registry& registry,
-               const Progress& progress, Times& times);
+               const Progress& progress, Times& times, std::vector<Nodes<D>> nodes = {});
+
+  /// Of the finest mesh: solutions have B numbers for each.
+  const Nodes<D>& nodes() const { return nodes_.back(); }
 
   /// Starts as `solver.start` says. Error(Exit::interrupted) when the user asked to end, Error(Exit::no_solution) where
   /// none exists; without convergence the summary says so.
@@ -103,6 +107,7 @@ class NestedSolver {
   Solution<B> solve_coarser_meshes(const Model<B>& model);
 
   const MeshHierarchy<D>& hierarchy_;
+  const std::vector<Nodes<D>> nodes_;  // per mesh
   Scene::Solver options_;
   const std::size_t first_;       // the coarsest mesh that gives a level, or a start
   const std::size_t factorised_;  // the number of meshes that have no coarser level

@@ -9,6 +9,7 @@
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
 #include "driver/coarse_mesh.hpp"
+#include "driver/memory.hpp"
 
 namespace signorini {
 
@@ -35,8 +36,10 @@ decltype(auto) at_step(const Scene& scene, double t, const Work& work) {
 
 /// The meshes of a body, after making sure that a problem with B unknowns per vertex on them fits into memory.
 /// @param warnings where there are any, what is odd about the mesh of a file is added
+/// @param promised memory of the bodies before it, to which its own is added; null: it is alone
 template <int D>
 MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr,
-                                 const Progress& progress = Progress(), std::size_t body = 0);
+                                 const Progress& progress = Progress(), std::size_t body = 0,
+                                 PromisedMemory* promised = nullptr);
 
 }  // namespace signorini

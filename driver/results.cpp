@@ -16,14 +16,14 @@
 namespace signorini {
 
 template <int D, int B>
-Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution) {
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution) {
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
-                    contact_state(mesh, model, solution.discretization, solution.x),
+                    contact_state(nodes, model, solution.discretization, solution.x),
                     {},
                     {}};
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
-    out.deformed.push_back(deformed_contact(mesh, model, static_cast<Index>(k), out.contact, out.u));
+    out.deformed.push_back(deformed_contact(nodes, model, static_cast<Index>(k), out.contact, out.u));
   return out;
 }
 
@@ -61,7 +61,7 @@ std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
 }  // namespace
 
 template <int D, int B>
-StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   StepReport report;
@@ -74,7 +74,7 @@ StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>&
   report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
   report.contact = contact_reports(scene, mesh, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
-    const auto value = evaluate<B>(mesh, probes.places[k], results.u);
+    const auto value = evaluate<B>(nodes, probes.places[k], results.u);
     report.probes.push_back({probes.names[k], body.name, {value.begin(), value.end()}});
   }
   return report;
@@ -97,16 +97,16 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
 }
 
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model,
+std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model,
                                         std::size_t body) {
   std::vector<std::string> warnings;
   const std::vector<int> fixes = numbers_of(scene.fixes, scene.bodies[body]);
-  for (const FixConflict& conflict : fix_conflicts(mesh, model))
+  for (const FixConflict& conflict : fix_conflicts(nodes, model))
     warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
                                    scene.fixes[fixes[conflict.later]].source.table,
                                    scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
                                    conflict.vertices == 1 ? "vertex" : "vertices"));
-  for (const CutSelection& cut : cut_selections(mesh, model))
+  for (const CutSelection& cut : cut_selections(nodes.mesh(), model))
     warnings.push_back(fmt::format(
         "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked, and "
         "it "
@@ -115,11 +115,11 @@ std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh,
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                 \
-  template Results<D, B> results(const Mesh<D>&, const Model<B>&, const Solution<B>&);                          \
-  template StepReport step_report(const Scene&, const Mesh<D>&, const Probes<D>&, const Results<D, B>&, double, \
-                                  const Summary&, std::size_t);                                                 \
-  template std::vector<std::string> model_warnings(const Scene&, const Mesh<D>&, const Model<B>&, std::size_t);
+#define SIGNORINI_RESULTS(D, B)                                                                                  \
+  template Results<D, B> results(const Nodes<D>&, const Model<B>&, const Solution<B>&);                          \
+  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double, \
+                                  const Summary&, std::size_t);                                                  \
+  template std::vector<std::string> model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)
 SIGNORINI_RESULTS(2, 2)

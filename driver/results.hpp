@@ -14,14 +14,14 @@ namespace signorini {
 /// A solution in the user's terms, on the finest mesh.
 template <int D, int B>
 struct Results {
-  std::vector<double> u;  ///< global coordinates, B per vertex
+  std::vector<double> u;  ///< global coordinates, B per node
   ContactState<B> contact;
   Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
 };
 
 template <int D, int B>
-Results<D, B> results(const Mesh<D>& mesh, const Model<B>& model, const Solution<B>& solution);
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution);
 
 /// Probes with the places where they lie.
 template <int D>
@@ -36,7 +36,7 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
 
 /// What the user is told, with the scene's numbers of fixes, loads and obstacles.
 template <int D, int B>
-StepReport step_report(const Scene& scene, const Mesh<D>& mesh, const Probes<D>& probes, const Results<D, B>& results,
+StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t body = 0);
 
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
@@ -46,7 +46,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
 /// Fixes that contradict each other, one sentence per pair, and expressions that cut through faces of the coarsest
 /// mesh.
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Mesh<D>& mesh, const Model<B>& model,
+std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model,
                                         std::size_t body = 0);
 
 }  // namespace signorini

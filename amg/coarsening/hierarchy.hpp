@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "amg/coarsening/aggregates.hpp"
-#include "amg/near_null_space.hpp"
+#include "core/algebra/near_null_space.hpp"
 #include "core/solver/components.hpp"
 #include "methods/configuration.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "amg/coarsening/aggregates.hpp"
-#include "amg/near_null_space.hpp"
+#include "core/algebra/near_null_space.hpp"
 #include "core/solver/level.hpp"
 #include "core/solver/prolongation.hpp"
 

@@ -1,8 +1,7 @@
 #include "amg/linear/algebraic_cycle.hpp"
 
 #include <algorithm>
-
-#include "amg/registration.hpp"
+#include <utility>
 
 namespace signorini {
 
@@ -14,14 +13,14 @@ Components<B> symmetric_cycle(const Registry& registry) {
 }
 
 template <int B>
-AlgebraicCycle<B>::AlgebraicCycle(BlockMatrix<B> A, int sweeps) : registry_(solver_components()) {
+AlgebraicCycle<B>::AlgebraicCycle(Registry components, BlockMatrix<B> A, int sweeps)
+    : registry_(std::move(components)) {
   const auto vectors = static_cast<std::size_t>(A.size());
   problem_.A = std::move(A);
   problem_.b.assign(vectors * B, 0.0);
   problem_.fixed.assign(vectors, 0);
   problem_.start.assign(vectors * B, 0.0);
-  const Components<B> components = symmetric_cycle<B>(registry_);
-  levels_ = algebraic_hierarchy<B>(problem_, components.transfer);
+  levels_ = algebraic_hierarchy<B>(problem_, symmetric_cycle<B>(registry_).transfer);
   problem_.galerkin = levels_.matrices;
   multigrid_ =
       std::make_unique<MonotoneMultigrid<B>>(problem_, levels_.prolongations, symmetric_cycle<B>(registry_),

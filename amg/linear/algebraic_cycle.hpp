@@ -9,8 +9,9 @@ namespace signorini {
 template <int B>
 class AlgebraicCycle {
  public:
+  /// @param components what the cycle is composed from: smoothers, transfers, coarse solvers
   /// @param sweeps before and after each correction
-  AlgebraicCycle(BlockMatrix<B> A, int sweeps);
+  AlgebraicCycle(Registry components, BlockMatrix<B> A, int sweeps);
   AlgebraicCycle(const AlgebraicCycle&) = delete;
   AlgebraicCycle& operator=(const AlgebraicCycle&) = delete;
 
@@ -19,7 +20,7 @@ class AlgebraicCycle {
   void apply(const double* r, double* z);
 
  private:
-  Registry registry_;
+  const Registry registry_;
   DiscreteProblem<B> problem_;
   AlgebraicLevels<B> levels_;
   std::unique_ptr<MonotoneMultigrid<B>> multigrid_;

@@ -53,7 +53,7 @@ void AmgConjugateGradients::analyse(const std::vector<Offset>& start, const std:
 bool AmgConjugateGradients::factorise(const std::vector<double>& value, const std::vector<double>& scale) {
   scale_ = scale;
   cycle_.reset();  // its memory is needed
-  cycle_ = std::make_unique<AlgebraicCycle<1>>(mirrored(start_, row_, value, scale), 1);
+  cycle_ = std::make_unique<AlgebraicCycle<1>>(components_(), mirrored(start_, row_, value, scale), 1);
   return true;
 }
 

@@ -31,7 +31,7 @@ template <int D, int B>
 LinearSolve linear(const Problem& problem, const Mesh<D>& mesh, const Aggregator& aggregator) {
   Model<B> model = build_model<B>(problem.scene, D, problem.registry, 1);
   model.obstacles.clear();
-  const auto discrete = discretize<D, B>(mesh, model).problem;
+  const auto discrete = discretize<D, B>(Nodes(mesh), model).problem;
   const MatrixProblem matrix = matrix_problem(discrete);
   const std::vector<double> load(matrix.b.size(), 1.0);
   return algebraic_cg<B>(matrix.A, load, 1e-8, Coarsening::aggregation, near_null_space<D, B>(mesh, discrete),

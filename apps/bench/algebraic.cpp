@@ -51,7 +51,7 @@ void compare(const Case& c, int uniform) {
   const Solved geometric = solve_nonlinear<D, B>(problem, hierarchy);
   const Model<B> model = build_model<B>(problem.scene, D, problem.registry, 1);
   Stopwatch watch;
-  const auto discretization = discretize<D, B>(hierarchy.finest(), model);
+  const auto discretization = discretize<D, B>(Nodes(hierarchy.finest()), model);
   const double geometric_time = geometric.whole() - watch.elapsed();
   const MatrixProblem matrix = matrix_problem(discretization.problem);
   const LinearSolve cg = linear<B>(matrix, c.body_load);
@@ -132,7 +132,7 @@ void grow(const Hybrid& c, bool quick) {
   int first = 0;
   for (std::size_t k = 0; k < c.cells.size() - (quick ? 1 : 0); ++k) {
     const Problem problem(c.name, c.scene, {cells(c.dimension, c.cells[k]), "refine.uniform=0"});
-    const MatrixProblem matrix = matrix_problem(discretize<D, B>(build_hierarchy<D>(problem.scene, B).finest(),
+    const MatrixProblem matrix = matrix_problem(discretize<D, B>(Nodes(build_hierarchy<D>(problem.scene, B).finest()),
                                                                  build_model<B>(problem.scene, D, problem.registry, 1))
                                                     .problem);
     const Timed box = black_box<B>(matrix);

@@ -17,7 +17,7 @@ DiscreteProblem<B> finest_problem(const Problem& problem, bool bounded) {
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
   Model<B> model = build_model<B>(problem.scene, D, problem.registry, 1);
   if (!bounded) model.obstacles.clear();
-  return discretize<D, B>(hierarchy.finest(), model).problem;
+  return discretize<D, B>(Nodes(hierarchy.finest()), model).problem;
 }
 
 /// A finest level and the iterate that it sweeps over.

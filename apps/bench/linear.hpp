@@ -1,6 +1,6 @@
 #pragma once
 #include "amg/coarsening/aggregates.hpp"
-#include "amg/near_null_space.hpp"
+#include "core/algebra/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"

@@ -53,11 +53,11 @@ void compare_with_linear(const Case& c, const Problem& problem) {
     for (int k = 0; k < B; ++k) load.value[k] = c.load[k];
     free.loads.push_back(load);
   }
-  const auto discretization = discretize<D, B>(hierarchy.finest(), free);
-  const LinearSolve linear = multigrid_cg<B>(discretization.problem, prolongations(hierarchy), problem.registry,
-                                             problem.scene.solver.tolerance);
+  const auto discretization = discretize<D, B>(Nodes(hierarchy.finest()), free);
+  const LinearSolve linear = multigrid_cg<B>(discretization.problem, prolongations(hierarchy, nodes_of(hierarchy)),
+                                             problem.registry, problem.scene.solver.tolerance);
   Stopwatch watch;
-  (void)discretize<D, B>(hierarchy.finest(), build_model<B>(problem.scene, D, problem.registry, 1));
+  (void)discretize<D, B>(Nodes(hierarchy.finest()), build_model<B>(problem.scene, D, problem.registry, 1));
   const double finest_assembly = watch.elapsed();
   const double ours = nonlinear.whole() - finest_assembly;
   row(fmt::format("| {} | {:.0f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |", c.name, nonlinear.unknowns(),
@@ -69,8 +69,8 @@ template <int D, int B>
 void cycle_traffic(const Case& c, const Problem& problem, double bandwidth) {
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
   const auto discretization =
-      discretize<D, B>(hierarchy.finest(), build_model<B>(problem.scene, D, problem.registry, 1));
-  const auto P = prolongations(hierarchy);
+      discretize<D, B>(Nodes(hierarchy.finest()), build_model<B>(problem.scene, D, problem.registry, 1));
+  const auto P = prolongations(hierarchy, nodes_of(hierarchy));
   Components<B> components{problem.registry.create<Smoother<B>>("smoother", "forward"),
                            [&] { return problem.registry.create<Transfer<B>>("transfer", "min_merge"); },
                            problem.registry.create<CoarseSolver<B>>("coarse", "newton")};

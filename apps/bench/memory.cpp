@@ -41,7 +41,8 @@ void row(int nodes) {
   const double before = begin_measuring();
   const Solved solved = solve_nonlinear<3, 3>(problem, hierarchy);
   const double peak = status_of_memory("VmHWM:");
-  const auto finest = discretize<3, 3>(hierarchy.finest(), build_model<3>(problem.scene, 3, problem.registry, 1));
+  const auto finest =
+      discretize<3, 3>(Nodes(hierarchy.finest()), build_model<3>(problem.scene, 3, problem.registry, 1));
   const double matrix = bytes(finest.problem.A);
   fmt::print("| E3 | {:.0f} | {:.1f} | {:.1f} | {:.2f} | {:.1f} |\n", solved.unknowns(), matrix / 1e6,
              (peak - before) / 1e6, (peak - before) / matrix, before / 1e6);

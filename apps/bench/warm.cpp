@@ -58,7 +58,7 @@ void compare(const char* name, const char* what, BlackBox& solver, const std::ve
 template <int D, int B>
 void compare(const char* name, int nodes) {
   const Problem problem = benchmark_problem(name, nodes);
-  const MatrixProblem matrix = matrix_problem(discretize<D, B>(build_hierarchy<D>(problem.scene, B).finest(),
+  const MatrixProblem matrix = matrix_problem(discretize<D, B>(Nodes(build_hierarchy<D>(problem.scene, B).finest()),
                                                                build_model<B>(problem.scene, D, problem.registry, 1))
                                                   .problem);
   BlackBox solver(matrix.A, B);

@@ -20,9 +20,9 @@ namespace signorini {
 namespace {
 
 template <int D, int B>
-Offset free_unknowns(const Mesh<D>& mesh, const Model<B>& model) {
-  Offset count = Offset{mesh.vertices()} * B;
-  for (const auto& fixed : collect_fixes<D, B>(mesh, model)) count -= fixed.count;
+Offset free_unknowns(const Nodes<D>& nodes, const Model<B>& model) {
+  Offset count = Offset{nodes.size()} * B;
+  for (const auto& fixed : collect_fixes<D, B>(nodes, model)) count -= fixed.count;
   return count;
 }
 
@@ -41,7 +41,7 @@ void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
     const bool finest = k + 1 == hierarchy.levels.size();
     std::string unknowns = "no start: ";
     try {
-      unknowns = fmt::format("{} unknowns", free_unknowns(mesh, model));
+      unknowns = fmt::format("{} unknowns", free_unknowns(Nodes(mesh), model));
     } catch (const Error& error) {  // only the finest level has to hold the whole problem
       if (finest) throw;
       unknowns += error.what();
@@ -51,11 +51,11 @@ void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
 }
 
 template <int D, int B>
-void print_contacts(const Mesh<D>& mesh, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
+void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
   std::vector<std::set<Index>> candidates(numbers.size());
   std::vector<FunctionalNumbers<B>> functionals;
-  for (const Bound<B>& bound : collect_bounds<D, B>(mesh, model, functionals))
+  for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals))
     candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
@@ -85,29 +85,30 @@ template <int D, int B>
 void check(const Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, Console(true), body);
+  const Nodes<D> nodes(hierarchy.finest());
   locate_probes(hierarchy.finest(), scene, body);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
   Model<B> model;
   const auto discretize_at = [&](double t) {
     at_step(scene, t, [&] {
       model = build_model<B>(scene, D, registry, t, body);
-      discretize<D, B>(hierarchy.finest(), model);
+      discretize<D, B>(nodes, model);
     });
   };
   if (scene.steps.count() > 1) discretize_at(scene.steps.at.front());
   discretize_at(scene.steps.at.back());
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, model);
-  print_contacts(hierarchy.finest(), scene, scene.bodies[body], model);
+  print_contacts(nodes, scene, scene.bodies[body], model);
   const std::size_t first = first_mesh(hierarchy, scene.solver, B);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
   const bool functional =
       std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
-  print_solver(scene.solver, below, first == 0, B, free_unknowns(hierarchy.finest(), model), functional);
+  print_solver(scene.solver, below, first == 0, B, free_unknowns(nodes, model), functional);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
-  print_warnings(model_warnings(scene, hierarchy.finest(), model, body));
+  print_warnings(model_warnings(scene, nodes, model, body));
 }
 }  // namespace
 

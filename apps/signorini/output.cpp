@@ -30,15 +30,17 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
   return values;
 }
 
+/// At the vertices.
 struct ContactFields {
   std::vector<double> gap, pressure, contact, normal, tangential;
 };
 
-template <int B>
-ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices) {
-  ContactFields fields{std::vector<double>(vertices, std::numeric_limits<double>::quiet_NaN()),
-                       std::vector<double>(vertices), std::vector<double>(vertices),
-                       std::vector<double>(B > 1 ? 3 * vertices : 0), std::vector<double>(B > 1 ? 3 * vertices : 0)};
+template <int D, int B>
+ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes) {
+  const auto size = static_cast<std::size_t>(nodes.size());
+  ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()), std::vector<double>(size),
+                       std::vector<double>(size), std::vector<double>(B > 1 ? 3 * size : 0),
+                       std::vector<double>(B > 1 ? 3 * size : 0)};
   for (const ContactNode<B>& node : state.nodes) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.pressure;
@@ -50,13 +52,16 @@ ContactFields contact_fields(const ContactState<B>& state, std::size_t vertices)
       fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
     }
   }
+  for (auto* field : {&fields.gap, &fields.pressure, &fields.contact}) *field = nodes.at_vertices(std::move(*field), 1);
+  if (B > 1)
+    for (auto* field : {&fields.normal, &fields.tangential}) *field = nodes.at_vertices(std::move(*field), 3);
   return fields;
 }
 
 template <int D, int B>
-Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, const std::vector<Stress>& stress) {
-  const std::size_t vertices = hierarchy.finest().points.size();
-  ContactFields contact = contact_fields(results.contact, vertices);
+Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const Results<D, B>& results,
+               const std::vector<Stress>& stress) {
+  ContactFields contact = contact_fields(results.contact, nodes);
   Shown<D> out{hierarchy,
                {},
                {},
@@ -65,12 +70,14 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Results<D, B>& results, 
                {},
                {},
                {}};
-  for (const auto& node : results.contact.nodes)
-    if (out.touched.empty() || out.touched.back() != node.vertex) out.touched.push_back(node.vertex);
+  std::vector<bool> touched(nodes.size());
+  for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
+  for (Index v = 0; v < nodes.mesh().vertices(); ++v)
+    if (touched[nodes.of_vertex(v)]) out.touched.push_back(v);
   if constexpr (B == 1) {
-    out.value = results.u;
+    out.value = nodes.at_vertices(results.u, B);
   } else {
-    out.displacement = results.u;
+    out.displacement = nodes.at_vertices(results.u, B);
     out.value = equivalent(stress);
     out.pressure = std::move(contact.pressure);
     out.tangential = std::move(contact.tangential);
@@ -88,16 +95,16 @@ std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>
 }  // namespace
 
 template <int D, int B>
-std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results,
+std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& results,
                                    const std::vector<Stress>& stress) {
   std::vector<VtuField> fields;
-  fields.push_back({B == 1 ? "u" : "displacement", B, results.u});
+  fields.push_back({B == 1 ? "u" : "displacement", B, nodes.at_vertices(results.u, B)});
   if constexpr (B > 1) {
     fields.push_back({"stress", 9, full_tensors(stress)});
     fields.push_back({"von_mises", 1, equivalent(stress)});
   }
   if (results.contact.obstacles.empty()) return fields;
-  ContactFields contact = contact_fields(results.contact, mesh.points.size());
+  ContactFields contact = contact_fields(results.contact, nodes);
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
   if (B > 1) {
@@ -178,10 +185,11 @@ void draw_convergence(AtomicFiles& files, Report& report) {
 }
 
 template <int D, int B>
-void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
-                 const std::vector<Stress>& stress, const std::string& suffix, Report& report) {
+void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
+                 const Results<D, B>& results, const std::vector<Stress>& stress, const std::string& suffix,
+                 Report& report) {
   paint(report, [&](const Painter& draw) {
-    const auto panels = result_panels<D, B>(shown(hierarchy, results, stress), report.warnings);
+    const auto panels = result_panels<D, B>(shown(hierarchy, nodes, results, stress), report.warnings);
     if (!panels.empty()) draw.panels(files.stage("result" + suffix + ".png"), panels);
   });
 }
@@ -201,10 +209,10 @@ void write_tables(AtomicFiles& files, const Report& report) {
   write_text(files.stage("phases.csv"), phases_csv(summaries));
   if (report.has_steps()) write_text(files.stage("steps.csv"), steps_csv(report));
 }
-#define SIGNORINI_OUTPUT(D, B)                                                                                       \
-  template std::vector<VtuField> point_fields(const Mesh<D>&, const Results<D, B>&, const std::vector<Stress>&);     \
-  template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Results<D, B>&, const std::vector<Stress>&, \
-                            const std::string&, Report&);
+#define SIGNORINI_OUTPUT(D, B)                                                                                    \
+  template std::vector<VtuField> point_fields(const Nodes<D>&, const Results<D, B>&, const std::vector<Stress>&); \
+  template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&,         \
+                            const std::vector<Stress>&, const std::string&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)

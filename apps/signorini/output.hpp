@@ -13,7 +13,7 @@ namespace signorini {
 /// can be reached, or no unknown is free to, the gap is NaN and the others are zero.
 /// @param stress per vertex; of elastic bodies
 template <int D, int B>
-std::vector<VtuField> point_fields(const Mesh<D>& mesh, const Results<D, B>& results,
+std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& results,
                                    const std::vector<Stress>& stress);
 
 /// "_body1" for the names of files, where there are several bodies; else nothing.
@@ -48,8 +48,9 @@ bool is_result_file(const std::string& name);
 void draw_convergence(AtomicFiles& files, Report& report);
 /// @param suffix of the picture's name, see body_suffix()
 template <int D, int B>
-void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Results<D, B>& results,
-                 const std::vector<Stress>& stress, const std::string& suffix, Report& report);
+void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
+                 const Results<D, B>& results, const std::vector<Stress>& stress, const std::string& suffix,
+                 Report& report);
 
 /// The forces of the obstacles over the steps, where there are several; else nothing.
 void draw_steps(AtomicFiles& files, Report& report);

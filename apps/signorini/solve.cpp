@@ -56,8 +56,8 @@ class ResultFiles {
     draw_steps(files_, driver_.report());
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&](const auto& run) {
-        draw_result(files_, run.hierarchy(), run.results(), stresses_[body], body_suffix(body, driver_.bodies()),
-                    driver_.report());
+        draw_result(files_, run.hierarchy(), run.nodes(), run.results(), stresses_[body],
+                    body_suffix(body, driver_.bodies()), driver_.report());
       });
   }
 
@@ -67,7 +67,7 @@ class ResultFiles {
       driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
         // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
         constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
-        vtu_.add(run.mesh(), point_fields(run.mesh(), run.results(), stresses_[body]), driver_.report(), body,
+        vtu_.add(run.mesh(), point_fields(run.nodes(), run.results(), stresses_[body]), driver_.report(), body,
                  {worthwhile, scene().solver.threads});
       });
   }

@@ -4,7 +4,7 @@
 
 #include "core/algebra/block_matrix.hpp"
 #include "core/fem/model.hpp"
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
@@ -12,13 +12,13 @@ namespace signorini {
 /// the last bit; time and memory are linear in the mesh. Coefficients that are expressions are taken at the centroids.
 /// Errors (Exit::input): a coefficient out of range, an element without positive measure.
 template <int D, int B>
-BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model);
+BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model);
 
-/// Load vector, B per vertex: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
+/// Load vector, B per node: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
 /// exact for quartic fields. An Error(Exit::input) names the origin of a selection without faces.
 /// @param totals where there are any, becomes the integral of each load
 template <int D, int B>
-std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model,
+std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
                                 std::vector<std::array<double, B>>* totals = nullptr);
 
 }  // namespace signorini

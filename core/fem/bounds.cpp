@@ -21,44 +21,45 @@ constexpr double parallel = 1e-10;    // distance of unit vectors that are one d
 constexpr Index batch = 4096;         // vertices per call of a plugin
 
 template <int D>
-std::string position(const Mesh<D>& mesh, Index p) {
-  return fmt::format("({})", fmt::join(mesh.points[p], ", "));
+std::string position(const Nodes<D>& nodes, Index p) {
+  return fmt::format("({})", fmt::join(nodes.at(p), ", "));
 }
 
-// The vertices an obstacle may touch; on the boundary with normals of the faces it may touch.
+// The nodes an obstacle may touch; on the boundary with normals of the faces it may touch.
 template <int D>
 struct Candidates {
   Surface<D> surface;
   std::vector<Point<D>> normals;
   bool everywhere;
-  std::vector<double> areas, volumes;  // per surface vertex or per vertex: SurfaceVertex::measure for functionals
+  std::vector<double> areas, volumes;  // per node of the surface or of all: SurfaceVertex::measure for functionals
 
   template <int B>
-  Candidates(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t)
-      : surface(term.on ? signorini::surface(mesh, select_faces(mesh, *term.on, t)) : signorini::surface(mesh)),
-        normals(vertex_normals(mesh, surface)),
+  Candidates(const Nodes<D>& nodes, const ObstacleTerm<B>& term, double t)
+      : surface(term.on ? signorini::surface(nodes, select_faces(nodes.mesh(), *term.on, t))
+                        : signorini::surface(nodes)),
+        normals(node_normals(nodes, surface)),
         everywhere(!term.on) {
     if (!term.obstacle->nonlinearity()) return;
     if (B == 1 && everywhere)
-      volumes = vertex_volumes(mesh);
+      volumes = node_volumes(nodes);
     else
-      areas = vertex_areas(mesh, surface);
+      areas = node_areas(nodes, surface);
   }
 
-  Index size(const Mesh<D>& mesh) const {
-    return everywhere ? mesh.vertices() : static_cast<Index>(surface.vertices.size());
+  Index size(const Nodes<D>& nodes) const {
+    return everywhere ? nodes.size() : static_cast<Index>(surface.nodes.size());
   }
 
-  // Calls use(vertex, normal, measure) by ascending vertex.
+  // Calls use(node, normal, measure) by ascending node.
   template <class Use>
-  void each(const Mesh<D>& mesh, const Use& use) const {
-    const auto on_surface = static_cast<Index>(surface.vertices.size());
+  void each(const Nodes<D>& nodes, const Use& use) const {
+    const auto on_surface = static_cast<Index>(surface.nodes.size());
     Index next = 0;
-    for (Index p = 0; p < size(mesh); ++p) {
-      const Index vertex = everywhere ? p : surface.vertices[p];
-      const bool here = next < on_surface && surface.vertices[next] == vertex;
-      const double measure = !volumes.empty() ? volumes[vertex] : here && !areas.empty() ? areas[next] : 0;
-      use(vertex, here ? normals[next] : Point<D>{}, measure);
+    for (Index k = 0; k < size(nodes); ++k) {
+      const Index p = everywhere ? k : surface.nodes[k];
+      const bool here = next < on_surface && surface.nodes[next] == p;
+      const double measure = !volumes.empty() ? volumes[p] : here && !areas.empty() ? areas[next] : 0;
+      use(p, here ? normals[next] : Point<D>{}, measure);
       next += here;
     }
   }
@@ -67,28 +68,27 @@ struct Candidates {
 template <int D, int B>
 class Collector {
  public:
-  Collector(const Mesh<D>& mesh, const Model<B>& model, std::vector<Bound<B>>& bounds,
+  Collector(const Nodes<D>& nodes, const Model<B>& model, std::vector<Bound<B>>& bounds,
             std::vector<FunctionalNumbers<B>>& functionals)
-      : mesh_(mesh), model_(model), bounds_(bounds), functionals_(functionals), constraints_(batch) {}
+      : nodes_(nodes), model_(model), bounds_(bounds), functionals_(functionals), constraints_(batch) {}
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
-    const Candidates<D> candidates(mesh_, model_.obstacles[obstacle], model_.t);
-    if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(mesh_)));
+    const Candidates<D> candidates(nodes_, model_.obstacles[obstacle], model_.t);
+    if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
     functional_ = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
-    candidates.each(mesh_,
-                    [this](Index vertex, const Point<D>& normal, double measure) { push(vertex, normal, measure); });
+    candidates.each(nodes_, [this](Index p, const Point<D>& normal, double measure) { push(p, normal, measure); });
     flush();
   }
 
  private:
-  void push(Index vertex, const Point<D>& normal, double measure) {
+  void push(Index p, const Point<D>& normal, double measure) {
     SurfaceVertex v{};
     v.measure = measure;
-    v.vertex = vertex;
-    std::copy_n(mesh_.points[vertex].data(), D, v.position);
+    v.vertex = nodes_.vertex(p);
+    std::copy_n(nodes_.at(p).data(), D, v.position);
     std::copy_n(normal.data(), D, v.normal);
-    numbers_.push_back(vertex);
+    numbers_.push_back(p);
     if (vertices_.emplace_back(v); vertices_.size() == batch) flush();
   }
 
@@ -111,7 +111,7 @@ class Collector {
     if (directions < 0 || directions > B)
       throw Error(Exit::plugin,
                   fmt::format("{}: the plugin bounds {} directions at {}, expected 0 to {}",
-                              model_.obstacles[obstacle_].origin, directions, position(mesh_, vertex), B));
+                              model_.obstacles[obstacle_].origin, directions, position(nodes_, vertex), B));
   }
 
   void add(const SurfaceVertex& at, const LocalConstraint<B>& constraint, int k) {
@@ -121,15 +121,15 @@ class Collector {
     const double length = normalise(bound.direction);
     const std::string& origin = model_.obstacles[obstacle_].origin;
     if (!(std::fabs(length - 1) < same_direction))
-      input_error(origin,
-                  fmt::format("direction of length {} at {}, expected a unit vector", length, position(mesh_, vertex)));
+      input_error(origin, fmt::format("direction of length {} at {}, expected a unit vector", length,
+                                      position(nodes_, vertex)));
     if (std::isnan(bound.lower) || std::isnan(bound.upper))
-      input_error(origin, fmt::format("bound that is not a number at {}", position(mesh_, vertex)));
+      input_error(origin, fmt::format("bound that is not a number at {}", position(nodes_, vertex)));
     if (bound.lower == infinity || bound.upper == -infinity)
       throw Error(Exit::no_solution,
                   fmt::format("{}: no solution: the {} at {} leaves nothing admissible", origin,
                               bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
-                              position(mesh_, vertex)));
+                              position(nodes_, vertex)));
     const bool bounded = bound.lower > -infinity || bound.upper < infinity;
     if (functional_ && k == 0 && (has_data(constraint, vertex) || bounded)) {
       bound.data = static_cast<Index>(functionals_.size());
@@ -152,13 +152,13 @@ class Collector {
     for (const double value : constraint.data) {
       if (!std::isfinite(value))
         input_error(model_.obstacles[obstacle_].origin,
-                    fmt::format("number that is not finite at {}", position(mesh_, vertex)));
+                    fmt::format("number that is not finite at {}", position(nodes_, vertex)));
       any = any || value != 0;
     }
     return any;
   }
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   const Model<B>& model_;
   std::vector<Bound<B>>& bounds_;
   std::vector<FunctionalNumbers<B>>& functionals_;
@@ -172,10 +172,10 @@ class Collector {
 }  // namespace
 
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model,
+std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& model,
                                      std::vector<FunctionalNumbers<B>>& numbers) {
   std::vector<Bound<B>> bounds;
-  Collector<D, B> collector(mesh, model, bounds, numbers);
+  Collector<D, B> collector(nodes, model, bounds, numbers);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k) collector.collect(static_cast<Index>(k));
   if (model.obstacles.size() > 1)
     std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
@@ -183,13 +183,13 @@ std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model,
 }
 
 template <int D, int B>
-BoundCombiner<D, B>::BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, const std::vector<Bound<B>>& bounds,
+BoundCombiner<D, B>::BoundCombiner(const Nodes<D>& nodes, const Model<B>& model, const std::vector<Bound<B>>& bounds,
                                    const std::vector<FixedDirections<B>>& fixes)
-    : mesh_(mesh), model_(model), bounds_(bounds), size_(0), rounding_(model.obstacles.size(), -1) {
+    : nodes_(nodes), model_(model), bounds_(bounds), size_(0), rounding_(model.obstacles.size(), -1) {
   for (const FixedDirections<B>& fixed : fixes)
     for (int k = 0; k < fixed.count; ++k) size_ = std::max(size_, std::fabs(fixed.value[k]));
   if (B > 1)
-    for (const Point<D>& x : mesh.points)
+    for (const Point<D>& x : nodes.mesh().points)
       for (const double c : x) size_ = std::max(size_, std::fabs(c));
 }
 
@@ -223,7 +223,7 @@ void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>*
       input_error(model_.obstacles[bound->obstacle].origin,
                   fmt::format("acts at {} together with {}, and two obstacles with a functional (such as friction) at "
                               "one vertex are not available in this version",
-                              position(mesh_, bound->vertex), model_.obstacles[functional_->obstacle].origin));
+                              position(nodes_, bound->vertex), model_.obstacles[functional_->obstacle].origin));
     functional_ = bound;
   }
 }
@@ -248,7 +248,7 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
     input_error(model_.obstacles[bound.obstacle].origin,
                 fmt::format("meets a direction prescribed at {} that is neither along its normal nor across it, which "
                             "is not available in this version",
-                            position(mesh_, bound.vertex)));
+                            position(nodes_, bound.vertex)));
   if (length > same_direction) {
     out.lower = (bound.lower - prescribed) / length;
     out.upper = (bound.upper - prescribed) / length;
@@ -371,13 +371,13 @@ double BoundCombiner<D, B>::rounding(Index obstacle) {
 template <int D, int B>
 void BoundCombiner<D, B>::no_solution(Index obstacle, Index vertex, const std::string& why) const {
   throw Error(Exit::no_solution, fmt::format("{}: no solution at {}: {}", model_.obstacles[obstacle].origin,
-                                             position(mesh_, vertex), why));
+                                             position(nodes_, vertex), why));
 }
 
-template std::vector<Bound<1>> collect_bounds(const Mesh<2>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
-template std::vector<Bound<1>> collect_bounds(const Mesh<3>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
-template std::vector<Bound<2>> collect_bounds(const Mesh<2>&, const Model<2>&, std::vector<FunctionalNumbers<2>>&);
-template std::vector<Bound<3>> collect_bounds(const Mesh<3>&, const Model<3>&, std::vector<FunctionalNumbers<3>>&);
+template std::vector<Bound<1>> collect_bounds(const Nodes<2>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
+template std::vector<Bound<1>> collect_bounds(const Nodes<3>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
+template std::vector<Bound<2>> collect_bounds(const Nodes<2>&, const Model<2>&, std::vector<FunctionalNumbers<2>>&);
+template std::vector<Bound<3>> collect_bounds(const Nodes<3>&, const Model<3>&, std::vector<FunctionalNumbers<3>>&);
 template class BoundCombiner<2, 1>;
 template class BoundCombiner<3, 1>;
 template class BoundCombiner<2, 2>;

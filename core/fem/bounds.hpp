@@ -20,12 +20,12 @@ struct FunctionalNumbers {
   std::array<double, B> motion;        ///< of the obstacle since the last load step: obstacle_motion()
 };
 
-/// All bounds of a model's obstacles by ascending vertex, without those that are infinite on both sides unless a
+/// All bounds of a model's obstacles by ascending node, without those that are infinite on both sides unless a
 /// functional comes with them. An obstacle that fails is an Error with its code; a bound that no number satisfies is an
 /// Error(Exit::no_solution).
 /// @param numbers of each functional are appended, see Bound::data
 template <int D, int B>
-std::vector<Bound<B>> collect_bounds(const Mesh<D>& mesh, const Model<B>& model,
+std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& model,
                                      std::vector<FunctionalNumbers<B>>& numbers);
 
 /// One direction of a local constraint and the obstacles its two bounds come from.
@@ -41,7 +41,7 @@ struct CombinedBound {
 template <int D, int B>
 class BoundCombiner {
  public:
-  BoundCombiner(const Mesh<D>& mesh, const Model<B>& model, const std::vector<Bound<B>>& bounds,
+  BoundCombiner(const Nodes<D>& nodes, const Model<B>& model, const std::vector<Bound<B>>& bounds,
                 const std::vector<FixedDirections<B>>& fixes);
 
   /// Combines the bounds first <= bound < last of one vertex; `fixed` may be null. Each bound is reduced to the part of
@@ -83,7 +83,7 @@ class BoundCombiner {
   double rounding(Index obstacle);
   [[noreturn]] void no_solution(Index obstacle, Index vertex, const std::string& why) const;
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   const Model<B>& model_;
   const std::vector<Bound<B>>& bounds_;
   double size_;                   // of prescribed values, and of coordinates where bounds are computed from them

@@ -19,37 +19,41 @@ constexpr double on_bound = 1e-12;       // of the numbers compared
 // Cosine of the angle up to which a face counts as one that the obstacle pushes against: 60 degrees, less rounding.
 constexpr double facing = 0.5 - 1e-9;
 
-// Measures of the contact at vertices, see ContactNode::area.
+// Measures of the contact at nodes, see ContactNode::area.
 template <int D, int B>
 class TributaryAreas {
  public:
-  TributaryAreas(const Mesh<D>& mesh, const ObstacleTerm<B>& term, double t) : mesh_(mesh) {
+  TributaryAreas(const Nodes<D>& nodes, const ObstacleTerm<B>& term, double t) : nodes_(nodes) {
     if (B == 1 && !term.on)
-      volumes_ = vertex_volumes(mesh);
+      volumes_ = node_volumes(nodes);
     else
-      faces_ = term.on ? surface(mesh, select_faces(mesh, *term.on, t)) : surface(mesh);
+      faces_ = term.on ? surface(nodes, select_faces(nodes.mesh(), *term.on, t)) : surface(nodes);
   }
 
   double at(const ContactNode<B>& node) const {
     if (!volumes_.empty()) return volumes_[node.vertex];
-    const auto found = std::lower_bound(faces_.vertices.begin(), faces_.vertices.end(), node.vertex);
-    if (found == faces_.vertices.end() || *found != node.vertex) return 0;
-    const auto v = static_cast<std::size_t>(found - faces_.vertices.begin());
+    const auto found = std::lower_bound(faces_.nodes.begin(), faces_.nodes.end(), node.vertex);
+    if (found == faces_.nodes.end() || *found != node.vertex) return 0;
+    const auto v = static_cast<std::size_t>(found - faces_.nodes.begin());
     double all = 0, pushed = 0;
     for (Offset k = faces_.first[v]; k < faces_.first[v + 1]; ++k) {
-      const Point<D> n = area_normal(mesh_, mesh_.boundary[faces_.around[k]]);
-      const double measure = std::sqrt(dot(n, n));
-      all += measure;
+      const double share = face_share(nodes_, faces_.around[k], node.vertex);
+      all += share;
       if constexpr (B == D)
-        if (-dot(n, node.direction) >= facing * measure) pushed += measure;
+        if (faces(faces_.around[k], node.direction)) pushed += share;
     }
-    return (pushed > 0 ? pushed : all) / D;
+    return pushed > 0 ? pushed : all;
   }
 
  private:
-  const Mesh<D>& mesh_;
+  bool faces(Index face, const Point<D>& direction) const {
+    const Point<D> n = area_normal(nodes_.mesh(), nodes_.mesh().boundary[face]);
+    return -dot(n, direction) >= facing * std::sqrt(dot(n, n));
+  }
+
+  const Nodes<D>& nodes_;
   Surface<D> faces_;
-  std::vector<double> volumes_;  // per vertex of the mesh, where the obstacle acts on the body
+  std::vector<double> volumes_;  // per node, where the obstacle acts on the body
 };
 
 template <int B>
@@ -342,15 +346,15 @@ void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least
 }  // namespace
 
 template <int D, int B>
-ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization,
+ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
                               const std::vector<double>& x) {
   ContactState<B> state;
   state.obstacles.resize(model.obstacles.size());
   const NodeReader<B> reader(discretization, x);
   for (Index slot = 0; slot < discretization.problem.constraints.size(); ++slot) {
     if (reader.has_facets(slot)) {
-      const std::vector<ContactNode<B>> nodes = reader.read_polyhedron(slot);
-      state.nodes.insert(state.nodes.end(), nodes.begin(), nodes.end());
+      const std::vector<ContactNode<B>> here = reader.read_polyhedron(slot);
+      state.nodes.insert(state.nodes.end(), here.begin(), here.end());
       continue;
     }
     for (int k = 0; k < B; ++k)
@@ -370,7 +374,7 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
     node.shared = node.shared && presses;
   }
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle) {
-    const TributaryAreas<D, B> areas(mesh, model.obstacles[obstacle], model.t);
+    const TributaryAreas<D, B> areas(nodes, model.obstacles[obstacle], model.t);
     for (ContactNode<B>& node : state.nodes) {
       if (node.obstacle != static_cast<Index>(obstacle)) continue;
       node.area = areas.at(node);
@@ -381,13 +385,13 @@ ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const 
   return state;
 }
 
-template ContactState<1> contact_state(const Mesh<2>&, const Model<1>&, const Discretization<1>&,
+template ContactState<1> contact_state(const Nodes<2>&, const Model<1>&, const Discretization<1>&,
                                        const std::vector<double>&);
-template ContactState<1> contact_state(const Mesh<3>&, const Model<1>&, const Discretization<1>&,
+template ContactState<1> contact_state(const Nodes<3>&, const Model<1>&, const Discretization<1>&,
                                        const std::vector<double>&);
-template ContactState<2> contact_state(const Mesh<2>&, const Model<2>&, const Discretization<2>&,
+template ContactState<2> contact_state(const Nodes<2>&, const Model<2>&, const Discretization<2>&,
                                        const std::vector<double>&);
-template ContactState<3> contact_state(const Mesh<3>&, const Model<3>&, const Discretization<3>&,
+template ContactState<3> contact_state(const Nodes<3>&, const Model<3>&, const Discretization<3>&,
                                        const std::vector<double>&);
 
 }  // namespace signorini

@@ -56,7 +56,7 @@ struct ContactState {
 /// ContactNode::held.
 /// @param x solution in local coordinates
 template <int D, int B>
-ContactState<B> contact_state(const Mesh<D>& mesh, const Model<B>& model, const Discretization<B>& discretization,
+ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
                               const std::vector<double>& x);
 
 }  // namespace signorini

@@ -49,13 +49,13 @@ std::optional<Frames<B>> change(const Frames<B>& old, const Frames<B>& now, cons
 template <int D, int B>
 class Discretizer {
  public:
-  Discretizer(const Mesh<D>& mesh, const Model<B>& model)
-      : mesh_(mesh),
+  Discretizer(const Nodes<D>& nodes, const Model<B>& model)
+      : nodes_(nodes),
         model_(model),
-        fixes_(collect_fixes(mesh, model)),
-        bounds_(collect_bounds(mesh, model, functionals_)),
-        combiner_(mesh, model, bounds_, fixes_) {
-    const std::size_t n = mesh.points.size();
+        fixes_(collect_fixes(nodes, model)),
+        bounds_(collect_bounds(nodes, model, functionals_)),
+        combiner_(nodes, model, bounds_, fixes_) {
+    const auto n = static_cast<std::size_t>(nodes.size());
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);
     problem().constraints.slot.assign(n, -1);
@@ -72,12 +72,12 @@ class Discretizer {
   }
 
   Discretization<B> discretize() {
-    check_lengths(mesh_, model_);
+    check_lengths(nodes_.mesh(), model_);
     assemble_stiffness();
     assemble_load();
     place_load();
     if (!out_.fixes.empty()) eliminate(problem());
-    check_load(mesh_, model_, problem());
+    check_load(nodes_, model_, problem());
     return std::move(out_);
   }
 
@@ -94,7 +94,7 @@ class Discretizer {
     place_load();
     if (assembled.stiffness && !out_.fixes.empty()) eliminate(problem());
     if (!assembled.stiffness) prescribe(problem(), out_.prescribed);
-    if (assembled.stiffness || assembled.load) check_load(mesh_, model_, problem());
+    if (assembled.stiffness || assembled.load) check_load(nodes_, model_, problem());
     return std::move(out_);
   }
 
@@ -103,8 +103,8 @@ class Discretizer {
   Constraints<B>& constraints() { return out_.problem.constraints; }
 
   void assemble_stiffness() {
-    problem().A = stiffness(mesh_, model_);
-    check_stiffness(mesh_, model_, problem().A);
+    problem().A = stiffness(nodes_, model_);
+    check_stiffness(nodes_, model_, problem().A);
     rotate(problem().A, problem().frames);
     keep_prescribed_rows();
   }
@@ -132,7 +132,7 @@ class Discretizer {
     return true;
   }
 
-  void assemble_load() { out_.load = load_vector<D, B>(mesh_, model_, &out_.applied); }
+  void assemble_load() { out_.load = load_vector<D, B>(nodes_, model_, &out_.applied); }
 
   void place_load() {
     problem().b = out_.load;
@@ -146,7 +146,7 @@ class Discretizer {
     for (auto* obstacles : {&out_.lower_obstacle, &out_.upper_obstacle}) obstacles->reserve(slots * B);
   }
 
-  // Visits the vertices with fixes or bounds in ascending order.
+  // Visits the nodes with fixes or bounds in ascending order.
   void localise() {
     auto fix = fixes_.begin();
     auto bound = bounds_.begin();
@@ -218,7 +218,7 @@ class Discretizer {
     input_error(term.origin,
                 fmt::format("at ({}) {}, so that the force that friction depends on is not known there, which is not "
                             "available in this version",
-                            fmt::join(mesh_.points[p], ", "),
+                            fmt::join(nodes_.at(p), ", "),
                             has_faces ? "other obstacles hold the body along other directions"
                                       : "a fix prescribes the displacement along the normal"));
   }
@@ -340,7 +340,7 @@ class Discretizer {
     }
   }
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
@@ -353,14 +353,14 @@ class Discretizer {
 }  // namespace
 
 template <int D, int B>
-Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model) {
-  return Discretizer<D, B>(mesh, model).discretize();
+Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model) {
+  return Discretizer<D, B>(nodes, model).discretize();
 }
 
 template <int D, int B>
-Assembled renew(const Mesh<D>& mesh, const Model<B>& before, const Model<B>& model, Discretization<B>& last) {
+Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last) {
   Assembled assembled;
-  last = Discretizer<D, B>(mesh, model).renew(std::move(last), before, assembled);
+  last = Discretizer<D, B>(nodes, model).renew(std::move(last), before, assembled);
   return assembled;
 }
 
@@ -386,9 +386,9 @@ std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<doub
   return u;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                       \
-  template Discretization<B> discretize(const Mesh<D>&, const Model<B>&); \
-  template Assembled renew(const Mesh<D>&, const Model<B>&, const Model<B>&, Discretization<B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                        \
+  template Discretization<B> discretize(const Nodes<D>&, const Model<B>&); \
+  template Assembled renew(const Nodes<D>&, const Model<B>&, const Model<B>&, Discretization<B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

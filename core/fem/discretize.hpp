@@ -40,14 +40,14 @@ struct Discretization {
   std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
   std::vector<FacetSource<B>> facets;          ///< per face of problem.constraints
   std::vector<ReducedBound<B>> reduced;        ///< by ascending `at`
-  std::vector<HeldBound<B>> held;              ///< by ascending vertex; elasticity only
-  std::vector<FixedDirections<B>> fixes;       ///< by ascending vertex
+  std::vector<HeldBound<B>> held;              ///< by ascending node; elasticity only
+  std::vector<FixedDirections<B>> fixes;       ///< by ascending node
   PrescribedRows<B> prescribed;                ///< one for each of `fixes`
-  std::vector<double> load;                    ///< of all loads, in global coordinates; B per vertex
+  std::vector<double> load;                    ///< of all loads, in global coordinates; B per node
   std::vector<std::array<double, B>> applied;  ///< per load of the model: its total
 };
 
-/// Linear elements for a model. Vectors are numbered as the vertices.
+/// Linear elements for a model. Vectors are numbered as the nodes.
 /// - Dirichlet conditions: see collect_fixes(); obstacles: see BoundCombiner.
 /// - A vector with an obstacle has a local frame: first the obstacle's directions, then free tangents, then the fixed
 ///   directions. A vector with fixed directions only has one unless these are coordinate axes.
@@ -56,7 +56,7 @@ struct Discretization {
 /// Error(Exit::input) for selections without faces, fields that are not finite or out of range, inverted elements;
 /// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
 template <int D, int B>
-Discretization<B> discretize(const Mesh<D>& mesh, const Model<B>& model);
+Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model);
 
 /// What of a discretization had to be assembled.
 struct Assembled {
@@ -66,12 +66,12 @@ struct Assembled {
   bool same_matrix() const { return !stiffness && !turned; }
 };
 
-/// Makes `last`, the discretization of another model on the same mesh, that of `model`. Prescribed values, constraints
+/// Makes `last`, the discretization of another model on the same nodes, that of `model`. Prescribed values, constraints
 /// and frames are new; the stiffness matrix is assembled only where coefficients may differ, where other components are
 /// prescribed, or where a frame has changed that some are prescribed in; the load vector where loads may differ (see
 /// Field::same()). Errors as above; then nothing is left of `last`.
 template <int D, int B>
-Assembled renew(const Mesh<D>& mesh, const Model<B>& before, const Model<B>& model, Discretization<B>& last);
+Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last);
 
 /// Global coordinates of a vector field given in the local ones, and back; B per vector.
 template <int B>

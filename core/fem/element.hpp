@@ -85,6 +85,17 @@ inline Point<D> centroid(const Mesh<D>& mesh, const std::array<Index, N>& vertic
   return combine<D>(mesh, vertices, barycentric);
 }
 
+/// Values of the basis functions of a simplex's nodes, in their order, at a point given by barycentric coordinates.
+template <std::size_t N>
+inline const std::array<double, N>& basis(const std::array<double, N>& barycentric) {
+  return barycentric;
+}
+/// The mean of the k-th one over a simplex with N corners.
+template <std::size_t N>
+constexpr double basis_mean(std::size_t /*k*/) {
+  return 1.0 / N;
+}
+
 template <int D>
 inline Site site(const Point<D>& x, double t, const Point<D>& normal = {}) {
   Site s;

@@ -28,14 +28,15 @@ double density(const Material<D>& material, const Gradient<D, D>& g) {
 }  // namespace
 
 template <int D, int B>
-double energy_error(const Mesh<D>& mesh, const Model<B>& model, const std::vector<double>& u,
+double energy_error(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                     const ExactGradient<D, B>& exact) {
+  const Mesh<D>& mesh = nodes.mesh();
   const MaterialLaw<B> law(model);
   double sum = 0;
   for (std::size_t number = 0; number < mesh.elements.size(); ++number) {
     const Simplex<D>& vertices = mesh.elements[number];
     const LinearElement<D> element = linear_element(mesh, vertices);
-    const Gradient<D, B> g = gradient<D, B>(element, vertices, u);
+    const Gradient<D, B> g = gradient<D, B>(element, nodes.of_element(number), u);
     for (const auto& [barycentric, weight] : quadrature5<D>()) {
       const Point<D> x = combine<D>(mesh, vertices, barycentric);
       Gradient<D, B> e = exact(x);
@@ -48,20 +49,20 @@ double energy_error(const Mesh<D>& mesh, const Model<B>& model, const std::vecto
 }
 
 template <int D, int B>
-double max_nodal_error(const Mesh<D>& mesh, const std::vector<double>& u, const ExactValue<D, B>& exact) {
+double max_nodal_error(const Nodes<D>& nodes, const std::vector<double>& u, const ExactValue<D, B>& exact) {
   double largest = 0;
-  for (Index p = 0; p < mesh.vertices(); ++p) {
-    std::array<double, B> e = exact(mesh.points[p]);
+  for (Index p = 0; p < nodes.size(); ++p) {
+    std::array<double, B> e = exact(nodes.at(p));
     for (int i = 0; i < B; ++i) e[i] -= u[Offset{p} * B + i];
     largest = std::max(largest, std::sqrt(dot(e, e)));
   }
   return largest;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                               \
-  template double energy_error<D, B>(const Mesh<D>&, const Model<B>&, const std::vector<double>&, \
-                                     const ExactGradient<D, B>&);                                 \
-  template double max_nodal_error<D, B>(const Mesh<D>&, const std::vector<double>&, const ExactValue<D, B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                \
+  template double energy_error<D, B>(const Nodes<D>&, const Model<B>&, const std::vector<double>&, \
+                                     const ExactGradient<D, B>&);                                  \
+  template double max_nodal_error<D, B>(const Nodes<D>&, const std::vector<double>&, const ExactValue<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

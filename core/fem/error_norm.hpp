@@ -3,6 +3,7 @@
 
 #include "core/fem/gradient.hpp"
 #include "core/fem/model.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
@@ -13,13 +14,13 @@ using ExactGradient = std::function<Gradient<D, B>(const Point<D>&)>;
 
 /// sqrt(a(u_h - u, u_h - u)) by a rule of degree 5: the error in the energy norm against a solution given by its
 /// gradient. With u_h = 0 it is the energy norm of the exact solution.
-/// @param u in global coordinates, B per vertex
+/// @param u in global coordinates, B per node
 template <int D, int B>
-double energy_error(const Mesh<D>& mesh, const Model<B>& model, const std::vector<double>& u,
+double energy_error(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                     const ExactGradient<D, B>& exact);
 
-/// max over the vertices of the Euclidean norm of u_h - u.
+/// max over the nodes of the Euclidean norm of u_h - u.
 template <int D, int B>
-double max_nodal_error(const Mesh<D>& mesh, const std::vector<double>& u, const ExactValue<D, B>& exact);
+double max_nodal_error(const Nodes<D>& nodes, const std::vector<double>& u, const ExactValue<D, B>& exact);
 
 }  // namespace signorini

@@ -56,7 +56,8 @@ std::vector<Point<D>> group_normals(const Mesh<D>& mesh, const Index* faces, std
 template <int D, int B>
 class FixCollector {
  public:
-  FixCollector(const Mesh<D>& mesh, const Model<B>& model) : mesh_(mesh), t_(model.t), slot_(mesh.points.size(), -1) {
+  FixCollector(const Nodes<D>& nodes, const Model<B>& model)
+      : nodes_(nodes), mesh_(nodes.mesh()), t_(model.t), slot_(static_cast<std::size_t>(nodes.size()), -1) {
     // What is prescribed first stays, hence backwards.
     for (auto number = static_cast<Index>(model.fixes.size()) - 1; number >= 0; --number)
       add_fix(model.fixes[number], number);
@@ -82,10 +83,10 @@ class FixCollector {
   };
 
   void add_fix(const Fix<B>& fix, Index number) {
-    const Surface<D> picked = surface(mesh_, select_faces(mesh_, fix.on, t_));
-    const std::vector<Point<D>> normals = vertex_normals(mesh_, picked);
-    for (std::size_t v = 0; v < picked.vertices.size(); ++v) {
-      const Index p = picked.vertices[v];
+    const Surface<D> picked = surface(nodes_, select_faces(mesh_, fix.on, t_));
+    const std::vector<Point<D>> normals = node_normals(nodes_, picked);
+    for (std::size_t v = 0; v < picked.nodes.size(); ++v) {
+      const Index p = picked.nodes[v];
       if (slot_[p] < 0) {
         slot_[p] = static_cast<Index>(fixes.size());
         fixes.push_back({.vertex = p});
@@ -117,12 +118,13 @@ class FixCollector {
 
   void add(const std::optional<Field>& value, Index number, Index p, const Point<D>& normal, const double* direction) {
     if (!value) return;
-    const double v0 = (*value)(site<D>(mesh_.points[p], t_, normal));
+    const double v0 = (*value)(site<D>(nodes_.at(p), t_, normal));
     largest_ = std::max(largest_, std::fabs(v0));
     const auto found = fixes[slot_[p]].add(direction, v0, number);
     if (found.by > 0 && found.fix != number) doubts_.push_back({number, found.fix, p, found.by});
   }
 
+  const Nodes<D>& nodes_;
   const Mesh<D>& mesh_;
   double t_;
   std::vector<Index> slot_;
@@ -161,17 +163,17 @@ bool FixedDirections<B>::along_axes() const {
 }
 
 template <int D, int B>
-std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>& mesh, const Model<B>& model) {
+std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model) {
   if (model.fixes.empty()) return {};
-  std::vector<FixedDirections<B>> fixes = FixCollector<D, B>(mesh, model).fixes;
+  std::vector<FixedDirections<B>> fixes = FixCollector<D, B>(nodes, model).fixes;
   std::erase_if(fixes, [](const auto& f) { return f.count == 0; });
   std::sort(fixes.begin(), fixes.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   return fixes;
 }
 
 template <int D, int B>
-std::vector<FixConflict> fix_conflicts(const Mesh<D>& mesh, const Model<B>& model) {
-  return FixCollector<D, B>(mesh, model).conflicts();
+std::vector<FixConflict> fix_conflicts(const Nodes<D>& nodes, const Model<B>& model) {
+  return FixCollector<D, B>(nodes, model).conflicts();
 }
 
 std::array<Point<2>, 1> tangents(const Point<2>& normal) { return {{{-normal[1], normal[0]}}}; }
@@ -190,9 +192,9 @@ std::array<Point<3>, 2> tangents(const Point<3>& normal) {
 template struct FixedDirections<1>;
 template struct FixedDirections<2>;
 template struct FixedDirections<3>;
-#define SIGNORINI_INSTANTIATE(D, B)                                                        \
-  template std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>&, const Model<B>&); \
-  template std::vector<FixConflict> fix_conflicts(const Mesh<D>&, const Model<B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                         \
+  template std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>&, const Model<B>&); \
+  template std::vector<FixConflict> fix_conflicts(const Nodes<D>&, const Model<B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

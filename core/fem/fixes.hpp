@@ -1,10 +1,10 @@
 #pragma once
 #include "core/fem/model.hpp"
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
-/// Directions along which the unknowns v of one vertex are prescribed: direction[k] . v = value[k]. The directions are
+/// Directions along which the unknowns v of one node are prescribed: direction[k] . v = value[k]. The directions are
 /// orthonormal; a direction within rounding of a coordinate axis is exactly that axis.
 template <int B>
 struct FixedDirections {
@@ -31,15 +31,15 @@ struct FixConflict {
   Index vertices;        ///< at so many of them
 };
 
-/// All Dirichlet conditions of a model, per vertex, ascending. Where conditions contradict each other in a direction,
+/// All Dirichlet conditions of a model, per node, ascending. Where conditions contradict each other in a direction,
 /// the later [[fix]] holds. In a normal frame the components are those along the outer normal, averaged over the picked
 /// faces around the vertex, and along the tangents (see tangents()); where these faces fall into groups whose normals
 /// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal.
 template <int D, int B>
-std::vector<FixedDirections<B>> collect_fixes(const Mesh<D>& mesh, const Model<B>& model);
+std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model);
 
 template <int D, int B>
-std::vector<FixConflict> fix_conflicts(const Mesh<D>& mesh, const Model<B>& model);
+std::vector<FixConflict> fix_conflicts(const Nodes<D>& nodes, const Model<B>& model);
 
 /// Unit tangents to a unit normal: D = 2: the normal turned by +90 degrees; D = 3: first the projection of the
 /// coordinate axis that is farthest from the normal, then the cross product of both.

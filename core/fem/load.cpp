@@ -20,21 +20,23 @@ std::array<double, B> value(const Load<B>& load, const Site& where) {
   return f;
 }
 
-/// What loads become: the integrals of their products with the hat functions, B per vertex, and of one load itself.
+/// What loads become: the integrals of their products with the basis functions, B per node, and of one load itself.
 template <int B>
 struct Loaded {
   std::vector<double> b;
   std::array<double, B> total{};
 };
 
-// Adds what a load does on a simplex with K + 1 corners.
-template <int D, int B, int K>
-void integrate(const Mesh<D>& mesh, const Load<B>& load, const std::array<Index, K + 1>& corners, double measure,
-               std::span<const QuadraturePoint<K>> rule, double t, const Point<D>& normal, Loaded<B>& out) {
+// Adds what a load does on a simplex with K + 1 corners and these nodes.
+template <int D, int B, int K, class SimplexNodes>
+void integrate(const Mesh<D>& mesh, const Load<B>& load, const std::array<Index, K + 1>& corners,
+               const SimplexNodes& nodes, double measure, std::span<const QuadraturePoint<K>> rule, double t,
+               const Point<D>& normal, Loaded<B>& out) {
   for (const auto& [barycentric, weight] : rule) {
     const auto f = value(load, site<D>(combine<D>(mesh, corners, barycentric), t, normal));
-    for (int a = 0; a <= K; ++a)
-      for (int i = 0; i < B; ++i) out.b[Offset{corners[a]} * B + i] += weight * measure * barycentric[a] * f[i];
+    const auto& values = basis(barycentric);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (int i = 0; i < B; ++i) out.b[Offset{nodes[a]} * B + i] += weight * measure * values[a] * f[i];
     for (int i = 0; i < B; ++i) out.total[i] += weight * measure * f[i];
   }
 }
@@ -50,20 +52,25 @@ std::span<const QuadraturePoint<K>> midpoint_rule() {
 }
 
 template <int D, int B>
-void add_body_force(const Mesh<D>& mesh, const Load<B>& load, double t, Loaded<B>& out) {
+void add_body_force(const Nodes<D>& nodes, const Load<B>& load, double t, Loaded<B>& out) {
+  const Mesh<D>& mesh = nodes.mesh();
   const auto rule = is_constant(load) ? midpoint_rule<D>() : quadrature2<D>();
-  for (const Simplex<D>& vertices : mesh.elements)
-    integrate<D, B, D>(mesh, load, vertices, linear_element(mesh, vertices).measure, rule, t, {}, out);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const Simplex<D>& vertices = mesh.elements[e];
+    integrate<D, B, D>(mesh, load, vertices, nodes.of_element(e), linear_element(mesh, vertices).measure, rule, t, {},
+                       out);
+  }
 }
 
 template <int D, int B>
-void add_traction(const Mesh<D>& mesh, const Load<B>& load, double t, Loaded<B>& out) {
+void add_traction(const Nodes<D>& nodes, const Load<B>& load, double t, Loaded<B>& out) {
+  const Mesh<D>& mesh = nodes.mesh();
   const auto rule = is_constant(load) ? midpoint_rule<D - 1>() : quadrature5<D - 1>();
   for (const Index f : select_faces(mesh, *load.on, t)) {
     const Face<D>& face = mesh.boundary[f];
     Point<D> normal = area_normal(mesh, face);
     const double measure = normalise(normal);
-    integrate<D, B, D - 1>(mesh, load, face.vertices, measure, rule, t, normal, out);
+    integrate<D, B, D - 1>(mesh, load, face.vertices, nodes.of_face(f), measure, rule, t, normal, out);
   }
 }
 
@@ -75,23 +82,23 @@ bool is_zero(const Load<B>& load) {
 }  // namespace
 
 template <int D, int B>
-std::vector<double> load_vector(const Mesh<D>& mesh, const Model<B>& model,
+std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
                                 std::vector<std::array<double, B>>* totals) {
-  Loaded<B> out{std::vector<double>(mesh.points.size() * B)};
+  Loaded<B> out{std::vector<double>(static_cast<std::size_t>(nodes.size()) * B)};
   if (totals) totals->clear();
   for (const Load<B>& load : model.loads) {
     out.total = {};
     if (load.on)
-      add_traction(mesh, load, model.t, out);
+      add_traction(nodes, load, model.t, out);
     else if (!is_zero(load))
-      add_body_force(mesh, load, model.t, out);
+      add_body_force(nodes, load, model.t, out);
     if (totals) totals->push_back(out.total);
   }
   return std::move(out.b);
 }
 
 #define SIGNORINI_INSTANTIATE(D, B) \
-  template std::vector<double> load_vector<D, B>(const Mesh<D>&, const Model<B>&, std::vector<std::array<double, B>>*);
+  template std::vector<double> load_vector<D, B>(const Nodes<D>&, const Model<B>&, std::vector<std::array<double, B>>*);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -1,6 +1,6 @@
 #pragma once
 #include "core/fem/model.hpp"
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 /// Numbers so large or small that no solver can compute with them: an Error(Exit::input) names the body and a vertex.
@@ -12,10 +12,10 @@ void check_lengths(const Mesh<D>& mesh, const Model<B>& model);
 
 /// A diagonal entry that is not stored, not finite or has no finite inverse.
 template <int D, int B>
-void check_stiffness(const Mesh<D>& mesh, const Model<B>& model, const BlockMatrix<B>& A);
+void check_stiffness(const Nodes<D>& nodes, const Model<B>& model, const BlockMatrix<B>& A);
 
 /// A load whose square or energy (after one step of Jacobi's method) is not finite.
 template <int D, int B>
-void check_load(const Mesh<D>& mesh, const Model<B>& model, const DiscreteProblem<B>& problem);
+void check_load(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem);
 
 }  // namespace signorini

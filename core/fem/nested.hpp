@@ -1,5 +1,5 @@
 #pragma once
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 #include "core/solver/discrete_problem.hpp"
 #include "core/solver/prolongation.hpp"
 
@@ -7,10 +7,12 @@ namespace signorini {
 
 /// Interpolation of linear elements from a mesh to its refinement: weight 1 at common vertices, 1/2 at the ends of a
 /// divided edge.
-Prolongation prolongation(const Refinement& refinement, Index coarse_vertices);
-/// Between all levels of a hierarchy, coarsest first.
 template <int D>
-std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy);
+Prolongation prolongation(const Refinement& refinement, const Nodes<D>& coarse, const Nodes<D>& fine);
+/// Between all levels of a hierarchy, coarsest first.
+/// @param nodes of each of its meshes
+template <int D>
+std::vector<Prolongation> prolongations(const MeshHierarchy<D>& hierarchy, const std::vector<Nodes<D>>& nodes);
 
 /// A solution of one level as a start for the next finer one, both in the local coordinates of their problems.
 /// Components that are prescribed on the fine level take their prescribed values.

@@ -2,7 +2,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/mesh/mesh.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
@@ -20,12 +21,14 @@ struct Place {
 template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin);
 
-/// The value there of a linear element function, B per vertex.
+/// The value there of a finite element function, B per node.
 template <int B, int D>
-std::array<double, B> evaluate(const Mesh<D>& mesh, const Place<D>& place, const std::vector<double>& u) {
+std::array<double, B> evaluate(const Nodes<D>& nodes, const Place<D>& place, const std::vector<double>& u) {
   std::array<double, B> value{};
-  for (int a = 0; a <= D; ++a)
-    for (int i = 0; i < B; ++i) value[i] += place.barycentric[a] * u[Offset{mesh.elements[place.element][a]} * B + i];
+  const auto node = nodes.of_element(place.element);
+  const auto& values = basis(place.barycentric);
+  for (std::size_t a = 0; a < node.size(); ++a)
+    for (int i = 0; i < B; ++i) value[i] += values[a] * u[Offset{node[a]} * B + i];
   return value;
 }
 

@@ -13,34 +13,35 @@ namespace {
 
 constexpr double rounding = 1e-12;  // of the body's extent
 
-/// Distance of a vertex to an obstacle and the direction away from it.
+/// Distance of a node to an obstacle and the direction away from it.
 template <int D>
 struct Gap {
-  Index vertex;
+  Index node;
   double distance;
   Point<D> normal;
 };
 
 template <int D>
-Surface<D> faces_of(const Mesh<D>& mesh, const Model<D>& model, Index obstacle, bool everywhere) {
+Surface<D> faces_of(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, bool everywhere) {
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
-  return term.on && !everywhere ? surface(mesh, select_faces(mesh, *term.on, model.t)) : surface(mesh);
+  return term.on && !everywhere ? surface(nodes, select_faces(nodes.mesh(), *term.on, model.t)) : surface(nodes);
 }
 
 /// A boundary alone, displaced by u.
 template <int D>
-Mesh<D> displaced(const Mesh<D>& mesh, const std::vector<double>& u) {
+Mesh<D> displaced(const Nodes<D>& nodes, const std::vector<double>& u) {
   Mesh<D> out;
-  out.points = mesh.points;
-  out.boundary = mesh.boundary;
-  for (std::size_t k = 0; k < u.size(); ++k) out.points[k / D][k % D] += u[k];
+  out.points = nodes.mesh().points;
+  out.boundary = nodes.mesh().boundary;
+  for (Index v = 0; v < out.vertices(); ++v)
+    for (int i = 0; i < D; ++i) out.points[v][i] += u[Offset{nodes.of_vertex(v)} * D + i];
   return out;
 }
 
 /// The bound that is nearest, or violated most.
 template <int D>
-Gap<D> gap(Index vertex, const LocalConstraint<D>& constraint) {
-  Gap<D> out{vertex, infinity, {}};
+Gap<D> gap(Index node, const LocalConstraint<D>& constraint) {
+  Gap<D> out{node, infinity, {}};
   for (int k = 0; k < constraint.directions; ++k)
     for (const double sign : {1.0, -1.0}) {
       const double distance = sign > 0 ? -constraint.lower[k] : constraint.upper[k];
@@ -51,21 +52,20 @@ Gap<D> gap(Index vertex, const LocalConstraint<D>& constraint) {
   return out;
 }
 
-/// To a rigid obstacle, by ascending vertex; empty where it fails.
+/// To a rigid obstacle, by ascending node; empty where it fails.
 template <int D>
-std::vector<Gap<D>> gaps(const Mesh<D>& mesh, const Surface<D>& at, const ObstacleTerm<D>& term) {
-  const std::vector<Point<D>> normals = vertex_normals(mesh, at);
+std::vector<Gap<D>> gaps(const Nodes<D>& nodes, const Surface<D>& at, const ObstacleTerm<D>& term) {
+  const std::vector<Point<D>> normals = node_normals(nodes, at);
   std::vector<SurfaceVertex> vertices(normals.size());
   for (std::size_t v = 0; v < normals.size(); ++v) {
-    std::copy_n(mesh.points[at.vertices[v]].data(), D, vertices[v].position);
+    std::copy_n(nodes.at(at.nodes[v]).data(), D, vertices[v].position);
     std::copy_n(normals[v].data(), D, vertices[v].normal);
   }
   std::vector<LocalConstraint<D>> constraints(vertices.size());
   Status status;
   term.obstacle->assemble(vertices.data(), vertices.size(), constraints.data(), status);
   std::vector<Gap<D>> out;
-  for (std::size_t v = 0; v < vertices.size() && status.ok(); ++v)
-    out.push_back(gap<D>(at.vertices[v], constraints[v]));
+  for (std::size_t v = 0; v < vertices.size() && status.ok(); ++v) out.push_back(gap<D>(at.nodes[v], constraints[v]));
   return out;
 }
 
@@ -85,36 +85,36 @@ DeformedContact violation(const ContactState<B>& state, Index obstacle) {
 }
 
 template <int D>
-std::optional<DeformedContact> true_contact(const Mesh<D>& mesh, const Model<D>& model, Index obstacle,
+std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,
                                             const ContactState<D>& state, const std::vector<double>& u) {
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
-  const Mesh<D> there = displaced(mesh, u);
-  const auto all = gaps(there, faces_of(mesh, model, obstacle, false), term);
+  const Mesh<D> there = displaced(nodes, u);
+  const Nodes<D> moved = nodes.on(there);
+  const auto all = gaps(moved, faces_of(nodes, model, obstacle, false), term);
   if (all.empty()) return {};
   const auto* faceted = dynamic_cast<const geometry::FacetedDistance*>(term.shape.get());
   DeformedContact out;
   auto node = state.nodes.begin();
   for (const Gap<D>& gap : all) {
     bool contact = false;
-    while (node != state.nodes.end() && node->vertex < gap.vertex) ++node;
-    for (; node != state.nodes.end() && node->vertex == gap.vertex; ++node)
+    while (node != state.nodes.end() && node->vertex < gap.node) ++node;
+    for (; node != state.nodes.end() && node->vertex == gap.node; ++node)
       contact = contact || (node->contact && node->obstacle == obstacle);
     if constexpr (D == 3)
-      if (contact && faceted)
-        out.sagitta = std::fmax(out.sagitta, faceted->sagitta_at(there.points[gap.vertex].data()));
+      if (contact && faceted) out.sagitta = std::fmax(out.sagitta, faceted->sagitta_at(moved.at(gap.node).data()));
     if (contact) out.opening = std::max(out.opening, gap.distance);
     out.penetration = std::max(out.penetration, -gap.distance);
-    if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.vertex));
+    if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.node));
   }
   return out;
 }
 
-/// Largest less least coordinate of some vertices along a direction.
+/// Largest less least coordinate of some nodes along a direction.
 template <int D>
-double extent(const Mesh<D>& mesh, const std::vector<Index>& vertices, const std::type_identity_t<Point<D>>& along) {
+double extent(const Nodes<D>& nodes, const std::vector<Index>& some, const std::type_identity_t<Point<D>>& along) {
   double low = infinity, high = -infinity;
-  for (const Index p : vertices) {
-    const double x = dot(mesh.points[p], along);
+  for (const Index p : some) {
+    const double x = dot(nodes.at(p), along);
     low = std::min(low, x);
     high = std::max(high, x);
   }
@@ -124,38 +124,38 @@ double extent(const Mesh<D>& mesh, const std::vector<Index>& vertices, const std
 }  // namespace
 
 template <int D, int B>
-std::optional<DeformedContact> deformed_contact(const Mesh<D>& mesh, const Model<B>& model, Index obstacle,
+std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
                                                 const ContactState<B>& state, const std::vector<double>& u) {
   if constexpr (B == D)
-    if (model.obstacles[obstacle].shape) return true_contact(mesh, model, obstacle, state, u);
+    if (model.obstacles[obstacle].shape) return true_contact(nodes, model, obstacle, state, u);
   return violation(state, obstacle);
 }
 
 template <int D>
-std::optional<StartDepth> start_depth(const Mesh<D>& mesh, const Model<D>& model, Index obstacle, bool everywhere) {
+std::optional<StartDepth> start_depth(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, bool everywhere) {
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
   if (!term.shape) return {};
   const auto less = [](const Gap<D>& a, const Gap<D>& b) { return a.distance < b.distance; };
-  const Surface<D> boundary = surface(mesh);
-  const auto all = gaps(mesh, boundary, term);
-  const auto asked = everywhere ? all : gaps(mesh, faces_of(mesh, model, obstacle, false), term);
+  const Surface<D> boundary = surface(nodes);
+  const auto all = gaps(nodes, boundary, term);
+  const auto asked = everywhere ? all : gaps(nodes, faces_of(nodes, model, obstacle, false), term);
   if (all.empty() || asked.empty()) return {};
   const auto [lowest, highest] = std::ranges::minmax_element(all, less);
-  const double least = rounding * extent(mesh, boundary.vertices, lowest->normal);
+  const double least = rounding * extent(nodes, boundary.nodes, lowest->normal);
   const bool completely = highest->distance <= least && lowest->distance < -least;
   const Gap<D> deepest = completely ? *lowest : *std::ranges::min_element(asked, less);
-  return StartDepth{-deepest.distance, extent(mesh, boundary.vertices, deepest.normal), completely};
+  return StartDepth{-deepest.distance, extent(nodes, boundary.nodes, deepest.normal), completely};
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                \
-  template std::optional<DeformedContact> deformed_contact(const Mesh<D>&, const Model<B>&, Index, \
+#define SIGNORINI_INSTANTIATE(D, B)                                                                 \
+  template std::optional<DeformedContact> deformed_contact(const Nodes<D>&, const Model<B>&, Index, \
                                                            const ContactState<B>&, const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)
 SIGNORINI_INSTANTIATE(3, 3)
 #undef SIGNORINI_INSTANTIATE
-template std::optional<StartDepth> start_depth(const Mesh<2>&, const Model<2>&, Index, bool);
-template std::optional<StartDepth> start_depth(const Mesh<3>&, const Model<3>&, Index, bool);
+template std::optional<StartDepth> start_depth(const Nodes<2>&, const Model<2>&, Index, bool);
+template std::optional<StartDepth> start_depth(const Nodes<3>&, const Model<3>&, Index, bool);
 
 }  // namespace signorini

@@ -18,7 +18,7 @@ struct DeformedContact {
 /// without a shape have no other conditions than those that were solved: of these what is left is their violation.
 /// @param u global coordinates, B per vertex
 template <int D, int B>
-std::optional<DeformedContact> deformed_contact(const Mesh<D>& mesh, const Model<B>& model, Index obstacle,
+std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
                                                 const ContactState<B>& state, const std::vector<double>& u);
 
 /// How far the undeformed body is inside a rigid obstacle.
@@ -31,6 +31,6 @@ struct StartDepth {
 /// Nothing where it is not rigid, or fails.
 /// @param everywhere asks the whole boundary, not just the part the obstacle acts on
 template <int D>
-std::optional<StartDepth> start_depth(const Mesh<D>& mesh, const Model<D>& model, Index obstacle, bool everywhere);
+std::optional<StartDepth> start_depth(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, bool everywhere);
 
 }  // namespace signorini

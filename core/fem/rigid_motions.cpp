@@ -91,10 +91,10 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, double tolerance) {
 }
 
 template <int D, int B>
-RigidMotions<D, B>::RigidMotions(const Mesh<D>& mesh) : mesh_(mesh) {
+RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes) : nodes_(nodes) {
   for (int i = 0; i < D; ++i) {
     const auto [low, high] =
-        std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[static_cast<std::size_t>(i)]; });
+        std::ranges::minmax(nodes.mesh().points, {}, [i](const Point<D>& x) { return x[static_cast<std::size_t>(i)]; });
     middle_[i] = 0.5 * (low[i] + high[i]);
     size_ = std::max(size_, 0.5 * (high[i] - low[i]));
   }
@@ -106,7 +106,7 @@ auto RigidMotions<D, B>::along(Index p, const double* d) const -> Row {
   for (int i = 0; i < translations; ++i) row[i] = d[i];
   if constexpr (B > 1) {
     Point<D> y;
-    for (int i = 0; i < D; ++i) y[i] = (mesh_.points[p][i] - middle_[i]) / size_;
+    for (int i = 0; i < D; ++i) y[i] = (nodes_.at(p)[i] - middle_[i]) / size_;
     if constexpr (D == 2) row[2] = y[0] * d[1] - y[1] * d[0];
     if constexpr (D == 3)
       for (int i = 0; i < 3; ++i) row[3 + i] = y[(i + 1) % 3] * d[(i + 2) % 3] - y[(i + 2) % 3] * d[(i + 1) % 3];

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -19,14 +19,15 @@ class RigidMotions {
   using Motion = Eigen::Matrix<double, modes, 1>;
   using Row = Eigen::Matrix<double, 1, modes>;
 
-  explicit RigidMotions(const Mesh<D>& mesh);
+  /// Keeps a reference.
+  explicit RigidMotions(const Nodes<D>& nodes);
 
   /// Half the longest extent of the body.
   double size() const { return size_; }
 
-  /// How much each mode moves the vertex p along d.
+  /// How much each mode moves the node p along d.
   Row along(Index p, const double* d) const;
-  /// The same along local component k of the vertex.
+  /// The same along local component k of the node.
   Row along(const Frames<B>& frames, Index p, int k) const;
 
   /// Those that the prescribed values leave free: an orthonormal basis, one per column, none where they hold the body.
@@ -43,7 +44,7 @@ class RigidMotions {
  private:
   std::string at(const Point<D>& from_middle) const;
 
-  const Mesh<D>& mesh_;
+  const Nodes<D>& nodes_;
   Point<D> middle_{};
   double size_ = 0;
 };

@@ -60,36 +60,37 @@ std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection,
 }
 
 template <int D>
-Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces) {
-  // Per vertex: first how many faces are around it, then where the next of these goes.
-  std::vector<Offset> next(mesh.points.size(), 0);
+Surface<D> surface(const Nodes<D>& nodes, std::vector<Index> faces) {
+  // Per node: first how many faces are around it, then where the next of these goes.
+  std::vector<Offset> next(static_cast<std::size_t>(nodes.size()), 0);
   for (const Index f : faces)
-    for (const Index p : mesh.boundary[f].vertices) ++next[p];
+    for (const Index p : nodes.of_face(f)) ++next[p];
 
   Surface<D> out;
   Offset sum = 0;
-  for (Index p = 0; p < mesh.vertices(); ++p) {
+  for (Index p = 0; p < nodes.size(); ++p) {
     if (next[p] == 0) continue;
-    out.vertices.push_back(p);
+    out.nodes.push_back(p);
     out.first.push_back(sum);
     sum += std::exchange(next[p], sum);
   }
   out.first.push_back(sum);
   out.around.resize(static_cast<std::size_t>(sum));
   for (const Index f : faces)
-    for (const Index p : mesh.boundary[f].vertices) out.around[next[p]++] = f;
+    for (const Index p : nodes.of_face(f)) out.around[next[p]++] = f;
   faces.swap(out.faces);
   return out;
 }
 
 template <int D>
-Surface<D> surface(const Mesh<D>& mesh) {
-  return surface(mesh, all_faces(mesh));
+Surface<D> surface(const Nodes<D>& nodes) {
+  return surface(nodes, all_faces(nodes.mesh()));
 }
 
 template <int D>
-std::vector<Point<D>> vertex_normals(const Mesh<D>& mesh, const Surface<D>& surface) {
-  std::vector<Point<D>> normals(surface.vertices.size());
+std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface) {
+  const Mesh<D>& mesh = nodes.mesh();
+  std::vector<Point<D>> normals(surface.nodes.size());
   for (std::size_t v = 0; v < normals.size(); ++v) {
     double measure = 0;
     Point<D> sum{};
@@ -104,33 +105,42 @@ std::vector<Point<D>> vertex_normals(const Mesh<D>& mesh, const Surface<D>& surf
 }
 
 template <int D>
-std::vector<double> vertex_areas(const Mesh<D>& mesh, const Surface<D>& surface) {
-  std::vector<double> areas(surface.vertices.size());
+double face_share(const Nodes<D>& nodes, Index face, Index node) {
+  const Point<D> n = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
+  const auto all = nodes.of_face(face);
+  const auto at = std::find(all.begin(), all.end(), node) - all.begin();
+  return std::sqrt(dot(n, n)) * basis_mean<D>(static_cast<std::size_t>(at));
+}
+
+template <int D>
+std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface) {
+  std::vector<double> areas(surface.nodes.size());
   for (std::size_t v = 0; v < areas.size(); ++v)
-    for (Offset k = surface.first[v]; k < surface.first[v + 1]; ++k) {
-      const Point<D> n = area_normal(mesh, mesh.boundary[surface.around[k]]);
-      areas[v] += std::sqrt(dot(n, n)) / D;
-    }
+    for (Offset k = surface.first[v]; k < surface.first[v + 1]; ++k)
+      areas[v] += face_share(nodes, surface.around[k], surface.nodes[v]);
   return areas;
 }
 
 template <int D>
-std::vector<double> vertex_volumes(const Mesh<D>& mesh) {
-  std::vector<double> volumes(mesh.points.size());
-  for (const Simplex<D>& vertices : mesh.elements) {
-    const double share = linear_element(mesh, vertices).measure / (D + 1);
-    for (const Index p : vertices) volumes[p] += share;
+std::vector<double> node_volumes(const Nodes<D>& nodes) {
+  const Mesh<D>& mesh = nodes.mesh();
+  std::vector<double> volumes(static_cast<std::size_t>(nodes.size()));
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const double measure = linear_element(mesh, mesh.elements[e]).measure;
+    const auto node = nodes.of_element(e);
+    for (std::size_t a = 0; a < node.size(); ++a) volumes[node[a]] += measure * basis_mean<D + 1>(a);
   }
   return volumes;
 }
 
-#define SIGNORINI_INSTANTIATE(D)                                                       \
-  template std::vector<Index> select_faces(const Mesh<D>&, const Selection&, double);  \
-  template Surface<D> surface(const Mesh<D>&, std::vector<Index>);                     \
-  template Surface<D> surface(const Mesh<D>&);                                         \
-  template std::vector<Point<D>> vertex_normals<D>(const Mesh<D>&, const Surface<D>&); \
-  template std::vector<double> vertex_areas(const Mesh<D>&, const Surface<D>&);        \
-  template std::vector<double> vertex_volumes(const Mesh<D>&);
+#define SIGNORINI_INSTANTIATE(D)                                                      \
+  template std::vector<Index> select_faces(const Mesh<D>&, const Selection&, double); \
+  template Surface<D> surface(const Nodes<D>&, std::vector<Index>);                   \
+  template Surface<D> surface(const Nodes<D>&);                                       \
+  template std::vector<Point<D>> node_normals<D>(const Nodes<D>&, const Surface<D>&); \
+  template double face_share(const Nodes<D>&, Index, Index);                          \
+  template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&);        \
+  template std::vector<double> node_volumes(const Nodes<D>&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

@@ -2,17 +2,17 @@
 #include <vector>
 
 #include "core/fem/model.hpp"
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
-/// Some faces of the boundary together with their vertices.
+/// Some faces of the boundary together with their nodes.
 template <int D>
 struct Surface {
-  std::vector<Index> faces;     ///< numbers in Mesh::boundary, ascending
-  std::vector<Index> vertices;  ///< of these faces, ascending
-  std::vector<Offset> first;    ///< vertices + 1: where the faces around each vertex begin in `around`
-  std::vector<Index> around;    ///< numbers in Mesh::boundary, of these faces only
+  std::vector<Index> faces;   ///< numbers in Mesh::boundary, ascending
+  std::vector<Index> nodes;   ///< of these faces, ascending
+  std::vector<Offset> first;  ///< nodes + 1: where the faces around each node begin in `around`
+  std::vector<Index> around;  ///< numbers in Mesh::boundary, of these faces only
 };
 
 /// The boundary faces of the named part all of whose vertices satisfy the expression; either may be missing. Faces of
@@ -22,23 +22,27 @@ template <int D>
 std::vector<Index> select_faces(const Mesh<D>& mesh, const Selection& selection, double t);
 
 template <int D>
-Surface<D> surface(const Mesh<D>& mesh, std::vector<Index> faces);
+Surface<D> surface(const Nodes<D>& nodes, std::vector<Index> faces);
 
 /// All of the boundary.
 template <int D>
-Surface<D> surface(const Mesh<D>& mesh);
+Surface<D> surface(const Nodes<D>& nodes);
 
-/// Outer unit normals at the vertices of a surface: the mean over its faces weighted by their measure; zero where the
+/// Outer unit normals at the nodes of a surface: the mean over its faces weighted by their measure; zero where the
 /// normals cancel.
 template <int D>
-std::vector<Point<D>> vertex_normals(const Mesh<D>& mesh, const Surface<D>& surface);
+std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface);
 
-/// Integrals of the hat functions over a surface, one per vertex of it: they sum to its measure.
+/// Integrals of the basis functions over a surface, one per node of it: they sum to its measure.
 template <int D>
-std::vector<double> vertex_areas(const Mesh<D>& mesh, const Surface<D>& surface);
+std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface);
 
-/// Integrals of the hat functions over the body, one per vertex.
+/// The part of a node in the measure of a face that it lies on: the integral of its basis function there.
 template <int D>
-std::vector<double> vertex_volumes(const Mesh<D>& mesh);
+double face_share(const Nodes<D>& nodes, Index face, Index node);
+
+/// Integrals of the basis functions over the body, one per node.
+template <int D>
+std::vector<double> node_volumes(const Nodes<D>& nodes);
 
 }  // namespace signorini

@@ -8,19 +8,21 @@
 namespace signorini {
 namespace {
 
-// The elements around every vertex, in flat arrays.
+// The elements around every node, in flat arrays.
 template <int D>
 struct Adjacency {
   std::vector<Offset> first;
   std::vector<Index> element;
 
-  explicit Adjacency(const Mesh<D>& mesh) : first(mesh.points.size() + 1), element(mesh.elements.size() * (D + 1)) {
-    for (const auto& vertices : mesh.elements)
-      for (const Index p : vertices) ++first[p + 1];
+  explicit Adjacency(const Nodes<D>& nodes)
+      : first(static_cast<std::size_t>(nodes.size()) + 1), element(nodes.mesh().elements.size() * (D + 1)) {
+    const std::size_t elements = nodes.mesh().elements.size();
+    for (std::size_t e = 0; e < elements; ++e)
+      for (const Index p : nodes.of_element(e)) ++first[p + 1];
     for (std::size_t p = 1; p < first.size(); ++p) first[p] += first[p - 1];
     std::vector<Offset> next(first.begin(), first.end() - 1);
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      for (const Index p : mesh.elements[e]) element[next[p]++] = static_cast<Index>(e);
+    for (std::size_t e = 0; e < elements; ++e)
+      for (const Index p : nodes.of_element(e)) element[next[p]++] = static_cast<Index>(e);
   }
 };
 
@@ -38,12 +40,12 @@ struct Assembly {
 };
 
 template <int D, int B>
-Assembly<B> pattern(const Mesh<D>& mesh) {
-  const Adjacency<D> around(mesh);
-  const Index n = mesh.vertices();
+Assembly<B> pattern(const Nodes<D>& nodes) {
+  const Adjacency<D> around(nodes);
+  const Index n = nodes.size();
   Assembly<B> out;
   out.A.row.reserve(n + 1);
-  out.A.column.reserve(n + 2 * estimated_edges(mesh));
+  out.A.column.reserve(n + 2 * estimated_edges(nodes.mesh()));
   out.upper.resize(n);
   std::vector<Index> seen(n, -1), &column = out.A.column;
   for (Index p = 0; p < n; ++p) {
@@ -51,7 +53,7 @@ Assembly<B> pattern(const Mesh<D>& mesh) {
     column.push_back(p);
     const auto begin = static_cast<Offset>(column.size());
     for (Offset k = around.first[p]; k < around.first[p + 1]; ++k)
-      for (const Index q : mesh.elements[around.element[k]])
+      for (const Index q : nodes.of_element(around.element[k]))
         if (seen[q] != p) {
           seen[q] = p;
           column.push_back(q);
@@ -77,18 +79,19 @@ inline void add_block(const Material<D>& material, double measure, const Point<D
 
 // Adds the diagonal blocks and those above the diagonal.
 template <int D, int B>
-void add_upper_half(const Mesh<D>& mesh, const Model<B>& model, Assembly<B>& out) {
+void add_upper_half(const Nodes<D>& nodes, const Model<B>& model, Assembly<B>& out) {
+  const Mesh<D>& mesh = nodes.mesh();
   const MaterialLaw<B> law(model);
   Material<B> material = law.constant() ? law.at({}) : Material<B>{};
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto& vertices = mesh.elements[e];
-    const LinearElement<D> s = checked_element(mesh, vertices, model.origin);
+    const LinearElement<D> s = checked_element(mesh, mesh.elements[e], model.origin);
+    const auto node = nodes.of_element(e);
     if (!law.constant()) material = law.at(site_in(mesh, e, model.t));
     for (int a = 0; a <= D; ++a) {
-      const Index p = vertices[a];
+      const Index p = node[a];
       add_block<D>(material, s.measure, s.gradient[a], s.gradient[a], out.A.at(out.A.row[p]));
       for (int b = a + 1; b <= D; ++b) {
-        const Index q = vertices[b];
+        const Index q = node[b];
         if (p < q)
           add_block<D>(material, s.measure, s.gradient[a], s.gradient[b], out.entry(p, q));
         else
@@ -120,20 +123,20 @@ void mirror(Assembly<B>& out) {
 }  // namespace
 
 template <int D, int B>
-BlockMatrix<B> stiffness(const Mesh<D>& mesh, const Model<B>& model) {
+BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model) {
   if constexpr (B == 1) {
-    return scalar_stiffness(mesh, model);
+    return scalar_stiffness(nodes, model);
   } else {
-    Assembly<B> out = pattern<D, B>(mesh);
-    add_upper_half(mesh, model, out);
+    Assembly<B> out = pattern<D, B>(nodes);
+    add_upper_half(nodes, model, out);
     mirror(out);
     return std::move(out.A);
   }
 }
 
-template BlockMatrix<1> stiffness(const Mesh<2>&, const Model<1>&);
-template BlockMatrix<1> stiffness(const Mesh<3>&, const Model<1>&);
-template BlockMatrix<2> stiffness(const Mesh<2>&, const Model<2>&);
-template BlockMatrix<3> stiffness(const Mesh<3>&, const Model<3>&);
+template BlockMatrix<1> stiffness(const Nodes<2>&, const Model<1>&);
+template BlockMatrix<1> stiffness(const Nodes<3>&, const Model<1>&);
+template BlockMatrix<2> stiffness(const Nodes<2>&, const Model<2>&);
+template BlockMatrix<3> stiffness(const Nodes<3>&, const Model<3>&);
 
 }  // namespace signorini

@@ -11,11 +11,12 @@ namespace {
 template <int D>
 class ScalarAssembler {
  public:
-  ScalarAssembler(const Mesh<D>& mesh, const Model<1>& model)
-      : mesh_(mesh),
+  ScalarAssembler(const Nodes<D>& nodes, const Model<1>& model)
+      : nodes_(nodes),
+        mesh_(nodes.mesh()),
         model_(model),
         law_(model),
-        rows_(mesh.vertices(), mesh.points.size() + 2 * estimated_edges(mesh)) {}
+        rows_(nodes.size(), static_cast<std::size_t>(nodes.size()) + 2 * estimated_edges(mesh_)) {}
 
   BlockMatrix<1> assemble() {
     if (mesh_.families.empty() || !mesh_.region.empty())
@@ -31,9 +32,9 @@ class ScalarAssembler {
   template <class Patches, class Ends, class Stiffness>
   void add(const Patches& patches, const Ends& ends, const Stiffness& stiffness) {
     for (std::size_t i = 0; i < patches.size(); ++i)
-      for (const Index p : patches[i]) rows_.announce(static_cast<Index>(i), p);
+      for (const Index p : nodes_.of(patches[i])) rows_.announce(static_cast<Index>(i), p);
     for (std::size_t i = 0; i < patches.size(); ++i)
-      rows_.add(static_cast<Index>(i), patches[i], ends, stiffness(patches[i], i));
+      rows_.add(static_cast<Index>(i), nodes_.of(patches[i]), ends, stiffness(patches[i], i));
   }
 
   ElementStiffness<D> element(const Simplex<D>& vertices, Index region = -1) const {
@@ -79,6 +80,7 @@ class ScalarAssembler {
     return out;
   }
 
+  const Nodes<D>& nodes_;
   const Mesh<D>& mesh_;
   const Model<1>& model_;
   const MaterialLaw<1> law_;
@@ -89,11 +91,11 @@ class ScalarAssembler {
 }  // namespace
 
 template <int D>
-BlockMatrix<1> scalar_stiffness(const Mesh<D>& mesh, const Model<1>& model) {
-  return ScalarAssembler<D>(mesh, model).assemble();
+BlockMatrix<1> scalar_stiffness(const Nodes<D>& nodes, const Model<1>& model) {
+  return ScalarAssembler<D>(nodes, model).assemble();
 }
 
-template BlockMatrix<1> scalar_stiffness(const Mesh<2>&, const Model<1>&);
-template BlockMatrix<1> scalar_stiffness(const Mesh<3>&, const Model<1>&);
+template BlockMatrix<1> scalar_stiffness(const Nodes<2>&, const Model<1>&);
+template BlockMatrix<1> scalar_stiffness(const Nodes<3>&, const Model<1>&);
 
 }  // namespace signorini

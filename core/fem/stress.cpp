@@ -26,13 +26,13 @@ Stress stress(const Material<D>& material, const Gradient<D, D>& g, bool plane_s
 }  // namespace
 
 template <int D>
-std::vector<Stress> element_stress(const Mesh<D>& mesh, const Model<D>& model, const std::vector<double>& u) {
+std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+  const Mesh<D>& mesh = nodes.mesh();
   const MaterialLaw<D> law(model);
   std::vector<Stress> out;
   out.reserve(mesh.elements.size());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Simplex<D>& vertices = mesh.elements[e];
-    const Gradient<D, D> g = gradient<D, D>(linear_element(mesh, vertices), vertices, u);
+    const Gradient<D, D> g = gradient<D, D>(linear_element(mesh, mesh.elements[e]), nodes.of_element(e), u);
     const Material<D> material = law.at(site_in(mesh, e, model.t));
     out.push_back(stress<D>(material, g, model.plane == Plane::stress));
   }
@@ -61,8 +61,8 @@ double von_mises(const Stress& s) {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-template std::vector<Stress> element_stress(const Mesh<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> element_stress(const Mesh<3>&, const Model<3>&, const std::vector<double>&);
+template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
+template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 template std::vector<Stress> nodal_stress(const Mesh<2>&, const std::vector<Stress>&);
 template std::vector<Stress> nodal_stress(const Mesh<3>&, const std::vector<Stress>&);
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "core/fem/model.hpp"
-#include "core/mesh/mesh.hpp"
+#include "core/fem/nodes.hpp"
 
 namespace signorini {
 
@@ -10,9 +10,9 @@ namespace signorini {
 using Stress = std::array<double, 6>;
 
 /// The stress in every element; in plane strain zz is what holds the body flat.
-/// @param u displacements in global coordinates, D per vertex
+/// @param u displacements in global coordinates, D per node
 template <int D>
-std::vector<Stress> element_stress(const Mesh<D>& mesh, const Model<D>& model, const std::vector<double>& u);
+std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
 
 /// The mean over the elements around each vertex, weighted by their measure.
 template <int D>

@@ -16,11 +16,15 @@ using Solver = Scene::Solver;
 
 constexpr OptionRow<Solver> of_scenes[] = {
     {"algebraic", &Solver::algebraic, "",
-     "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix"},
+     "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix", false,
+     "See \"Algebraic levels\"."},
     {"hierarchy", &Solver::hierarchy, "auto | meshes | matrix",
      "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
-     "auto: the meshes, but the matrix where cells are stretched and algebraic levels are allowed"},
-    {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh"},
+     "auto: the meshes, but the matrix where cells are stretched and algebraic levels are allowed",
+     false, "See \"Stretched cells\"."},
+    {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh", false,
+     "Below the coarsest mesh it comes from the next algebraic level. Coarser meshes that have a start themselves get "
+     "one cycle for scalar problems, at most five for elastic bodies."},
 };
 
 // As TOML: 1e-8, not 1e-08.
@@ -88,6 +92,21 @@ std::span<const char* const> solver_keys_of_scenes() {
     return all;
   }();
   return names;
+}
+
+std::string solver_options_page() {
+  std::string text = "| key | default | range | meaning |\n| --- | --- | --- | --- |\n";
+  const auto add = [&](const KeySpec& key, const char* more) {
+    const bool word = key.type == KeyType::text;
+    std::string range = key.range;
+    for (std::size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 2) range.insert(at, 1, '\\');
+    text += fmt::format("| `{}` | {}{}{} | {} | {}.{}{} |\n", key.name, word ? "\"" : "", key.fallback,
+                        word ? "\"" : "", range, key.help, *more ? " " : "", more);
+  };
+  auto key = solver_keys().begin();
+  for (const auto& row : option_table()) add(*key++, row.more);
+  for (const auto& row : of_scenes) add(*key++, row.more);
+  return text;
 }
 
 Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
@@ -12,6 +13,9 @@ std::span<const KeySpec> solver_keys();
 
 /// The names of the latter, which need meshes.
 std::span<const char* const> solver_keys_of_scenes();
+
+/// The same as the table of docs/solver.md, in Markdown.
+std::string solver_options_page();
 
 Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder);
 

@@ -30,14 +30,14 @@ struct ObstacleDescriptor {
 
 inline constexpr int most_data = 8;
 
-/// A vertex that an obstacle may reach. Unused coordinates are zero.
+/// A vertex, or another node, that an obstacle may reach. Unused coordinates are zero.
 struct SurfaceVertex {
   double position[3];
   double normal[3];  ///< averaged outer unit normal of the body's surface; zero inside it
   /// Integral of the vertex's hat function over the faces that the obstacle acts on, over the body where it acts on all
   /// vertices of a scalar one. Zero where no functional asks for it.
   double measure = 0;
-  long vertex = -1;  ///< its number in the mesh
+  long vertex = -1;  ///< its number in the mesh; -1: a node that is no vertex
 };
 
 /// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for

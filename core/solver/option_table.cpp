@@ -13,50 +13,68 @@ namespace {
 
 using S = SolverOptions;
 
-constexpr bool of_levels = true;
+constexpr bool of_levels = true, always = false;
+constexpr const char* see_levels = "See \"Options of algebraic levels\".";
 
 constexpr OptionRow<S> table[] = {
     {"tolerance", &S::tolerance, "(0, 1)", "for the relative algebraic error and for the natural residual"},
     {"max_iterations", &S::max_iterations, "[1, 1000000]",
-     "limit on the number of steps of all methods together: cycles, and the linear solves of others"},
+     "limit on the number of steps of all methods together: cycles, and the linear solves of others", always,
+     "With `pdas` and `newton`, or where `auto` goes on with other methods, a step solves a linear system."},
     {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas | newton",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
      "pdas: primal-dual active sets with a direct solver; newton: the same with friction, a semismooth Newton method; "
      "auto: monotone, tnnmg while phases rest, pdas where cycles "
-     "are slow and unknowns no more than 150000 or scalar"},
-    {"cycle", &S::cycle, "V | W | F", "shape of the cycle"},
+     "are slow and unknowns no more than 150000 or scalar",
+     always, "See \"Methods\"."},
+    {"cycle", &S::cycle, "V | W | F", "shape of the cycle", always,
+     "With `start = \"nested\"`, the default, any of them is full multigrid."},
     {"pre", &S::pre, "[0, 100]", "smoothing steps before the coarse correction"},
     {"post", &S::post, "[0, 100]", "smoothing steps after the coarse correction"},
-    {"smoother", &S::smoother, "", "a smoother of `signorini list smoothers`"},
+    {"smoother", &S::smoother, "", "a smoother of `signorini list smoothers`", always,
+     "\"forward\", \"backward\", \"symmetric\", \"adjoint\" (forward down, backward up), \"surface_first\" or "
+     "\"patch\", "
+     "see \"Smoothers\"."},
     {"relaxation", &S::relaxation, "(0, 2)",
-     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel"},
-    {"transfer", &S::transfer, "", "a monotone restriction of `signorini list transfers`"},
-    {"coarse", &S::coarse, "", "a coarse solver of `signorini list coarse`"},
+     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel", always,
+     "Larger for badly shaped elements."},
+    {"transfer", &S::transfer, "", "a monotone restriction of `signorini list transfers`", always,
+     "\"min_merge\", \"mandel\" or \"kornhuber\", see \"Monotone restrictions\"."},
+    {"coarse", &S::coarse, "", "a coarse solver of `signorini list coarse`", always,
+     "\"newton\": sweeps, and Newton steps with a factorisation where these do not soon do; \"pgs\": projected "
+     "Gauss–Seidel alone."},
     {"truncate", &S::truncate, "none | normal | tangential",
-     "directions in contact taken out of the interpolation; tangential: all directions of a vector in contact"},
+     "directions in contact taken out of the interpolation; tangential: all directions of a vector in contact", always,
+     "With \"none\" coarse levels are held back by the directions in contact."},
     {"cut", &S::cut, "[0, 100]", "also truncate where less is left than this part of the last cycle's largest change"},
     {"rotate", &S::rotate, "all | not_coarsest | meshes | none",
-     "levels on which contact vectors use their local basis; meshes: not the algebraic ones", of_levels},
+     "levels on which contact vectors use their local basis; meshes: not the algebraic ones", of_levels,
+     "There coarse contact vectors take over the frame of their fine twin. See \"Options of algebraic levels\"."},
     {"reassemble", &S::reassemble, "",
      "renew the matrices of algebraic levels where phases have changed; false: search along their corrections",
-     of_levels},
+     of_levels, see_levels},
     {"reach", &S::reach, "all | twins",
      "what corrects constrained vectors from algebraic levels: all coarse vectors, which then have bounds, or the "
      "twins of constrained ones; other weights are truncated",
-     of_levels},
+     of_levels, see_levels},
     {"interpolate", &S::interpolate, "global | local",
-     "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases", of_levels},
+     "components that algebraic levels interpolate: global ones, then rotated, or those of the local bases", of_levels,
+     see_levels},
     {"coarsening", &S::coarsening, "auto | classical | aggregation",
      "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
      "for elastic bodies",
-     of_levels},
+     of_levels, "See \"Algebraic levels\"."},
     {"aggregates", &S::aggregates, "",
-     "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels},
+     "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels,
+     "\"greedy\" or \"metis\". Refused where levels are asked for that have none."},
     {"renew", &S::renew, "cycle | sweep | outer",
      "when obstacles take anew what they keep frozen of the solution, as Coulomb friction does with the normal force: "
      "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle"},
-    {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest"},
-    {"threads", &S::threads, "[1, 4096]", "threads of the cycles, for large problems; results do not depend on them"},
+    {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest", always,
+     "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
+     "\"Acceleration\"."},
+    {"threads", &S::threads, "[1, 4096]", "threads of the cycles, for large problems; results do not depend on them",
+     always, "Levels of less than some megabytes use one."},
 };
 
 [[noreturn]] void refuse(const char* name, const std::string& found, const Range& range, const char* kind) {

@@ -1,10 +1,13 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "apps/scenes/tables.hpp"
 #include "driver/driver.hpp"
+#include "tests/support/folder.hpp"
 
 // Bodies that are not coupled, in one scene: each has the results that it has alone, under the scene's numbers.
 
@@ -117,6 +120,43 @@ TEST(Bodies, are_all_held_and_have_as_many_dimensions) {
   expect_refused(block.body + block.fix + tables::block("flat", "[0, 0]", "[1, 1]", "[2, 2]") +
                      tables::fix("flat", "left", "[0, 0]"),
                  "a body with 2 dimensions, expected 3 as the bodies before it");
+}
+
+/// A triangle, or a tetrahedron, as a file of Gmsh.
+std::string mesh_file(int dimension) {
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 {}\n$EndNodes\n"
+      "$Elements\n1\n1 {}\n$EndElements\n",
+      dimension == 3 ? 1 : 0, dimension == 3 ? "4 2 1 1 1 2 3 4" : "2 2 1 1 1 2 3");
+}
+
+class BodiesOfFiles : public Folder {
+ protected:
+  std::string body(const char* name, int dimension) {
+    const std::filesystem::path file = folder_ / (std::string(name) + ".msh");
+    std::ofstream(file) << mesh_file(dimension);
+    return fmt::format("[[body]]\nname = '{}'\nmesh = '{}'\nequation = 'diffusion'\n", name, file.string()) +
+           tables::fix(name, "boundary", "0");
+  }
+
+  static void expect_refused(const std::string& text, const std::string& place) {
+    Driver driver(scene_of(text));
+    try {
+      driver.solve();
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::input);
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr(place), testing::HasSubstr("expected 3 as the other "
+                                                                                             "bodies have")));
+    }
+  }
+};
+
+TEST_F(BodiesOfFiles, have_one_dimension) {
+  expect_refused(body("solid", 3) + body("flat", 2), "body.1.mesh: a mesh with 2 dimensions");
+  expect_refused(body("flat", 2) + block.body + block.fix, "body.0.mesh: a mesh with 2 dimensions");
+  Driver both(scene_of(body("one", 3) + body("other", 3)));
+  EXPECT_TRUE(both.solve().converged());
 }
 
 }  // namespace

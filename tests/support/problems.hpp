@@ -10,6 +10,7 @@
 #include "methods/solve.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/obstacles.hpp"
+#include "tests/support/on_mesh.hpp"
 
 /// Small problems on hierarchies of rectangles and boxes, and how to solve them.
 namespace signorini::test {

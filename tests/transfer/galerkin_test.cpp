@@ -200,7 +200,7 @@ TEST(GalerkinBelowNestedMeshes, HasTheCouplingsThatTruncationBrings) {
   const DiscreteProblem<1> fine = on_mesh(1), coarse = on_mesh(0);
   Random random(26);
   const std::array<Prolongation, 2> P{random_prolongation(random, coarse.A.size() / 4, coarse.A.size()),
-                                      prolongation(meshes.refinements[0], coarse.A.size())};
+                                      prolongations(meshes, nodes_of(meshes))[0]};
   Level<1> above = finest_level(coarse), below;
   above.clear_phases();
   MinMerge<1>().prepare_assembled(above, P[0], true, below);
@@ -226,7 +226,7 @@ void expect_coarse_stiffness(const Mesh<D>& coarsest) {
     fine_problem.A = stiffness<D, B>(meshes.levels[k + 1], model);
     fine_problem.b.assign(static_cast<std::size_t>(fine_problem.A.size()) * B, 0);
     fine_problem.fixed.assign(static_cast<std::size_t>(fine_problem.A.size()), 0);
-    const Prolongation P = prolongation(meshes.refinements[k], meshes.levels[k].vertices());
+    const Prolongation P = prolongations(meshes, nodes_of(meshes))[k];
     Level<B> fine = finest_level(fine_problem), coarse;
     fine.clear_phases();
     MinMerge<B> transfer;

@@ -533,7 +533,7 @@ TEST(LooseBody, SaysWhatNothingDetermines) {
 // The mean displacement along what nothing determines is zero, and obstacles that are not pressed stay where they are.
 TEST(LooseBody, MovesLeastAlongWhatNothingDetermines) {
   const auto mean = [](const auto& r) {
-    const auto mass = vertex_volumes(r.mesh());
+    const auto mass = node_volumes(r.nodes());
     double sum = 0, size = 0;
     for (std::size_t p = 0; p < mass.size(); ++p)
       sum += mass[p] * r.u()[2 * p], size += mass[p] * std::abs(r.u()[2 * p + 1]);

@@ -26,7 +26,7 @@ struct TwoMeshes {
     const auto& levels = meshes.levels;
     coarse = discretize<D, B>(levels[levels.size() - 2], model).problem;
     fine = discretize<D, B>(levels.back(), model).problem;
-    P = {prolongation(meshes.refinements.back(), levels[levels.size() - 2].vertices())};
+    P = {prolongation(meshes.refinements.back(), Nodes(levels[levels.size() - 2]), Nodes(levels.back()))};
   }
 
   bool galerkin() const { return is_galerkin(coarse, P.front(), fine); }

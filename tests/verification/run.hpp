@@ -14,6 +14,7 @@
 #include "driver/nested_solver.hpp"
 #include "driver/problem.hpp"
 #include "driver/results.hpp"
+#include "tests/support/on_mesh.hpp"
 
 /// Scenes solved as `signorini solve` does it, with all that a test wants to look at.
 namespace signorini::test {
@@ -30,6 +31,7 @@ struct Run {
   Results<D, B> results;
 
   const Mesh<D>& mesh() const { return meshes.finest(); }
+  Nodes<D> nodes() const { return Nodes<D>(mesh()); }
   const Summary& summary() const { return solution.summary; }
   const std::vector<double>& u() const { return results.u; }
   const ContactSummary<B>& contact(int obstacle = 0) const { return results.contact.obstacles[obstacle]; }
@@ -45,7 +47,7 @@ Run<D, B> run(const Scene& scene) {
   Run<D, B> out{build_hierarchy<D>(scene, B), build_model<B>(scene, D, registry, 1), {}, {}};
   NestedSolver<D, B> solver(out.meshes, scene.solver, registry, quiet, times);
   out.solution = solver.solve(out.model);
-  out.results = results<D, B>(out.mesh(), out.model, out.solution);
+  out.results = results<D, B>(out.nodes(), out.model, out.solution);
   EXPECT_TRUE(out.summary().converged()) << scene.title << ": " << out.summary().reason;
   return out;
 }

@@ -112,7 +112,7 @@ class Own {
   Own(const std::string& name, int nodes)
       : problem_(benchmark_problem(name, nodes)),
         hierarchy_(build_hierarchy<D>(problem_.scene, B)),
-        prolongations_(prolongations(hierarchy_)) {}
+        prolongations_(prolongations(hierarchy_, nodes_of(hierarchy_))) {}
 
   Benchmark benchmark(const std::shared_ptr<const Own>& self) {
     Benchmark out;
@@ -123,7 +123,7 @@ class Own {
     out.instance.free_load = matrix_problem(free_, numbering_).b;
     out.nested = [self](double tolerance) { return self->nested(tolerance); };
     out.multigrid_cg = [self](double tolerance) { return self->linear(tolerance); };
-    const auto finest = discretize<D, B>(hierarchy_.finest(), model());
+    const auto finest = discretize<D, B>(Nodes(hierarchy_.finest()), model());
     out.bounded = reference(finest.problem, nested_solution(rounding).second.x);
     out.unbounded = reference(free_, multigrid_cg<B>(free_, prolongations_, problem_.registry, rounding).x);
     return out;
@@ -147,7 +147,7 @@ class Own {
     free.obstacles.clear();
     if (B > 1) free.loads.push_back(downwards());
     for (std::size_t k = 0; k < hierarchy_.levels.size(); ++k) {
-      DiscreteProblem<B> problem = discretize<D, B>(hierarchy_.levels[k], free).problem;
+      DiscreteProblem<B> problem = discretize<D, B>(Nodes(hierarchy_.levels[k]), free).problem;
       if (k > 0) {
         if (!is_galerkin(free_, prolongations_[k - 1], problem))
           throw std::runtime_error(problem_.name + ": the coarse matrices are not the Galerkin products");
@@ -163,7 +163,7 @@ class Own {
     DiscreteProblem<B> coarse_problem;
     for (std::size_t k = 0; k < hierarchy_.levels.size(); ++k) {
       const Mesh<D>& mesh = hierarchy_.levels[k];
-      DiscreteProblem<B> problem = discretize<D, B>(mesh, model()).problem;
+      DiscreteProblem<B> problem = discretize<D, B>(Nodes(mesh), model()).problem;
       numbering_ = along_grid(mesh, problem);
       GridLevel level;
       level.problem = matrix_problem(problem, numbering_);

@@ -7,6 +7,7 @@
 
 #include "amg/black_box/block_rows.hpp"
 #include "amg/linear/algebraic_cycle.hpp"
+#include "amg/registration.hpp"
 #include "apps/bench/peers/model_matrices.hpp"
 #include "apps/bench/peers/petsc.hpp"
 #include "apps/bench/peers/run.hpp"
@@ -28,9 +29,8 @@ struct Entry {
 
 template <int B>
 Preconditioner own(const SparseRows& A) {
-  return [cycle = std::make_shared<AlgebraicCycle<B>>(block_matrix<B>(A), 2)](const double* r, double* z) {
-    cycle->apply(r, z);
-  };
+  return [cycle = std::make_shared<AlgebraicCycle<B>>(solver_components(), block_matrix<B>(A), 2)](
+             const double* r, double* z) { cycle->apply(r, z); };
 }
 
 std::vector<Entry> entries(const LinearSystem& system) {

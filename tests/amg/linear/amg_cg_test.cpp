@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "amg/registration.hpp"
 #include "tests/amg/matrices.hpp"
 
 namespace signorini::test {
@@ -33,7 +34,7 @@ struct Scaled {
 
   /// S b, then S times the solution of (SAS) y = S b.
   bool solve(std::vector<double>& x) const {
-    AmgConjugateGradients solver;
+    AmgConjugateGradients solver(solver_components);
     solver.analyse(start, row);
     const auto apply_scale = [&] {
       for (std::size_t i = 0; i < x.size(); ++i) x[i] *= scale[i];

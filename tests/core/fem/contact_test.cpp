@@ -250,7 +250,7 @@ TEST(Nested, InterpolatesLinearFieldsThroughDifferentFrames) {
       for (int i = 0; i < 3; ++i) u.push_back(linear({{x[0], x[1], x[2]}, {}, 1}, i));
     return u;
   };
-  const Prolongation P = prolongation(meshes.refinements[0], meshes.levels[0].vertices());
+  const Prolongation P = prolongations(meshes)[0];
   EXPECT_EQ(P.coarse, meshes.levels[0].vertices());
   ASSERT_EQ(P.fine(), meshes.levels[1].vertices());
   const auto x = interpolate(coarse.problem, to_local(coarse.problem, exact(meshes.levels[0])), P, fine.problem);

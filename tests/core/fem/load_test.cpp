@@ -113,10 +113,10 @@ TEST(Select, EmptySelectionNamesItsOrigin) {
 TEST(Select, NormalsAndAreasOfASurface) {
   const Mesh<3> mesh = unit_mesh<3>(2);
   const Surface<3> all = surface(mesh), top = surface(mesh, select_faces(mesh, Selection{"top", {}, ""}, 1));
-  for (const Point<3>& n : vertex_normals(mesh, top)) EXPECT_NEAR(n[2], 1, 1e-15);
-  const auto normals = vertex_normals(mesh, all);
-  for (std::size_t v = 0; v < all.vertices.size(); ++v) {
-    const Point<3>& x = mesh.points[all.vertices[v]];
+  for (const Point<3>& n : node_normals(Nodes(mesh), top)) EXPECT_NEAR(n[2], 1, 1e-15);
+  const auto normals = node_normals(Nodes(mesh), all);
+  for (std::size_t v = 0; v < all.nodes.size(); ++v) {
+    const Point<3>& x = mesh.points[all.nodes[v]];
     EXPECT_NEAR(vector<3>(normals[v]).norm(), 1, 1e-14);
     for (int i = 0; i < 3; ++i) {
       const double outwards = x[i] == 0 ? -1 : x[i] == 1 ? 1 : 0;
@@ -126,8 +126,8 @@ TEST(Select, NormalsAndAreasOfASurface) {
     }
   }
   double area = 0, volume = 0;
-  for (const double a : vertex_areas(mesh, all)) area += a;
-  for (const double a : vertex_volumes(mesh)) volume += a;
+  for (const double a : node_areas(Nodes(mesh), all)) area += a;
+  for (const double a : node_volumes(Nodes(mesh))) volume += a;
   EXPECT_NEAR(area, 6, 1e-13);
   EXPECT_NEAR(volume, 1, 1e-13);
 }

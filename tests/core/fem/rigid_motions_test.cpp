@@ -21,12 +21,13 @@ template <int D>
 Eigen::MatrixXd free_motions(const Mesh<D>& mesh, std::vector<Fix<D>> fixes) {
   Model<D> model;
   model.fixes = std::move(fixes);
-  return RigidMotions<D, D>(mesh).free(discretize<D, D>(mesh, model).problem);
+  return RigidMotions<D, D>(Nodes(mesh)).free(discretize<D, D>(mesh, model).problem);
 }
 
 template <int D>
 std::vector<std::string> names(const Mesh<D>& mesh, std::vector<Fix<D>> fixes) {
-  const RigidMotions<D, D> motions(mesh);
+  const Nodes nodes(mesh);
+  const RigidMotions<D, D> motions(nodes);
   std::vector<std::string> out;
   for (const auto& motion : motions.simple_basis(free_motions<D>(mesh, std::move(fixes))))
     out.push_back(motions.describe(motion));
@@ -61,7 +62,8 @@ TEST(RigidMotions, TurnAboutWhatIsHeld) {
   problem.fixed.assign(mesh.points.size(), 0);
   for (Index p = 0; p < mesh.vertices(); ++p)
     if (mesh.points[p][0] == 0 && mesh.points[p][2] == 1) problem.fixed[p] = 7;
-  const RigidMotions<3, 3> motions(mesh);
+  const Nodes nodes(mesh);
+  const RigidMotions<3, 3> motions(nodes);
   const auto basis = motions.simple_basis(motions.free(problem));
   ASSERT_EQ(basis.size(), 1u);
   EXPECT_EQ(motions.describe(basis[0]), "rotation about the axis through (0, 0.5, 1) along (0, 1, 0)");
@@ -86,7 +88,8 @@ TEST(RigidMotions, HaveNoEnergy) {
   Model<3> model;
   model.fixes = {hold<3>("bottom", {2})};
   const auto problem = discretize<3, 3>(mesh, model).problem;
-  const RigidMotions<3, 3> motions(mesh);
+  const Nodes nodes(mesh);
+  const RigidMotions<3, 3> motions(nodes);
   const Eigen::MatrixXd free = motions.free(problem);
   ASSERT_EQ(free.cols(), 3);
   for (Eigen::Index j = 0; j < 3; ++j) {
@@ -109,7 +112,8 @@ TEST(RigidMotions, HaveNoEnergy) {
 TEST(RigidMotions, OfAScalarBodyIsTheConstant) {
   const Mesh<2> mesh = unit_mesh<2>(3);
   Model<1> model;
-  const RigidMotions<2, 1> motions(mesh);
+  const Nodes nodes(mesh);
+  const RigidMotions<2, 1> motions(nodes);
   const auto free = motions.free(discretize<2, 1>(mesh, model).problem);
   ASSERT_EQ(free.cols(), 1);
   EXPECT_EQ(motions.describe(motions.simple_basis(free)[0]), "the constant");

@@ -6,6 +6,7 @@
 #include "core/fem/discretize.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/sdk/box_obstacle.hpp"
+#include "tests/support/on_mesh.hpp"
 
 namespace signorini::testing {
 

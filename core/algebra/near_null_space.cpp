@@ -1,4 +1,4 @@
-#include "amg/near_null_space.hpp"
+#include "core/algebra/near_null_space.hpp"
 
 #include <array>
 #include <utility>
