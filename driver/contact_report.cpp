@@ -48,12 +48,12 @@ void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::
 }
 
 template <int D, int B>
-void add_moments(const Mesh<D>& mesh, const Results<D, B>& results, std::vector<ContactReport>& reports) {
+void add_moments(const Nodes<D>& nodes, const Results<D, B>& results, std::vector<ContactReport>& reports) {
   if constexpr (B == D) {
     for (ContactReport& report : reports) report.moment.resize(D == 2 ? 1 : 3);
     for (const ContactNode<B>& node : results.contact.nodes) {
       ContactReport& report = reports[node.obstacle];
-      Point<D> lever = mesh.points[node.vertex];
+      Point<D> lever = nodes.at(node.vertex);
       for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
       add_moment<D>(lever, node.force, report.moment);
     }
@@ -78,7 +78,7 @@ void add_reachable(const Results<D, B>& results, std::vector<ContactReport>& rep
 }  // namespace
 
 template <int D, int B>
-std::vector<ContactReport> contact_reports(const Scene& scene, const Mesh<D>& mesh, const Results<D, B>& results,
+std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& nodes, const Results<D, B>& results,
                                            double t, std::size_t body) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
   std::vector<ContactReport> reports;
@@ -90,13 +90,13 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Mesh<D>& me
     const std::array<double, 3> about = reference_point(scene.obstacles[numbers[k]], t);
     report.moment_about.assign(about.begin(), about.begin() + D);
   }
-  add_moments(mesh, results, reports);
+  add_moments(nodes, results, reports);
   add_reachable(results, reports);
   return reports;
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                               \
-  template std::vector<ContactReport> contact_reports(const Scene&, const Mesh<D>&, const Results<D, B>&, double, \
+  template std::vector<ContactReport> contact_reports(const Scene&, const Nodes<D>&, const Results<D, B>&, double, \
                                                       std::size_t);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)

@@ -72,7 +72,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
   report.bodies = {{body.name, summary}};
   report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
-  report.contact = contact_reports(scene, mesh, results, t, number);
+  report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
     report.probes.push_back({probes.names[k], body.name, {value.begin(), value.end()}});

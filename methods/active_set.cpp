@@ -33,45 +33,81 @@ ActiveSetIteration<B>::ActiveSetIteration(const DiscreteProblem<B>& problem, std
       system_(problem.A, registry.create<LinearSolver>("linear", linear)),
       shift_if_singular_(shift_if_singular) {}
 
-// Calls visit(number in active_, unknown, lower bound, upper bound) for what is not prescribed.
+// Calls visit(number in active_, unknown, lower bound, upper bound) for what is not prescribed, where there are no
+// facets.
 template <int B>
 template <class Visit>
 void ActiveSetIteration<B>::visit_bounds(const Visit& visit) const {
   const Constraints<B>& c = level_.constraints;
-  for (Index slot = 0; slot < c.size(); ++slot)
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    if (c.has_facets(slot)) continue;
     for (int k = 0; k < B; ++k) {
       const Index p = c.vector[slot];
       const auto at = static_cast<std::size_t>(slot) * B + static_cast<std::size_t>(k);
       if (!(level_.off[p] >> k & 1u)) visit(at, Offset{p} * B + k, c.lower[at], c.upper[at]);
     }
+  }
 }
 
-// Where the iterate would go beyond a bound if nothing but this component moved.
+// Calls visit(number in active_ of the first component, vector, polyhedron) for the others.
 template <int B>
-std::vector<signed char> ActiveSetIteration<B>::predicted() const {
-  std::vector<signed char> active(level_.constraints.lower.size(), 0);
+template <class Visit>
+void ActiveSetIteration<B>::visit_polyhedra(const Visit& visit) const {
+  const Constraints<B>& c = level_.constraints;
+  if (c.facet.empty()) return;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    if (c.has_facets(slot)) visit(static_cast<std::size_t>(slot) * B, c.vector[slot], c.polyhedron(slot));
+}
+
+// By choose(vector, polyhedron), where there are facets.
+template <int B>
+template <class Choose>
+void ActiveSetIteration<B>::choose_sides(std::vector<short>& active, const Choose& choose) const {
+  visit_polyhedra([&](std::size_t at, Index p, const Polyhedron<B>& polyhedron) {
+    const HeldSides<B> sides = choose(p, polyhedron);
+    std::copy_n(sides.number, B, active.begin() + static_cast<Offset>(at));
+  });
+}
+
+// Where the iterate would go beyond a bound if nothing but this component, or with facets this vector, moved.
+template <int B>
+std::vector<short> ActiveSetIteration<B>::predicted() const {
+  std::vector<short> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
     const double target = y_[i] + r_y_[i] / system_.diagonal(i);
     active[at] = lower == upper || target < lower ? -1 : target > upper ? 1 : 0;
   });
+  choose_sides(active, [&](Index p, const Polyhedron<B>& polyhedron) {
+    double d[B], target[B];
+    for (int k = 0; k < B; ++k) {
+      const Offset i = Offset{p} * B + k;
+      d[k] = system_.diagonal(i);
+      target[k] = y_[i] + r_y_[i] / d[k];
+    }
+    return sides_before(polyhedron, d, target);
+  });
   return active;
 }
 
 template <int B>
-std::vector<signed char> ActiveSetIteration<B>::at_bounds() const {
-  std::vector<signed char> active(level_.constraints.lower.size(), 0);
+std::vector<short> ActiveSetIteration<B>::at_bounds() const {
+  std::vector<short> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
     active[at] = y_[i] <= lower ? -1 : y_[i] >= upper ? 1 : 0;
   });
+  choose_sides(active, [&](Index p, const Polyhedron<B>& polyhedron) {
+    return sides_at(polyhedron, y_.data() + Offset{p} * B);
+  });
   return active;
 }
 
 template <int B>
-std::vector<signed char> ActiveSetIteration<B>::all_bounded() const {
-  std::vector<signed char> active(level_.constraints.lower.size(), 0);
+std::vector<short> ActiveSetIteration<B>::all_bounded() const {
+  std::vector<short> active(level_.constraints.lower.size(), 0);
   visit_bounds([&](std::size_t at, Offset, double lower, double upper) {
     active[at] = lower > -infinity ? -1 : upper < infinity ? 1 : 0;
   });
+  choose_sides(active, [](Index, const Polyhedron<B>& polyhedron) { return all_sides(polyhedron); });
   return active;
 }
 
@@ -85,7 +121,7 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
     r_y_ = this->r_before_;
     active_ = at_bounds();
   }
-  const std::vector<signed char> last = std::exchange(active_, predicted());
+  const std::vector<short> last = std::exchange(active_, predicted());
   const bool changed = steps_ == 1 || active_ != last;
   if (changed && shift_ > 0 && steps_ % steps_per_shift == 0) shift_ = std::min(10 * shift_, largest_shift);
   Step step;
@@ -111,7 +147,7 @@ std::string ActiveSetIteration<B>::why_stuck(bool changed) {
   const std::size_t n = residuals_.size();
   if (shift_ > 0 && n > resting_steps && residuals_[n - 1] > 0.5 * residuals_[n - 1 - resting_steps])
     return "the active sets rest, but not the iterates: nothing holds the body there";
-  const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size());
+  const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size() * sizeof(short));
   const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
   if (!changed || fresh || (shift_ > 0 && shift_ < largest_shift)) return "";
   return fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_);
@@ -141,11 +177,25 @@ bool ActiveSetIteration<B>::minimise(bool changed) {
 
 template <int B>
 bool ActiveSetIteration<B>::factorise() {
-  std::vector<char> held(y_.size(), 0);
-  std::vector<double> added(y_.size());
-  visit_bounds([&](std::size_t at, Offset i, double, double) { held[i] = active_[at] != 0; });
-  for (std::size_t i = 0; i < added.size(); ++i) added[i] = shift_ * system_.diagonal(static_cast<Offset>(i));
-  return system_.factorise(held, added);
+  SystemChange<B>& change = system_.change();
+  std::fill(change.held.begin(), change.held.end(), 0);
+  for (std::size_t i = 0; i < y_.size(); ++i) change.added[i] = shift_ * system_.diagonal(static_cast<Offset>(i));
+  visit_bounds([&](std::size_t at, Offset i, double, double) { change.held[i] = active_[at] != 0; });
+  change.turned.clear();
+  visit_polyhedra([&](std::size_t at, Index p, const Polyhedron<B>& polyhedron) {
+    const HeldSides<B> sides = sides_of(at);
+    if (!sides.any()) return;
+    const int count = held_coordinates(polyhedron, sides, level_.off[p], change.turned.add(p));
+    for (int k = 0; k < B; ++k) change.held[Offset{p} * B + k] = k < count;
+  });
+  return system_.factorise();
+}
+
+template <int B>
+HeldSides<B> ActiveSetIteration<B>::sides_of(std::size_t at) const {
+  HeldSides<B> sides;
+  std::copy_n(active_.begin() + static_cast<Offset>(at), B, sides.number);
+  return sides;
 }
 
 template <int B>
@@ -154,10 +204,10 @@ bool ActiveSetIteration<B>::solve_free() {
   visit_bounds([&](std::size_t at, Offset i, double lower, double upper) {
     if (active_[at] != 0) y_[i] = active_[at] < 0 ? lower : upper;
   });
-  residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
-  visit_bounds([&](std::size_t at, Offset i, double, double) {
-    if (active_[at] != 0) r_y_[i] = 0;
+  visit_polyhedra([&](std::size_t at, Index p, const Polyhedron<B>& polyhedron) {
+    go_onto(polyhedron, sides_of(at), y_.data() + Offset{p} * B);
   });
+  residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
   if (!system_.solve(r_y_)) return false;
   for (std::size_t i = 0; i < r_y_.size(); ++i) y_[i] += r_y_[i];
   residual<B>(problem.A, y_.data(), problem.b.data(), r_y_.data());
@@ -167,14 +217,17 @@ bool ActiveSetIteration<B>::solve_free() {
 }
 
 template <int B>
-LevelReport ActiveSetIteration<B>::report(const std::vector<signed char>& last) const {
+LevelReport ActiveSetIteration<B>::report(const std::vector<short>& last) const {
   LevelReport out;
   out.vectors = level_.vectors;
   for (Index slot = 0; slot < level_.constraints.size(); ++slot) {
     bool critical = false, changed = false;
     for (int k = 0; k < B; ++k) {
       const auto at = static_cast<std::size_t>(slot) * B + static_cast<std::size_t>(k);
-      out.contact[static_cast<std::size_t>(k)] += active_[at] != 0;
+      if (!level_.constraints.has_facets(slot))
+        out.contact[static_cast<std::size_t>(k)] += active_[at] != 0;
+      else if (active_[at] > 0 && active_[at] <= 2 * B)  // a side of a component
+        ++out.contact[static_cast<std::size_t>((active_[at] - 1) / 2)];
       critical = critical || active_[at] != 0;
       changed = changed || active_[at] != last[at];
     }
@@ -195,9 +248,6 @@ void ActiveSetIteration<B>::add_work(Stage& stage) const {
 template <int B>
 std::optional<double> ActiveSetIteration<B>::response(const std::vector<double>& forces, double) {
   std::vector<double> d = forces;
-  visit_bounds([&](std::size_t at, Offset i, double, double) {
-    if (active_[at] != 0) d[i] = 0;
-  });
   if (!system_.solve(d)) return {};
   return std::sqrt(std::abs(dot(d, forces)));
 }

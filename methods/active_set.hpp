@@ -4,13 +4,15 @@
 
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
+#include "methods/held_sides.hpp"
 #include "methods/sparse_system.hpp"
 
 namespace signorini {
 
 /// Primal-dual active sets (Hintermueller, Ito and Kunisch, SIAM J. Optim. 13, 2003) with a linear solver: a reference
 /// to compare the other methods with, and what is left where cycles are slow. In each step the components that the
-/// multiplier and the distance call active are put onto their bounds, and the energy is minimised over the others. Such
+/// multiplier and the distance call active are put onto their bounds, and the energy is minimised over the others. A
+/// vector with facets is put onto those that would press on it if it moved alone, and is free along them. Such
 /// an iterate may leave the bounds; what is measured and returned is the admissible vector next to it, whose energy may
 /// grow from step to step. The method may return to sets that it has left (it then cycles) and needs a regular matrix
 /// on the free components: in both cases it is stuck.
@@ -35,21 +37,27 @@ class ActiveSetIteration final : public Iteration<B> {
 
   double remaining_error(bool changed);
   std::string why_stuck(bool changed);
-  std::vector<signed char> predicted() const;
-  std::vector<signed char> at_bounds() const;
-  std::vector<signed char> all_bounded() const;
+  std::vector<short> predicted() const;
+  std::vector<short> at_bounds() const;
+  std::vector<short> all_bounded() const;
   bool minimise(bool changed);
   bool factorise();
+  HeldSides<B> sides_of(std::size_t at) const;
   bool solve_free();
   template <class Visit>
   void visit_bounds(const Visit& visit) const;
-  LevelReport report(const std::vector<signed char>& last) const;
+  template <class Visit>
+  void visit_polyhedra(const Visit& visit) const;
+  template <class Choose>
+  void choose_sides(std::vector<short>& active, const Choose& choose) const;
+  LevelReport report(const std::vector<short>& last) const;
 
   std::string linear_;
   Level<B> level_;
   SparseSystem<B> system_;
-  std::vector<double> y_, r_y_;      // the iterate, which may leave the bounds, and its residual
-  std::vector<signed char> active_;  // per slot and direction: -1 at the lower bound, 1 at the upper one, 0 free
+  std::vector<double> y_, r_y_;  // the iterate, which may leave the bounds, and its residual
+  // B per slot: -1 at the lower bound of a component, 1 at the upper one, 0 free; HeldSides where there are facets.
+  std::vector<short> active_;
   std::unordered_map<std::size_t, int> seen_;  // fingerprints of the sets of each step
   double shift_if_singular_, shift_ = 0;
   std::vector<double> residuals_;  // since the sets rest

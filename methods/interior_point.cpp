@@ -1,5 +1,6 @@
 #include "methods/interior_point.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -26,23 +27,47 @@ InteriorPointIteration<B>::InteriorPointIteration(const DiscreteProblem<B>& prob
     : Iteration<B>(problem, x, options),
       linear_(linear),
       level_(finest_level(problem)),
-      system_(problem.A, registry.create<LinearSolver>("linear", linear)),
-      held_(x.size(), 0),
-      added_(x.size()) {}
+      system_(problem.A, registry.create<LinearSolver>("linear", linear)) {}
 
 template <int B>
 void InteriorPointIteration<B>::collect_sides() {
   const Constraints<B>& c = level_.constraints;
-  for (Index slot = 0; slot < c.size(); ++slot)
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    const Index p = c.vector[slot];
+    if (c.has_facets(slot)) add_corner(slot);
     for (int k = 0; k < B; ++k) {
-      const Index p = c.vector[slot];
-      const Offset i = Offset{p} * B + k, at = Offset{slot} * B + k;
+      const Offset at = Offset{slot} * B + k;
       if (level_.off[p] >> k & 1u) continue;
-      held_[i] = c.lower[at] == c.upper[at];
-      if (held_[i]) continue;
-      if (c.lower[at] > -infinity) sides_.push_back({.i = i, .sign = 1, .value = c.lower[at]});
-      if (c.upper[at] < infinity) sides_.push_back({.i = i, .sign = -1, .value = c.upper[at]});
+      if (c.lower[at] == c.upper[at]) {
+        if (!c.has_facets(slot)) system_.change().held[Offset{p} * B + k] = 1;
+        continue;
+      }
+      double axis[B] = {};
+      axis[k] = 1;
+      add_side(p, k, axis, c.lower[at], c.upper[at]);
     }
+    for (Offset f = c.has_facets(slot) ? c.facet_row[slot] : 0; c.has_facets(slot) && f < c.facet_row[slot + 1]; ++f)
+      if (c.facet[f].lower != c.facet[f].upper) add_side(p, -1, c.facet[f].normal, c.facet[f].lower, c.facet[f].upper);
+  }
+}
+
+template <int B>
+void InteriorPointIteration<B>::add_side(Index p, int component, const double* normal, double lower, double upper) {
+  for (const double sign : {1.0, -1.0}) {
+    const double bound = sign > 0 ? lower : upper;
+    if (!std::isfinite(bound)) continue;
+    Side& side = sides_.emplace_back(Side{.p = p, .component = component, .normal = {}, .value = sign * bound});
+    for (int k = 0; k < B; ++k) side.normal[k] = sign * normal[k];
+  }
+}
+
+template <int B>
+void InteriorPointIteration<B>::add_corner(Index slot) {
+  const Polyhedron<B> polyhedron = level_.constraints.polyhedron(slot);
+  Corner& corner = corners_.emplace_back();
+  corner.p = level_.constraints.vector[slot];
+  corner.held = held_coordinates(polyhedron, equal_sides(polyhedron), level_.off[corner.p], corner.T);
+  for (int k = 0; k < corner.held; ++k) system_.change().held[Offset{corner.p} * B + k] = 1;
 }
 
 // From an admissible vector into the interior; multipliers that balance the forces where they can.
@@ -58,14 +83,19 @@ void InteriorPointIteration<B>::start() {
   if (size == 0) size = 1;  // the start is the solution
   const Constraints<B>& c = level_.constraints;
   for (Side& s : sides_) {
-    const Offset at = Offset{c.slot[s.i / B]} * B + s.i % B;
+    if (c.has_facets(c.slot[s.p])) continue;
+    const Offset at = Offset{c.slot[s.p]} * B + s.component;
     const double lower = c.lower[at], upper = c.upper[at], margin = inside * std::min(upper - lower, size);
-    y_[s.i] = block::clamp(y_[s.i], lower + margin, upper - margin);
+    double& y = y_[Offset{s.p} * B + s.component];
+    y = block::clamp(y, lower + margin, upper - margin);
   }
   residual<B>(*level_.A, y_.data(), this->problem_.b.data(), force_.data());
   for (Side& s : sides_) {
-    s.distance = s.sign * (y_[s.i] - s.value);
-    s.multiplier = std::max(-s.sign * force_[s.i], 0.0) + system_.diagonal(s.i) * inside * size;
+    const double there = s.along(y_) - s.value, length = block::norm<B>(s.normal);
+    s.distance = c.has_facets(c.slot[s.p]) ? std::max(there, inside * size * length) : there;
+    double d = 0;
+    for (int k = 0; k < B; ++k) d = std::max(d, std::abs(s.normal[k]) / length * system_.diagonal(Offset{s.p} * B + k));
+    s.multiplier = (std::max(-s.along(force_), 0.0) + d * length * inside * size) / (length * length);
   }
 }
 
@@ -105,6 +135,11 @@ LevelReport InteriorPointIteration<B>::report() const {
       out.contact[static_cast<std::size_t>(k)] += contact;
       critical = critical || contact;
     }
+    if (c.has_facets(slot)) {
+      const Polyhedron<B> polyhedron = c.polyhedron(slot);
+      for (int k = 0; k < polyhedron.facets(); ++k)
+        critical = critical || polyhedron.touches(k, this->x_.data() + Offset{c.vector[slot]} * B);
+    }
     out.critical += critical;
   }
   return out;
@@ -122,25 +157,62 @@ bool InteriorPointIteration<B>::predict_and_correct() {
 
 template <int B>
 bool InteriorPointIteration<B>::factorise() {
-  for (std::size_t i = 0; i < added_.size(); ++i) added_[i] = shift * system_.diagonal(static_cast<Offset>(i));
-  for (const Side& s : sides_) added_[s.i] += s.multiplier / s.distance;
-  return system_.factorise(held_, added_);
+  SystemChange<B>& change = system_.change();
+  const Constraints<B>& c = level_.constraints;
+  VectorBlocks<B> springs(level_.vectors);
+  for (std::size_t i = 0; i < y_.size(); ++i) change.added[i] = shift * system_.diagonal(static_cast<Offset>(i));
+  for (const Side& s : sides_) {
+    const double spring = s.multiplier / s.distance;
+    if (!c.has_facets(c.slot[s.p])) {
+      change.added[Offset{s.p} * B + s.component] += spring;
+      continue;
+    }
+    double* block = springs.add(s.p);
+    for (int i = 0; i < B; ++i)
+      for (int j = 0; j < B; ++j) block[i * B + j] += spring * s.normal[i] * s.normal[j];
+  }
+  turn_into_springs(springs);
+  return system_.factorise();
+}
+
+// At corners the springs are strong in some directions and weak in others: with these as coordinates they are entries
+// of the diagonal, which leave the matrix as definite as it was.
+template <int B>
+void InteriorPointIteration<B>::turn_into_springs(const VectorBlocks<B>& springs) {
+  using Matrix = Eigen::Matrix<double, B, B, Eigen::RowMajor>;
+  SystemChange<B>& change = system_.change();
+  for (const Corner& corner : corners_) {
+    Eigen::Map<Matrix> T(change.turned.add(corner.p));
+    T = Eigen::Map<const Matrix>(corner.T);
+    const double* block = springs.at(corner.p);
+    const int free = B - corner.held;
+    if (!block || free == 0) continue;
+    const Eigen::MatrixXd Z = T.rightCols(free);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(Z.transpose() * Eigen::Map<const Matrix>(block) * Z);
+    T.rightCols(free) = Z * own.eigenvectors();
+    for (int k = 0; k < free; ++k)
+      change.added[Offset{corner.p} * B + corner.held + k] += std::max(own.eigenvalues()[k], 0.0);
+  }
 }
 
 // Newton's step for distance * multiplier = complementarity and forces that balance.
 template <int B>
 bool InteriorPointIteration<B>::find_direction(double complementarity, bool correct) {
   d_ = force_;
+  const Constraints<B>& c = level_.constraints;
   const auto wanted = [&](const Side& s) {
     return complementarity - (correct ? s.distance_step * s.multiplier_step : 0);
   };
-  for (Side& s : sides_) d_[s.i] += s.sign * wanted(s) / s.distance;
+  for (Side& s : sides_) {
+    if (c.has_facets(c.slot[s.p])) s.missing = s.along(y_) - s.value - s.distance;
+    s.add((wanted(s) - s.multiplier * s.missing) / s.distance, d_);
+  }
   for (std::size_t i = 0; i < d_.size(); ++i)
-    if (held_[i] || (level_.off[i / B] >> (i % B) & 1u)) d_[i] = 0;
+    if (level_.off[i / B] >> (i % B) & 1u) d_[i] = 0;
   if (!system_.solve(d_)) return false;
   for (Side& s : sides_) {
     const double aim = wanted(s);
-    s.distance_step = s.sign * d_[s.i];
+    s.distance_step = s.along(d_) + s.missing;
     s.multiplier_step = (aim - s.multiplier * s.distance_step) / s.distance - s.multiplier;
   }
   return true;
@@ -162,6 +234,7 @@ void InteriorPointIteration<B>::take(double step) {
   for (Side& s : sides_) {
     s.distance += step * s.distance_step;
     s.multiplier += step * s.multiplier_step;
+    s.missing *= 1 - step;
   }
 }
 
@@ -176,19 +249,45 @@ double InteriorPointIteration<B>::complementarity(double step) const {
 template <int B>
 void InteriorPointIteration<B>::put_onto_bounds() {
   this->x_ = y_;
-  for (const Side& s : sides_)
-    if (s.distance * system_.diagonal(s.i) < s.multiplier) this->x_[s.i] = s.value;
+  const Constraints<B>& c = level_.constraints;
+  for (const Side& s : sides_) {
+    if (s.component < 0 || c.has_facets(c.slot[s.p])) continue;
+    const Offset i = Offset{s.p} * B + s.component;
+    if (s.distance * system_.diagonal(i) < s.multiplier) this->x_[i] = s.normal[s.component] * s.value;
+  }
+  if (!c.facet.empty()) put_onto_facets();
 }
 
-// Where the forces balance, J(y) - J(x*) <= the sum of distance * multiplier.
+// Those that the forces of all its sides together would take the vector to if it moved alone.
+template <int B>
+void InteriorPointIteration<B>::put_onto_facets() {
+  const Constraints<B>& c = level_.constraints;
+  std::vector<double> force(y_.size());
+  for (const Side& s : sides_)
+    if (c.has_facets(c.slot[s.p])) s.add(-s.multiplier, force);
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    if (!c.has_facets(slot)) continue;
+    const Offset at = Offset{c.vector[slot]} * B;
+    double d[B], target[B];
+    for (int k = 0; k < B; ++k) {
+      d[k] = system_.diagonal(at + k);
+      target[k] = y_[at + k] + force[at + k] / d[k];
+    }
+    const Polyhedron<B> polyhedron = c.polyhedron(slot);
+    go_onto(polyhedron, sides_before(polyhedron, d, target), this->x_.data() + at);
+    c.project(slot, this->x_.data() + at);
+  }
+}
+
+// Where the forces balance, J(y) - J(x*) <= the sum of (normal . y - value) * multiplier.
 template <int B>
 double InteriorPointIteration<B>::error_bound() const {
   std::vector<double> moved(y_.size()), A_moved(y_.size());
   for (std::size_t i = 0; i < y_.size(); ++i) moved[i] = this->x_[i] - y_[i];
   product<B>(*level_.A, moved.data(), A_moved.data());
-  double squared = 0;
+  double squared = 0, gap = 0;
   for (std::size_t i = 0; i < y_.size(); ++i) squared += moved[i] * A_moved[i];
-  const double gap = complementarity(0) * static_cast<double>(sides_.size());
+  for (const Side& s : sides_) gap += (s.distance + std::abs(s.missing)) * s.multiplier;
   return std::sqrt(2 * gap) + std::sqrt(std::max(squared, 0.0));
 }
 
@@ -203,8 +302,6 @@ void InteriorPointIteration<B>::add_work(Stage& stage) const {
 template <int B>
 std::optional<double> InteriorPointIteration<B>::response(const std::vector<double>& forces, double) {
   std::vector<double> d = forces;
-  for (std::size_t i = 0; i < d.size(); ++i)
-    if (held_[i]) d[i] = 0;
   if (!system_.solve(d)) return {};
   return std::sqrt(std::abs(dot(d, forces)));
 }

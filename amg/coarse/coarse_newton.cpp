@@ -149,6 +149,7 @@ class Sweeps {
 template <int B>
 bool CoarseNewton<B>::solve(const Level<B>& level) {
   const bool constrained = level.constraints.size() > 0;
+  left_out_.resize(0, 0);
   if (constrained && worn_ && Sweeps<B>(level).suffice(cheap_sweeps)) return true;
   double total = 0;
   for (int step = 0; step < max_newton_steps; ++step) {
@@ -166,7 +167,7 @@ bool CoarseNewton<B>::solve(const Level<B>& level) {
     total += gained;
     if (!constrained || !(gained > enough * total)) break;
   }
-  return true;
+  return left_out_.cols() == 0;
 }
 
 template <int B>
@@ -176,7 +177,19 @@ bool CoarseNewton<B>::newton_step(const Level<B>& level) {
   residual<B>(*level.A, level.x, level.b, r_.data());
   apply_mask<B>(mask_, r_);
   const CgResult cg = too_dear_ ? solve_iteratively(level) : solve_directly(level);
-  return !(cg.singular && falls_forever(level)) && move(level, cg.singular);
+  if (cg.singular && falls_forever(level)) return goes_on_ && move_across(level);
+  return move(level, cg.singular);
+}
+
+// Without the motions along which it falls: the factorisation holds one component for each of them.
+template <int B>
+bool CoarseNewton<B>::move_across(const Level<B>& level) {
+  left_out_ = motions();
+  Eigen::Map<Eigen::VectorXd> r(r_.data(), std::ssize(r_));
+  r -= left_out_ * (left_out_.transpose() * r);
+  precondition(level, r_, d_);
+  apply_mask<B>(mask_, d_);
+  return left_out_.cols() > 0 && move(level, false);
 }
 
 // Where the factorisation met a pivot on every component that is free now, none of their motions is without energy,

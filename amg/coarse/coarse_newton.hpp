@@ -2,6 +2,7 @@
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "core/solver/components.hpp"
+#include "core/solver/falling.hpp"
 
 namespace signorini {
 
@@ -11,9 +12,11 @@ namespace signorini {
 /// bad preconditioner (one iteration while it is fresh), or with symmetric Gauss-Seidel where the level is too large to
 /// factorise. Semidefinite matrices are allowed. The energy never grows.
 template <int B>
-class CoarseNewton final : public CoarseSolver<B> {
+class CoarseNewton final : public CoarseSolver<B>, public Falling {
  public:
   bool solve(const Level<B>& level) override;
+  void go_on(bool wanted) override { goes_on_ = wanted; }
+  const Eigen::MatrixXd& left_out() const override { return left_out_; }
 
  private:
   bool newton_step(const Level<B>& level);
@@ -23,6 +26,7 @@ class CoarseNewton final : public CoarseSolver<B> {
   bool factorise(const Level<B>& level, const std::vector<Flags>& mask);
   Eigen::MatrixXd motions() const;
   bool falls_forever(const Level<B>& level) const;
+  bool move_across(const Level<B>& level);
   void precondition(const Level<B>& level, const std::vector<double>& r, std::vector<double>& z) const;
   bool move(const Level<B>& level, bool singular);
 
@@ -31,6 +35,8 @@ class CoarseNewton final : public CoarseSolver<B> {
   HeldCholesky factor_;
   bool worn_ = true;
   bool too_dear_ = false;  // to be factorised
+  bool goes_on_ = false;
+  Eigen::MatrixXd left_out_;
 };
 
 /// Coarsest level by projected symmetric Gauss-Seidel alone.

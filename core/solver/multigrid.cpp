@@ -8,10 +8,12 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/dot.hpp"
+#include "core/solver/falling.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/line_search.hpp"
 #include "core/solver/polyhedral_box.hpp"
 #include "core/solver/rounding.hpp"
+#include "core/solver/slide.hpp"
 
 namespace signorini {
 
@@ -212,6 +214,8 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
       update_phases(level, 0, level.vectors);
       report_.rounding = rounding_of_work(level);
     }
+    auto* falling = dynamic_cast<Falling*>(components_.coarse.get());
+    if (falling) falling->go_on(!finest && levels_.back().nonlinear);
     if (!components_.coarse->solve(level) && lasting_ == 0) report_.bounded = false;
     level.outdated.renewed.clear();
   } else {
@@ -229,14 +233,18 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     down.run(level.chunks, crew_);
     if (finest) report_.rounding = coarse.inherited_rounding;
     elsewhere = correct(k, cycle);
-    if (searches(k))
+    if (searches(k)) {
       search(k);
-    else
+      if (const auto* falling = dynamic_cast<const Falling*>(components_.coarse.get());
+          finest && level.nonlinear && falling)
+        slide(levels_, transfers_, falling->left_out());
+    } else {
       up.add([this, k](Index first, Index last) {
         in_pieces<B>(first, last, [this, k](Index from, Index to) {
           transfers_[k - 1]->prolongate(levels_[k - 1], levels_[k], from, to);
         });
       });
+    }
     smoothers_[k]->add_passes(settings_.post, Side::ascend, up);
   }
   if (after) up.add(after);

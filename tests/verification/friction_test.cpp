@@ -176,5 +176,18 @@ TEST(Tresca, FrictionCostsFewIterationsOnAllMeshes) {
   EXPECT_LE(rough.summary().iterations, plain.summary().iterations + 3);
 }
 
+// As long as all of the block slips nothing but kinks holds it along the plane.
+TEST(Tresca, VeryLittleFrictionHoldsABlockAsFast) {
+  for (const int refinements : {0, 1, 3})
+    for (const char* bound : {"1e-3", "1e-5", "1e-6"}) {
+      SceneText scene = block2(with_friction(on_plane, bound), refinements);
+      scene.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [10, 2]\nyoung = 1\npoisson = 0.3";
+      scene.fixes = {"on = \"top\"\nvalue = [\"free\", -0.04]"};
+      const auto r = run<2, 2>(scene);
+      EXPECT_LE(r.summary().iterations, 25) << refinements << " refinements, bound " << bound;
+      EXPECT_NEAR(r.contact().tangential_force[0], 0, 1e-9 * r.contact().force[1]);
+    }
+}
+
 }  // namespace
 }  // namespace signorini::test
