@@ -1,6 +1,6 @@
 // Friction by multigrid against a semismooth Newton method with a direct solver, which shares neither sweeps nor the
 // local problem with it: the same sets of what sticks and slips, and the same displacements.
-#include <array>
+#include <map>
 
 #include "run.hpp"
 #include "scene_text.hpp"
