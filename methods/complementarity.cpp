@@ -67,8 +67,8 @@ template <int B>
 void Complementarity<B>::stick(const double* v, double* C, double* by_value) const {
   for (int k = 0; k < B; ++k) {
     if (!is(tangential, k) || is(off, k)) continue;
-    C[k] = stiffness[k] * (v[k] - last[k]);
-    by_value[k * (B + 1)] = stiffness[k];
+    C[k] = slip_stiffness * (v[k] - last[k]);
+    by_value[k * (B + 1)] = slip_stiffness;
   }
 }
 

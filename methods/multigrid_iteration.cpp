@@ -74,7 +74,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
   multigrid_.extend_steps(!free && may_turn_ && rests_);
-  if (this->follows() && renewal_.due()) multigrid_.renew(this->data_, renewal_.part());
+  if (this->follows() && renewal_.due()) renewal_.next(this->data_, multigrid_.frozen());
   ++cycles_;
   sums = {};
   recombination_.begin();

@@ -15,6 +15,7 @@ namespace signorini {
 namespace {
 
 constexpr double slip_stiffness = 1e-3;  // of that of the vector
+constexpr double least_step = 1.0 / 32;
 
 }  // namespace
 
@@ -98,40 +99,85 @@ void NewtonIteration<B>::set_row(Index p, const double* by_force, const double* 
   }
 }
 
-/// One step from y_: false where the matrix is singular.
 template <int B>
-bool NewtonIteration<B>::solve() {
-  const DiscreteProblem<B>& problem = this->problem_;
+Complementarity<B> NewtonIteration<B>::equations(Index slot) const {
   const Constraints<B>& c = level_.constraints;
+  const Offset at = Offset{slot} * B;
+  return {c.lower.data() + at,
+          c.upper.data() + at,
+          level_.off[c.vector[slot]],
+          tangential_[slot],
+          c.last.empty() ? nullptr : c.last.data() + at,
+          laws_[slot],
+          stiffness_.data() + at,
+          slip_stiffness * largest_stiffness(slot)};
+}
+
+/// All equations and their derivatives at y_, the latter as rows of a matrix.
+template <int B>
+void NewtonIteration<B>::linearise() {
   double unit[B * B] = {}, none[B * B] = {};
   for (int k = 0; k < B; ++k) unit[k * (B + 1)] = 1;
   d_ = force_;
-  for (Index p = 0; p < problem.A.size(); ++p) {
-    const Index slot = c.slot[p];
+  for (Index p = 0; p < level_.vectors; ++p) {
+    const Index slot = level_.constraints.slot[p];
     if (slot < 0) {
       set_row(p, unit, none);
       continue;
     }
-    const Offset at = Offset{slot} * B;
-    const Complementarity<B> equations{c.lower.data() + at,
-                                       c.upper.data() + at,
-                                       level_.off[p],
-                                       tangential_[slot],
-                                       c.last.empty() ? nullptr : c.last.data() + at,
-                                       laws_[slot],
-                                       stiffness_.data() + at,
-                                       slip_stiffness * largest_stiffness(slot)};
+    const Offset at = Offset{p} * B;
     double by_force[B * B], by_value[B * B];
-    states_[slot] = equations.evaluate(y_.data() + Offset{p} * B, force_.data() + Offset{p} * B,
-                                       d_.data() + Offset{p} * B, by_force, by_value);
+    states_[slot] = equations(slot).evaluate(y_.data() + at, force_.data() + at, d_.data() + at, by_force, by_value);
     set_row(p, by_force, by_value);
   }
+}
+
+/// How far y_ is from solving the equations: squares of forces over stiffnesses.
+template <int B>
+double NewtonIteration<B>::merit() const {
+  double sum = 0, unused[2 * B * B];
+  for (Index p = 0; p < level_.vectors; ++p) {
+    const Index slot = level_.constraints.slot[p];
+    const Offset at = Offset{p} * B;
+    double C[B];
+    std::copy_n(force_.data() + at, B, C);
+    if (slot >= 0) equations(slot).evaluate(y_.data() + at, force_.data() + at, C, unused, unused + B * B);
+    for (int k = 0; k < B; ++k) sum += C[k] * C[k] / this->problem_.A.diagonal(p)[k * (B + 1)];
+  }
+  return sum;
+}
+
+template <int B>
+void NewtonIteration<B>::renew_force() {
+  residual<B>(this->problem_.A, y_.data(), this->problem_.b.data(), force_.data());
+  for (double& f : force_) f = -f;
+}
+
+/// One step from y_, shorter where the full one leads away: false where the matrix is singular.
+template <int B>
+bool NewtonIteration<B>::solve() {
+  const double before = merit();
+  linearise();
   ++factorisations_;
   if (!linear_->factorise(values_)) return false;
   ++solves_;
   linear_->solve(d_);
-  for (std::size_t i = 0; i < d_.size(); ++i) y_[i] -= d_[i];
+  const std::vector<double> start = y_;
+  double best = infinity, part = 1;
+  for (double t = 1; t >= least_step; t *= 0.5) {
+    go(start, t);
+    const double now = merit();
+    if (now < best) best = now, part = t;
+    if (now < before) break;
+  }
+  go(start, part);
   return true;
+}
+
+template <int B>
+void NewtonIteration<B>::go(const std::vector<double>& start, double part) {
+  for (std::size_t i = 0; i < d_.size(); ++i) y_[i] = start[i] - part * d_[i];
+  renew_force();
 }
 
 template <int B>
@@ -153,8 +199,6 @@ typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
   put_onto_sets();
   this->sums_ = this->evaluate(this->x_, this->r_);
   this->refuse_nan(this->sums_.natural_residual);
-  residual<B>(this->problem_.A, y_.data(), this->problem_.b.data(), force_.data());
-  for (double& f : force_) f = -f;
   Step step;
   // The step itself bounds the error of the iterate before.
   step.error = solved ? std::sqrt(std::abs(this->sums_.correction)) : infinity;

@@ -34,7 +34,12 @@ class NewtonIteration final : public Iteration<B> {
 
   void analyse();
   void read_laws();
+  Complementarity<B> equations(Index slot) const;
+  void linearise();
+  double merit() const;
+  void renew_force();
   bool solve();
+  void go(const std::vector<double>& start, double part);
   void set_row(Index p, const double* by_force, const double* by_value);
   void put_onto_sets();
   double largest_stiffness(Index slot) const;

@@ -8,6 +8,11 @@ namespace signorini {
 
 Renewal::Renewal(const SolverOptions& options) : when_(choice<When>(options, &SolverOptions::renew)) {}
 
+void Renewal::next(const std::vector<double>& follows, std::vector<double>& frozen) const {
+  for (std::size_t i = 0; i < frozen.size(); ++i)
+    frozen[i] = part_ == 1 ? follows[i] : frozen[i] + part_ * (follows[i] - frozen[i]);
+}
+
 void Renewal::add(double natural_residual) {
   ++cycles_;
   if (natural_residual <= enough * least_) {

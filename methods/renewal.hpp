@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/solver/options.hpp"
@@ -18,8 +19,9 @@ class Renewal {
   bool in_sweeps() const { return when_ == When::sweep; }
   /// Whether the next cycle begins with data that are renewed.
   bool due() const { return when_ != When::outer || cycles_ % cycles_between == 0; }
-  /// How far the data go from those of the cycle before to those of its iterate.
-  double part() const { return part_; }
+  /// Replaces what was frozen in the last cycles by what is to be frozen in the next one.
+  /// @param follows what follows from their iterate
+  void next(const std::vector<double>& follows, std::vector<double>& frozen) const;
   /// A cycle has ended with this natural residual.
   void add(double natural_residual);
   /// Why it makes no sense to go on; empty: it does.

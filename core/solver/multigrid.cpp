@@ -192,13 +192,6 @@ void MonotoneMultigrid<B>::subtract_gradient(const double* x, double* r) {
 }
 
 template <int B>
-void MonotoneMultigrid<B>::renew(const std::vector<double>& data, double part) {
-  std::vector<double>& frozen = levels_.back().constraints.data;
-  for (std::size_t k = 0; k < frozen.size(); ++k)
-    frozen[k] = part == 1 ? data[k] : frozen[k] + part * (data[k] - frozen[k]);
-}
-
-template <int B>
 void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run& before, const Passes::Run& after) {
   const double begin = seconds();
   double elsewhere = 0;

@@ -68,8 +68,8 @@ class MonotoneMultigrid {
   /// @param enough smaller ones need not be known exactly
   std::optional<double> response(const std::vector<double>& x, const std::vector<double>& forces, double enough);
 
-  /// What functionals keep frozen during a cycle goes this part of the way to `data`, see Constraints::data.
-  void renew(const std::vector<double>& data, double part);
+  /// What functionals keep frozen during cycles, see Constraints::data: to be renewed between them.
+  std::vector<double>& frozen() { return levels_.back().constraints.data; }
 
   /// From now on sweeps of the finest level let it follow the vectors that they move: LevelView::frozen; or no longer
   /// so.

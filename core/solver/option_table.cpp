@@ -69,7 +69,8 @@ constexpr OptionRow<S> table[] = {
      "\"greedy\" or \"metis\". Refused where levels are asked for that have none."},
     {"renew", &S::renew, "cycle | sweep | outer",
      "when obstacles take anew what they keep frozen of the solution, as Coulomb friction does with the normal force: "
-     "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle"},
+     "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle",
+     always, "See \"Friction by Coulomb's law\"."},
     {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest", always,
      "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
      "\"Acceleration\"."},

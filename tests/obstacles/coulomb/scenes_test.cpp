@@ -231,9 +231,25 @@ void expect_refused(const std::string& scene, const std::string& what) {
   }
 }
 
+// Nothing but friction holds the block: it does from the tangent of the angle on.
+TEST(Coulomb, ABlockStaysOnAnInclineUpToTheAngleOfFriction) {
+  const double angle = 0.35, weight = 0.01;
+  const auto outcome = [&](double friction) {
+    SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 1);
+    scene.fixes.clear();
+    scene.loads = {fmt::format("value = [{}, {}]", weight * std::sin(angle), -weight * std::cos(angle))};
+    Driver driver(parse_scene(scene, "test.toml", "."));
+    const StepReport& step = driver.solve().last();
+    if (step.summary.converged()) EXPECT_NEAR(step.contact[0].tangential_force[0], -2 * weight * std::sin(angle), 1e-8);
+    return step.summary.outcome;
+  };
+  EXPECT_EQ(outcome(1.01 * std::tan(angle)), Outcome::converged);
+  EXPECT_EQ(outcome(0.99 * std::tan(angle)), Outcome::stuck);
+}
+
 TEST(Coulomb, BadInputIsRefusedWithItsPlace) {
   expect_refused(block2(coulomb(on_plane, "-0.1"), 0), "obstacle.0.friction");
-  expect_refused(block2(coulomb(on_plane, "\"x - 1\""), 0), "'friction' is negative at (0, 0, 0)");
+  expect_refused(block2(coulomb(on_plane, "\"x - 1\""), 0), "expected a number in [0, inf)");
   expect_refused(block2(coulomb(on_plane, "\"log(x - 1)\""), 0), "obstacle.0.friction");
   expect_refused(block2(coulomb(on_plane, "nan"), 0), "obstacle.0.friction");
   expect_refused(block2(std::string(on_plane) + "\ntype = \"coulomb\"", 0), "needs 'friction'");

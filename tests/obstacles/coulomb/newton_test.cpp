@@ -1,6 +1,9 @@
 // Friction by multigrid against a semismooth Newton method with a direct solver, which shares neither sweeps nor the
 // local problem with it: the same sets of what sticks and slips, and the same displacements.
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
 
 #include "run.hpp"
 #include "scene_text.hpp"
@@ -88,9 +91,41 @@ TEST(Newton, FrictionInSpace) {
   expect_like_newton<3>(tresca, {State::sticks, State::slips});
 }
 
-TEST(Newton, SolidsOfFiles) {
-  const char* meshes = std::getenv("SIGNORINI_MESHES");
-  if (!meshes) GTEST_SKIP() << "SIGNORINI_MESHES is not set";
+/// The smallest and largest coordinates of a surface file.
+std::array<Point<3>, 2> extent(const std::filesystem::path& file) {
+  std::array<Point<3>, 2> out{Point<3>{infinity, infinity, infinity}, Point<3>{-infinity, -infinity, -infinity}};
+  std::ifstream stream(file);
+  Point<3> p;
+  for (std::string line; std::getline(stream, line);)
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3)
+      for (std::size_t i = 0; i < 3; ++i) {
+        out[0][i] = std::min(out[0][i], p[i]);
+        out[1][i] = std::max(out[1][i], p[i]);
+      }
+  return out;
+}
+
+// Held at its upper quarter, which goes down and aside, pressed on a plane that is inside it by a hundredth.
+TEST(Newton, RealSolids) {
+  const char* folder = std::getenv("SIGNORINI_MESHES");
+  if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj and fandisk.obj";
+  for (const char* name : {"spot.obj", "fandisk.obj"}) {
+    SCOPED_TRACE(name);
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
+    const auto [low, high] = extent(file);
+    const double height = high[1] - low[1], size = 0.07 * std::hypot(high[0] - low[0], height, high[2] - low[2]);
+    expect_like_newton<3>(
+        SceneText{.body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {}\nyoung = 1\npoisson = 0.3",
+                                      file.string(), size),
+                  .fixes = {fmt::format("where = \"y > {}\"\nvalue = [{}, {}, {}]", high[1] - 0.25 * height,
+                                        0.01 * height, -0.01 * height, 0.005 * height)},
+                  .obstacle = coulomb(fmt::format("on = \"boundary\"\nshape = \"plane\"\npoint = [0, {}, 0]\n"
+                                                  "normal = [0, 1, 0]\n",
+                                                  low[1] + 0.01 * height),
+                                      "0.4")},
+        {State::open, State::slips});
+  }
 }
 
 }  // namespace
