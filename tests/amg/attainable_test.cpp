@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <limits>
 
 #include "amg/black_box.hpp"
 #include "tests/amg/matrices.hpp"
@@ -37,6 +39,11 @@ struct Chain {
     Matrix A(n, n);
     A.setFromTriplets(entries.begin(), entries.end());
     return A;
+  }
+
+  double condition() const {
+    const auto [least, most] = std::ranges::minmax(stiffness);
+    return most / least;
   }
 
   /// ||x - x*||_A / ||x*||_A: a spring carries the loads behind it.
@@ -79,11 +86,15 @@ TEST(Attainable, EnergiesOfCyclesFallOnIllConditionedChains) {
   int steps = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const Chain chain(random, 23, 45 + trial % 10);
+    // A cycle in double precision misses its minimum by so much of the solution, and the energy by the square of that.
+    // Processors without fused multiply-add show it.
+    const double missed = std::numeric_limits<double>::epsilon() * chain.condition(),
+                 rounding = missed * missed + 1e-13;
     const Summary s = BlackBox(chain.matrix()).solve(chain.load).summary;
     for (std::size_t k = 1; k < s.history.size(); ++k) {
       const IterationRecord &before = s.history[k - 1], &now = s.history[k];
       if (before.stage != now.stage || !s.stages[now.stage].linear.empty()) continue;  // no cycles
-      EXPECT_LE(now.energy, before.energy + 1e-13 * std::abs(now.energy)) << "chain " << trial << ", step " << k;
+      EXPECT_LE(now.energy, before.energy + rounding * std::abs(now.energy)) << "chain " << trial << ", step " << k;
       ++steps;
     }
   }
