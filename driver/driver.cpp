@@ -51,6 +51,7 @@ const Report& Driver::solve(const std::function<void()>& done) {
   report_.steps.clear();
   report_.failed.clear();
   report_.interrupted = false;
+  if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
   if (bodies_.empty()) build_bodies();
   report_.warnings = mesh_warnings_;
   const int count = report_.planned_steps = scene_.steps.count();

@@ -156,7 +156,8 @@ TEST_F(Steps, WhatPartsDoNotHelpIsNotCut) {
   const std::vector<std::string> limited = {"solve", "block.toml", "--out", "o", "--set", "solver.max_iterations=2"};
   auto still = limited;
   std::string scene = block;
-  scene.replace(scene.find("type = 'tresca'\nbound = 0.004"), 30, "type = 'contact'");
+  const std::string friction = "type = 'tresca'\nbound = 0.004";
+  scene.replace(scene.find(friction), friction.size(), "type = 'contact'");
   write("block.toml", scene);
   EXPECT_EQ(signorini(limited).status, 3);
   EXPECT_EQ(report("o").at("failed_steps").size(), 0u);
@@ -183,7 +184,7 @@ TEST_F(Steps, BothWaysToListThemAreRefused) {
   write("block.toml", block);
   const Ended ended = signorini({"solve", "block.toml", "--set", "steps.count=2"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.err, HasSubstr("block.toml:28: steps.at: both 'at' and 'count' (--set steps.count=2)"));
+  EXPECT_THAT(ended.err, HasSubstr("block.toml:29: steps.at: both 'at' and 'count' (--set steps.count=2)"));
 }
 
 }  // namespace

@@ -147,6 +147,39 @@ TEST_F(Picture, HoldsTheRastersOfItsPanels) {
   EXPECT_EQ(one.count(middle), two.count(middle));
 }
 
+TEST_F(Picture, ShowsWhatValuesMean) {
+  Panel panel;
+  panel.words = {"open", "slip", "stick"};
+  panel.patches = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {2, 2, 2}}};
+  painter().panels(folder_ / "a.png", {panel});
+  const Decoded picture = drawn();
+  const auto count = [&](double part) {
+    const auto [r, g, b] = colour(part);
+    return picture.count(static_cast<std::uint32_t>(r << 16 | g << 8 | b));
+  };
+  EXPECT_GT(count(1), 300u * 300u / 2) << "the patch";
+  for (const double part : {0.0, 0.5}) EXPECT_GT(count(part), 2000u) << "a third of the legend";
+}
+
+TEST_F(Picture, LinesMayBeMarksAloneAndHaveGaps) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::uint32_t red = 0xb2182b, blue = 0x2166ac;
+  const auto picture = [&](std::vector<Line> lines) {
+    Panel panel;
+    panel.view = View::lines;
+    panel.lines = std::move(lines);
+    painter().panels(folder_ / "a.png", {panel});
+    return drawn();
+  };
+  const std::vector<std::array<double, 2>> steep{{0, 0}, {1, 1}, {2, 3}}, gap{{0, 0}, {1, nothing}, {2, 3}};
+  const Decoded joined = picture({{steep}}), marks = picture({{steep, "", false}}), apart = picture({{gap}});
+  EXPECT_GT(joined.count(red), marks.count(red) + 300);
+  EXPECT_GT(marks.count(red), apart.count(red)) << "three marks and two";
+  EXPECT_GT(apart.count(red), 0u);
+  EXPECT_GT(picture({{steep}, {gap, "second"}}).count(blue), 50u) << "its marks and its key";
+  EXPECT_EQ(picture({{{{0, nothing}}}}).count(red), 0u) << "nothing to draw";
+}
+
 TEST_F(Picture, ThatCannotBeWrittenIsNamed) {
   EXPECT_THROW(painter().convergence(folder_ / "none" / "a.png", {}), Error);
   try {
