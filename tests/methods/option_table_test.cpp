@@ -88,6 +88,7 @@ TEST(OptionTable, EnumeratorsAreInTheOrderOfTheChoices) {
   EXPECT_EQ(check_options(with("method", "tnnmg")), Method::tnnmg);
   EXPECT_EQ(check_options(with("method", "pgs")), Method::pgs);
   EXPECT_EQ(check_options(with("method", "pdas")), Method::pdas);
+  EXPECT_EQ(check_options(with("method", "newton")), Method::newton);
   EXPECT_EQ(coarsening_of(with("coarsening", "auto")), Coarsening::automatic);
   EXPECT_EQ(coarsening_of(with("coarsening", "classical")), Coarsening::classical);
   EXPECT_EQ(coarsening_of(with("coarsening", "aggregation")), Coarsening::aggregation);

@@ -44,7 +44,9 @@ void expect_law(const ContactState<D>& contact, double friction, double toleranc
     for (const double f : node.tangential) across = std::hypot(across, f);
     EXPECT_GE(pressing, 0);
     EXPECT_LE(across, friction * pressing + tolerance * largest) << node.vertex;
-    if (!node.sticks) EXPECT_NEAR(across, friction * pressing, tolerance * largest) << node.vertex;
+    if (!node.sticks) {
+      EXPECT_NEAR(across, friction * pressing, tolerance * largest) << node.vertex;
+    }
     EXPECT_GE(node.dissipated, 0);
   }
 }
@@ -65,10 +67,12 @@ TEST(Coulomb, ABlockUnderPressureSticksBelowTheLimitAndSlidesAbove) {
     const double y = r.mesh().points[v][1];
     EXPECT_NEAR(r.u()[2 * v], q * y / shear, 1e-9);
     EXPECT_NEAR(r.u()[2 * v + 1], -p * y, 1e-9);
-    if (y == 0) EXPECT_EQ(r.u()[2 * v], 0);
+    if (y == 0) {
+      EXPECT_EQ(r.u()[2 * v], 0);
+    }
   }
   EXPECT_EQ(r.contact().slip_nodes, 0);
-  Driver driver(parse_scene(pushed(q, 0.39), "test.toml", "."));
+  Driver driver(parse_scene(std::string(pushed(q, 0.39)), "test.toml", "."));
   const Summary& summary = driver.solve().last().summary;
   EXPECT_FALSE(summary.converged());
   EXPECT_EQ(summary.outcome, Outcome::stuck) << summary.reason;
@@ -238,9 +242,11 @@ TEST(Coulomb, ABlockStaysOnAnInclineUpToTheAngleOfFriction) {
     SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 1);
     scene.fixes.clear();
     scene.loads = {fmt::format("value = [{}, {}]", weight * std::sin(angle), -weight * std::cos(angle))};
-    Driver driver(parse_scene(scene, "test.toml", "."));
+    Driver driver(parse_scene(std::string(scene), "test.toml", "."));
     const StepReport& step = driver.solve().last();
-    if (step.summary.converged()) EXPECT_NEAR(step.contact[0].tangential_force[0], -2 * weight * std::sin(angle), 1e-8);
+    if (step.summary.converged()) {
+      EXPECT_NEAR(step.contact[0].tangential_force[0], -2 * weight * std::sin(angle), 1e-8);
+    }
     return step.summary.outcome;
   };
   EXPECT_EQ(outcome(1.01 * std::tan(angle)), Outcome::converged);
