@@ -68,8 +68,8 @@ void Summary::add_rounding(double error, double tolerance) {
   if (outcome != Outcome::converged || algebraic_error <= tolerance) return;
   outcome = Outcome::rounding;
   reason = fmt::format(
-      "limited by rounding: residual {:.3e}, and an algebraic error of {:.3e} as the body moves far "
-      "beside what it deforms, tolerance {:.3e}",
+      "limited by rounding: residual {:.3e}, and an algebraic error of {:.3e} by rounding of the stiffness and of "
+      "displacements that are large beside what deforms the body, tolerance {:.3e}",
       residual, algebraic_error, tolerance);
 }
 

@@ -1,4 +1,6 @@
 // Bodies of which rounding leaves little, and bodies that move without deforming.
+#include <algorithm>
+
 #include "run.hpp"
 #include "scene_text.hpp"
 
@@ -44,6 +46,35 @@ TEST(Slender, CantileversEndWhereRoundingLetsThem) {
   const double beam = 12 * load * std::pow(length, 4) / 8;
   EXPECT_LT(-lowest, beam);        // linear elements are too stiff
   EXPECT_GT(-lowest, 0.5 * beam);  // but not by that much
+}
+
+// In another unit of length each entry of the matrix is rounded otherwise: how far answers in units of length are apart
+// is what rounding does to them.
+TEST(Slender, WhatUnitsChangeIsClaimed) {
+  const double length = 300;
+  std::vector<double> tips;
+  double claimed = 0;
+  for (const double unit : {1.0, 1.0 / 3, 0.7, 1.0 / 7, 3.3, 0.123}) {
+    const SceneText scene{
+        .body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{:.17g}, {:.17g}]\ncells = [300, 1]\n"
+                            "young = 1\npoisson = 0.3",
+                            length * unit, unit),
+        .fixes = {"on = \"left\"\nvalue = [0, 0]"},
+        .loads = {fmt::format("value = [0, {:.17g}]", -1e-3 / unit / std::pow(length, 3))},
+        .obstacle = fmt::format("type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, {}]\n"
+                                "normal = [0, 1]",
+                                -1000 * unit),
+        .refinements = 1};
+    const auto r = run<2, 2>(scene);
+    double lowest = 0;
+    for (std::size_t i = 1; i < r.u().size(); i += 2) lowest = std::min(lowest, r.u()[i] / unit);
+    tips.push_back(lowest);
+    claimed = std::max(claimed, r.summary().algebraic_error);
+  }
+  const auto [low, high] = std::ranges::minmax(tips);
+  show("apart by {}, claimed {}\n", (low - high) / low, claimed);
+  EXPECT_LT((low - high) / low, 3 * claimed);
+  EXPECT_LT(claimed, 20 * (low - high) / low);
 }
 
 // A load that would bend the beam by its thickness presses its tip onto a plane half as far below. Of the prop's force
