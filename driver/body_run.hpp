@@ -5,8 +5,8 @@
 #include "core/component/registry.hpp"
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
-#include "driver/nested_solver.hpp"
 #include "driver/memory.hpp"
+#include "driver/nested_solver.hpp"
 #include "driver/progress.hpp"
 #include "driver/results.hpp"
 

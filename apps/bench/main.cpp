@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
@@ -186,12 +187,13 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, steps = false, aside = false;
+       aggregates = false, warm = false, again = false, steps = false, aside = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
   app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
   app.add_flag("--warm", warm, "only the cycles from a solution before, for matrices without meshes");
+  app.add_flag("--again", again, "only the cost of a second solve with other bounds");
   app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
@@ -208,6 +210,7 @@ int main(int argc, char** argv) {
     if (algebraic) signorini::bench::print_algebraic(quick);
     if (boundary) signorini::bench::print_boundary(quick);
     if (warm) signorini::bench::print_warm(quick);
+    if (again) signorini::bench::print_again(quick);
     if (steps) signorini::bench::print_steps(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
@@ -215,7 +218,8 @@ int main(int argc, char** argv) {
     if (choice) signorini::bench::print_choice(only);
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
-    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !steps && !aside)
+    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
+        !aside)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -3,10 +3,10 @@
 
 namespace signorini {
 
-/// What one obstacle demands at one vertex along one unit direction: lower <= direction . v <= upper.
+/// What one obstacle demands at one node along one unit direction: lower <= direction . v <= upper.
 template <int B>
 struct Bound {
-  Index vertex;
+  Index vertex;    ///< the node
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> direction;
   double lower, upper;

@@ -3,10 +3,10 @@
 
 namespace signorini {
 
-/// One bounded direction of a vertex after the solve.
+/// One bounded direction of a node after the solve.
 template <int B>
 struct ContactNode {
-  Index vertex;
+  Index vertex;    ///< the node
   Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
   bool contact;    ///< the unknown lies on the bound
   /// All components along the obstacle's normal are prescribed: how the force divides between the obstacle and what

@@ -8,7 +8,7 @@ namespace signorini {
 /// orthonormal; a direction within rounding of a coordinate axis is exactly that axis.
 template <int B>
 struct FixedDirections {
-  Index vertex = 0;
+  Index vertex = 0;  ///< the node
   int count = 0;
   double direction[B][B] = {};
   double value[B] = {};

@@ -9,7 +9,7 @@ namespace signorini {
 /// coordinates. They tell the forces there, and as the matrix is symmetric all that it couples to what is prescribed.
 template <int B>
 struct PrescribedRows {
-  std::vector<Index> vertex;        ///< ascending
+  std::vector<Index> vertex;        ///< the nodes, ascending
   std::vector<Offset> first = {0};  ///< vertices + 1: where each row begins
   std::vector<Index> column;        ///< the row's own vertex first
   std::vector<double> value;        ///< B * B per column, row-major
