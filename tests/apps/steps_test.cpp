@@ -127,8 +127,8 @@ TEST_F(Steps, WhatFailsInItsSmallestPartEndsTheRun) {
 TEST_F(Steps, WhatFailsAsAWholeIsSolvedInParts) {
   write("block.toml", block);
   const Ended ended =
-      signorini({"solve", "block.toml", "--out", "o", "--set", "solver.max_iterations=58", "--set", "solver.method=pgs",
-                 "--set", "solver.tolerance=1e-7", "--set", "refine.uniform=3", "--set", "steps.at=[0.5, 1]", "--set",
+      signorini({"solve", "block.toml", "--out", "o", "--set", "solver.max_iterations=16", "--set", "solver.method=pgs",
+                 "--set", "solver.tolerance=1e-7", "--set", "refine.uniform=2", "--set", "steps.at=[0.5, 1]", "--set",
                  "obstacle.0.bound=0.01", "--set", "fix.0.value=['0.02 * t', -0.03]"});
   EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("warning: step 2: from t = 0.5 to 1 there was no solution, and it was cut in two"));

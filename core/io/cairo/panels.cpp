@@ -44,8 +44,8 @@ void draw_raster(Sheet& sheet, double left, const Panel& panel) {
   const ColourRange range =
       numbers ? colour_range(panel.patches) : ColourRange{0, static_cast<double>(panel.words.size() - 1)};
   const Raster raster = draw_patches(panel, range, raster_size);
-  sheet.image({left + figure.left + (raster_size - raster.width) / 2, figure.top + (raster_size - raster.height) / 2},
-              raster);
+  const int across = (raster_size - raster.width) / 2, down = (raster_size - raster.height) / 2;
+  sheet.image({left + figure.left + across, figure.top + down}, raster);
   if (numbers)
     draw_palette(sheet, left, panel.label, range);
   else
@@ -71,13 +71,15 @@ double draw_key(Sheet& sheet, double left, double top, const std::vector<Line>& 
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (lines[k].name.empty()) continue;
     const auto [marker, stroke] = style(k);
-    const Spot at{left + between * static_cast<double>(shown % 2), top + high * (0.5 + static_cast<double>(shown / 2))};
+    const std::size_t row = shown / 2, column = shown % 2;
+    const Spot at{left + between * static_cast<double>(column), top + high * (0.5 + static_cast<double>(row))};
     if (lines[k].joined) sheet.line(at, {at.x + length, at.y}, stroke);
     sheet.mark({at.x + length / 2, at.y}, marker, stroke);
     sheet.text({at.x + length + 8, at.y}, lines[k].name, {0, 0.5});
     ++shown;
   }
-  return high * static_cast<double>((shown + 1) / 2);
+  const std::size_t rows = (shown + 1) / 2;
+  return high * static_cast<double>(rows);
 }
 
 void draw_lines(Sheet& sheet, double left, const Panel& panel) {
