@@ -101,7 +101,7 @@ class Collector {
     if (!status.ok()) throw_failure(status, term.origin);
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       check_directions(numbers_[i], constraints_[i].directions);
-      for (int k = 0; k < constraints_[i].directions; ++k) add(vertices_[i], constraints_[i], k);
+      for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], vertices_[i], constraints_[i], k);
     }
     numbers_.clear();
     vertices_.clear();
@@ -114,8 +114,7 @@ class Collector {
                               model_.obstacles[obstacle_].origin, directions, position(nodes_, vertex), B));
   }
 
-  void add(const SurfaceVertex& at, const LocalConstraint<B>& constraint, int k) {
-    const auto vertex = static_cast<Index>(at.vertex);
+  void add(Index vertex, const SurfaceVertex& at, const LocalConstraint<B>& constraint, int k) {
     Bound<B> bound{vertex, obstacle_, {}, constraint.lower[k], constraint.upper[k]};
     std::copy_n(constraint.direction[k], B, bound.direction.begin());
     const double length = normalise(bound.direction);

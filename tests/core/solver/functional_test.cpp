@@ -130,6 +130,7 @@ class RenewedFriction final : public FunctionalObstacle<2, GivenFriction<2>> {
   static constexpr double coefficient = 0.2;
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", 2, 1}}, 1}; }
   void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<2>*, Status&) const noexcept override {}
+  bool follows_solution() const noexcept override { return true; }
   void renew(const LevelView<2>& level, Index first, Index last, const double* r,
              double* data) const noexcept override {
     for (Index slot = 0; slot < level.slots; ++slot)
