@@ -95,7 +95,7 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
   return reports;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                               \
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                \
   template std::vector<ContactReport> contact_reports(const Scene&, const Nodes<D>&, const Results<D, B>&, double, \
                                                       std::size_t);
 SIGNORINI_INSTANTIATE(2, 1)

@@ -124,7 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
                "'elasticity'; expected a type for elastic bodies, such as 'contact'"},
         Broken{"Adaptive", membrane, "uniform = 3", "adaptive = true", 2, "not available in this version"},
         Broken{"MisspeltMethod", membrane, "[refine]", "[solver]\nmethod = \"monotne\"\n[refine]", 2,
-               "solver.method: expected one of auto | monotone | tnnmg | pgs | pdas | newton, found 'monotne', did you mean "
+               "solver.method: expected one of auto | monotone | tnnmg | pgs | pdas | newton, found 'monotne', did you "
+               "mean "
                "'monotone'?"},
         Broken{"MisspeltShortMethod", membrane, "[refine]", "[solver]\nmethod = \"tnmg\"\n[refine]", 2,
                "found 'tnmg', did you mean 'tnnmg'?"},
