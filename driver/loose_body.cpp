@@ -22,7 +22,7 @@ namespace {
 constexpr double negligible = 1e-10;      // part of the most that is possible: work of loads, components of motions
 constexpr double rounding = 1e-14;        // of a motion: what is left out bends the body by that much
 constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
-constexpr double force_rounding = 1e-12;  // part of the terms of a residual that is no force
+constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
 constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Index columns) {
@@ -73,6 +73,28 @@ Eigen::VectorXd nearest(const Eigen::VectorXd& wanted, const std::vector<Slab>& 
 /// The same where zero is within all slabs.
 Eigen::VectorXd within(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs) {
   return nearest(wanted, slabs, wanted.norm());
+}
+
+/// The same without what the search loses of digits that the rows have, for a stiff body would have large forces from
+/// that: along sides that zero is next to, the point stays as far off them as zero is, and it is taken back towards
+/// zero where it violates others.
+Eigen::VectorXd exactly_within(const Eigen::VectorXd& wanted, const std::vector<Slab>& slabs) {
+  Eigen::VectorXd found = within(wanted, slabs);
+  const double allowed = decided * wanted.norm();
+  std::vector<Eigen::RowVectorXd> kept;
+  for (const Slab& slab : slabs)
+    if (std::min(-slab.lower, slab.upper) <= allowed && std::abs(slab.row.dot(found)) <= 2 * allowed)
+      kept.push_back(slab.row);
+  if (!kept.empty()) {
+    const Eigen::MatrixXd along = null_space(stacked(kept, wanted.size()), decided);
+    found = along * (along.transpose() * found);
+  }
+  double part = 1;
+  for (const Slab& slab : slabs) {
+    const double at = slab.row.dot(found), bound = at > 0 ? slab.upper : slab.lower;
+    if (std::abs(bound) > allowed && std::abs(at) > std::abs(bound)) part = std::min(part, bound / at);
+  }
+  return part * found;
 }
 
 }  // namespace
@@ -325,7 +347,7 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
     const Eigen::VectorXd row = (room.row * costless).transpose();
     if (row.norm() > negligible) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
   }
-  const Eigen::VectorXd moved = within(cholesky.matrixU() * best, slabs);
+  const Eigen::VectorXd moved = exactly_within(cholesky.matrixU() * best, slabs);
   return cholesky.matrixU().solve(moved);
 }
 

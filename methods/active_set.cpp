@@ -19,6 +19,10 @@ namespace {
 // Small shifts make large motions of what rounding leaves of loads that balance: these touch bounds, and so on.
 constexpr int steps_per_shift = 10;
 constexpr double largest_shift = 1e-6;
+// The same where the sets come back: with steps so short they come to rest.
+constexpr double damping = 1e-4;
+constexpr int most_undampings = 5, most_damped_steps = 40;
+constexpr int exact_after = 3;             // solves without a change of the sets
 constexpr std::size_t resting_steps = 10;  // in which the residual has to fall by half
 
 }  // namespace
@@ -122,8 +126,14 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
     active_ = at_bounds();
   }
   const std::vector<short> last = std::exchange(active_, predicted());
-  const bool changed = steps_ == 1 || active_ != last;
-  if (changed && shift_ > 0 && steps_ % steps_per_shift == 0) shift_ = std::min(10 * shift_, largest_shift);
+  bool changed = steps_ == 1 || active_ != last;
+  at_rest_ = changed ? 0 : at_rest_ + 1;
+  damped_steps_ += damped_;
+  if (damped_ && !changed && undamped_ < most_undampings) {
+    end_damping();
+    changed = true;  // the matrix has
+  }
+  if (changed && shift_ > 0 && !damped_ && steps_ % steps_per_shift == 0) shift_ = std::min(10 * shift_, largest_shift);
   Step step;
   step.error = infinity;
   const bool solved = minimise(changed);
@@ -132,6 +142,7 @@ typename ActiveSetIteration<B>::Step ActiveSetIteration<B>::advance() {
   if (solved) step.error = remaining_error(changed);
   step.stuck = solved ? why_stuck(changed)
                       : "the matrix is singular on the components that are not active: nothing holds the body there";
+  step.exact = shift_ == 0 && at_rest_ >= exact_after;
   step.levels = {report(last)};
   step.levels.front().renewed = changed ? level_.vectors : 0;
   step.levels.front().seconds = seconds() - begin;
@@ -149,8 +160,24 @@ std::string ActiveSetIteration<B>::why_stuck(bool changed) {
     return "the active sets rest, but not the iterates: nothing holds the body there";
   const std::string_view bytes(reinterpret_cast<const char*>(active_.data()), active_.size() * sizeof(short));
   const auto [found, fresh] = seen_.try_emplace(std::hash<std::string_view>()(bytes), steps_);
+  if (damped_ && damped_steps_ <= most_damped_steps) return "";  // what they are moved from changes all the time
   if (!changed || fresh || (shift_ > 0 && shift_ < largest_shift)) return "";
+  if (shift_if_singular_ > 0 && shift_ == 0 && undamped_ < most_undampings) {
+    damped_ = true;
+    shift_ = damping;
+    seen_.clear();
+    return "";
+  }
   return fmt::format("the active sets of step {} came back in step {}: the method cycles", found->second, steps_);
+}
+
+template <int B>
+void ActiveSetIteration<B>::end_damping() {
+  damped_ = false;
+  ++undamped_;
+  shift_ = 0;
+  at_rest_ = 0;
+  seen_.clear();
 }
 
 // The step itself bounds the error of the iterate before. With a shift the steps become shorter by and by.

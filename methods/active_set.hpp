@@ -15,13 +15,14 @@ namespace signorini {
 /// vector with facets is put onto those that would press on it if it moved alone, and is free along them. Such
 /// an iterate may leave the bounds; what is measured and returned is the admissible vector next to it, whose energy may
 /// grow from step to step. The method may return to sets that it has left (it then cycles) and needs a regular matrix
-/// on the free components: in both cases it is stuck.
+/// on the free components: in both cases it is stuck, unless a shift of the diagonal is allowed. That makes steps
+/// shorter, and goes again once the sets rest.
 template <int B>
 class ActiveSetIteration final : public Iteration<B> {
  public:
   /// @param linear a registered linear solver
   /// @param shift_if_singular part of the diagonal that is added to it once the matrix turns out to be singular on the
-  ///     free components; zero: stuck then
+  ///     free components, or the sets come back; zero: stuck then
   ActiveSetIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
                      const Registry& registry, const std::string& linear = "cholmod", double shift_if_singular = 0);
 
@@ -37,6 +38,7 @@ class ActiveSetIteration final : public Iteration<B> {
 
   double remaining_error(bool changed);
   std::string why_stuck(bool changed);
+  void end_damping();
   std::vector<short> predicted() const;
   std::vector<short> at_bounds() const;
   std::vector<short> all_bounded() const;
@@ -60,9 +62,11 @@ class ActiveSetIteration final : public Iteration<B> {
   std::vector<short> active_;
   std::unordered_map<std::size_t, int> seen_;  // fingerprints of the sets of each step
   double shift_if_singular_, shift_ = 0;
-  std::vector<double> residuals_;  // since the sets rest
-  double last_move_ = infinity;    // of the step before, in the energy norm
-  int steps_ = 0;
+  std::vector<double> residuals_;        // since the sets rest
+  double last_move_ = infinity;          // of the step before, in the energy norm
+  int steps_ = 0, at_rest_ = 0;          // the latter: without a change of the sets
+  bool damped_ = false;                  // the shift is there since the sets came back
+  int undamped_ = 0, damped_steps_ = 0;  // how often it was taken away again
 };
 
 }  // namespace signorini

@@ -99,7 +99,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
   const double error = idle ? infinity : remaining_error();
   // Where the linear model has no minimum, the functional may well have one.
-  Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, {}};
+  Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, false, {}};
   rests_ = rests(cycle.finest());
   compare_gains(free, cycle.cut_off);
   bounded_cycles_ += !free;

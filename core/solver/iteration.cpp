@@ -22,6 +22,7 @@ constexpr double risen = 1e-4;       // error of the size that rounding may have
 constexpr double negligible = 0.3;   // of the tolerance: bounds of rounding that need no closer look
 constexpr double attained = 10;      // errors up to so many times what rounding does are as small as it lets them be
 constexpr double inaccurate = 1e-2;  // errors by rounding from which on nothing is claimed
+constexpr double small_residual = 1e-3;  // that rounding may leave
 
 }  // namespace
 
@@ -50,7 +51,7 @@ template <int B>
 bool Iteration<B>::step(const Monitor& monitor) {
   r_before_.swap(r_);
   Step step = advance();
-  const bool bounded = step.bounded, gaining = step.gaining;
+  const bool bounded = step.bounded, gaining = step.gaining, exact = step.exact;
   const std::string stuck = step.stuck;
   measure(step.error);
   if (step.carried && within_tolerance()) {  // claimed for a residual that was not computed from the iterate alone
@@ -59,7 +60,7 @@ bool Iteration<B>::step(const Monitor& monitor) {
   }
   record(std::move(step));
   const bool go_on = !monitor || monitor(summary_.history.back());
-  if (finished(gaining)) return true;
+  if (finished(gaining, exact)) return true;
   if (!bounded && !rests_at_rounding())
     return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
   if (!go_on) return end(Outcome::interrupted, "interrupted");
@@ -202,7 +203,7 @@ bool Iteration<B>::within_tolerance() const {
 
 // Solved: to the tolerance, with what rounding does counted in, or as far as that allows.
 template <int B>
-bool Iteration<B>::finished(bool gaining) {
+bool Iteration<B>::finished(bool gaining, bool exact) {
   Summary& s = summary_;
   stalled_ = sums_.natural_residual > 0.5 * least_ ? stalled_ + 1 : 0;
   least_ = std::min(least_, sums_.natural_residual);
@@ -214,14 +215,14 @@ bool Iteration<B>::finished(bool gaining) {
     s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
     hidden = any ? forces.rounding / forces.acting : 0;
   }
-  const bool at_rest = stalled_ >= 3 && !gaining && is_rounding_of_unknowns() && !has_risen();
+  const bool rounding_alone = is_rounding_of_unknowns() || (exact && s.residual <= small_residual);
+  const bool at_rest = stalled_ >= 3 && !gaining && rounding_alone && !has_risen();
   if (!within_tolerance() && !at_rest) return false;
-  const double of_rounding = hidden      ? *hidden
-                             : size_ > 0 ? rounding_error() / size_
-                                         : 0,
-               error = std::hypot(s.algebraic_error, of_rounding);
+  double of_rounding = hidden ? *hidden : size_ > 0 ? rounding_error() / size_ : 0;
+  if (exact && !within_tolerance()) of_rounding = std::max(of_rounding, s.algebraic_error);
+  const double error = std::hypot(s.algebraic_error, of_rounding);
   // Large residuals beside larger unknowns, as of slender bodies: it takes the error by rounding to explain them.
-  if (of_rounding == 0 && !within_tolerance() && !rests_at_rounding()) return false;
+  if (of_rounding == 0 && !within_tolerance() && !rests_at_rounding() && !exact) return false;
   if (error > std::max(options_.tolerance, attained * of_rounding)) return false;
   s.rounding_error = of_rounding;
   s.algebraic_error = s.history.back().algebraic_error = error;
@@ -261,7 +262,7 @@ bool Iteration<B>::is_rounding_of_unknowns() const {
 // Unless it is the iteration that carried the unknowns away.
 template <int B>
 bool Iteration<B>::rests_at_rounding() const {
-  return is_rounding_of_unknowns() && summary_.residual <= 1e-3;
+  return is_rounding_of_unknowns() && summary_.residual <= small_residual;
 }
 
 // Whether the energy is above that of the start, by more than an error of the size that rounding may have: then the

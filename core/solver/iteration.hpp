@@ -29,7 +29,8 @@ class Iteration {
     bool carried = false;             ///< the residual was carried along, not computed from the iterate alone
     bool bounded = true;              ///< false: the energy has no minimum
     bool gaining = false;             ///< more energy than rounding explains was gained
-    std::string stuck;                ///< why the method cannot go on, if so
+    bool exact = false;  ///< a linear solve has left nothing but rounding, of which the error is what it moved
+    std::string stuck;   ///< why the method cannot go on, if so
   };
 
   /// Everything that is recomputed from an iterate, and what was gained since x_before_.
@@ -97,7 +98,7 @@ class Iteration {
   double rounding_energy() const;
   double rounding_error();
   bool within_tolerance() const;
-  bool finished(bool gaining);
+  bool finished(bool gaining, bool exact);
   bool has_risen() const;
   bool end(Outcome outcome, std::string reason);
   void finish_energies();

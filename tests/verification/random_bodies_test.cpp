@@ -440,6 +440,21 @@ TEST(RandomBodies, FarAwayFromWhereTheyBegin) {
   EXPECT_EQ(tally.solved, 8);
 }
 
+// Cycles are slow here, and active sets need the facets of crowded vertices.
+TEST(RandomBodies, WithCrowdedVerticesAreSolvedByActiveSets) {
+  Tally tally;
+  judge_one<3>(466, Bodies::soft, tally);
+  EXPECT_EQ(tally.solved, 1);
+}
+
+// Two obstacles hold an edge of the body between them, with forces that are small beside stiffness times way; it may
+// turn about that edge.
+TEST(RandomBodies, KeepTheirForcesWhereAMotionIsLeft) {
+  Tally tally;
+  judge_one<3>(730, Bodies::stiff_and_moved, tally);
+  EXPECT_EQ(tally.solved, 1);
+}
+
 TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays2D) { judge_all<2>(250, Bodies::soft); }
 TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays3D) { judge_all<3>(100, Bodies::soft); }
 TEST(RandomBodies, AreMovedHoweverStiffTheyAre2D) { judge_all<2>(250, Bodies::stiff_and_moved); }
