@@ -189,7 +189,8 @@ auto RigidMotions<D, B>::simple_basis(const Eigen::MatrixXd& space) const -> std
   Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), rounding);
   if (shifts.cols() > 0) {
     const Eigen::MatrixXd along = shifts.topRows(translations);
-    turns.topRows(translations) -= along * along.householderQr().solve(turns.topRows(translations));
+    if (turns.cols() > 0)
+      turns.topRows(translations) -= along * along.householderQr().solve(turns.topRows(translations));
     reduce_columns(shifts, 0, translations);
   }
   if (turns.cols() > 0) reduce_columns(turns, translations, modes);

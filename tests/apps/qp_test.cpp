@@ -86,7 +86,7 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
   EXPECT_EQ(r.at("active").at("lower"), touching);
   EXPECT_EQ(r.at("active").at("upper"), 0);
   for (const char* key : {"residual", "algebraic_error", "energy"}) EXPECT_TRUE(r.at(key).is_number_float()) << key;
-  EXPECT_TRUE(r.at("rate").is_null()) << "solved in one cycle, which the next one confirms";
+  if (!r.at("rate").is_null()) EXPECT_LE(r.at("rate"), 1e-9) << "solved in one cycle, which the next one confirms";
   ASSERT_EQ(r.at("stages").size(), 1u);
   const auto& stage = r.at("stages").front();
   EXPECT_EQ(stage.at("iterations"), r.at("iterations"));
@@ -316,6 +316,9 @@ TEST_F(Qp, OutputThatIsLostIsAnErrorOnlyWhereNothingIsWritten) {
 
 // Of address space. OpenBLAS would ask for its 128 MB for ever.
 TEST_F(Qp, TooLittleMemoryForADirectSolveIsAnErrorAtOnce) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself needs terabytes of address space";
+#endif
   constexpr Index n = 3000;
   write_chain(n);
   write_constant("b.mtx", n, -1);
