@@ -9,6 +9,9 @@
 /// epsilon (|A||x| + |b|) only, and forces of that size move what has little energy far.
 namespace signorini {
 
+/// Errors by rounding from which on nothing is claimed.
+inline constexpr double inaccurate = 1e-2;
+
 /// About ||d||_A for A d = forces on the free components alone, the better the larger it is beside `enough`; nothing
 /// where that is not known.
 using Response = std::function<std::optional<double>(const std::vector<double>& forces, double enough)>;

@@ -17,11 +17,10 @@ namespace signorini {
 
 namespace {
 
-constexpr double of_products = 32;   // rounding of a row of a product, in units of what it is of the largest unknown
-constexpr double risen = 1e-4;       // error of the size that rounding may have without it having carried x away
-constexpr double negligible = 0.3;   // of the tolerance: bounds of rounding that need no closer look
-constexpr double attained = 10;      // errors up to so many times what rounding does are as small as it lets them be
-constexpr double inaccurate = 1e-2;  // errors by rounding from which on nothing is claimed
+constexpr double of_products = 32;  // rounding of a row of a product, in units of what it is of the largest unknown
+constexpr double risen = 1e-4;      // error of the size that rounding may have without it having carried x away
+constexpr double negligible = 0.3;  // of the tolerance: bounds of rounding that need no closer look
+constexpr double attained = 10;     // errors up to so many times what rounding does are as small as it lets them be
 constexpr double small_residual = 1e-3;  // that rounding may leave
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/solver/attainable.hpp"
+
 namespace signorini {
 
 namespace {
@@ -65,8 +67,8 @@ void Summary::add_rounding(double error, double tolerance) {
   if (!(error > 0)) return;
   rounding_error = std::hypot(rounding_error, error);
   algebraic_error = std::hypot(algebraic_error, error);
-  if (outcome != Outcome::converged || algebraic_error <= tolerance) return;
-  outcome = Outcome::rounding;
+  if (!converged() || algebraic_error <= tolerance) return;
+  outcome = rounding_error > inaccurate ? Outcome::inaccurate : Outcome::rounding;
   reason = fmt::format(
       "limited by rounding: residual {:.3e}, and an algebraic error of {:.3e} by rounding of the stiffness and of "
       "displacements that are large beside what deforms the body, tolerance {:.3e}",

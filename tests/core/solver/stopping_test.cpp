@@ -230,5 +230,21 @@ TEST(Options, OutOfRangeAreRefusedWithTheirNames) {
   refused("newtoon", [](O& o) { o.coarse = "newtoon"; });
 }
 
+// As the driver adds it, which knows what rounding does to the stiffness.
+TEST(Stopping, RoundingThatIsAddedAfterwardsFollowsTheSameRule) {
+  const auto with = [](Outcome outcome, double error) {
+    Summary summary;
+    summary.outcome = outcome;
+    summary.algebraic_error = 1e-9;
+    summary.add_rounding(error, 1e-8);
+    return summary.outcome;
+  };
+  EXPECT_EQ(with(Outcome::converged, 1e-9), Outcome::converged);
+  EXPECT_EQ(with(Outcome::converged, 9e-3), Outcome::rounding);
+  EXPECT_EQ(with(Outcome::converged, 1.1e-2), Outcome::inaccurate);
+  EXPECT_EQ(with(Outcome::rounding, 1.1e-2), Outcome::inaccurate);
+  EXPECT_EQ(with(Outcome::iteration_limit, 1), Outcome::iteration_limit);
+}
+
 }  // namespace
 }  // namespace signorini::test
