@@ -14,6 +14,7 @@
 #include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
+#include "apps/bench/partial_slip.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/steps.hpp"
 #include "apps/bench/traffic.hpp"
@@ -187,7 +188,7 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, again = false, steps = false, aside = false;
+       aggregates = false, warm = false, again = false, steps = false, aside = false, partial_slip = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -195,6 +196,8 @@ int main(int argc, char** argv) {
   app.add_flag("--warm", warm, "only the cycles from a solution before, for matrices without meshes");
   app.add_flag("--again", again, "only the cost of a second solve with other bounds");
   app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
+  app.add_flag("--partial-slip", partial_slip,
+               "only friction against Cattaneo and Mindlin, the tables of docs/friction.md");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
@@ -212,6 +215,7 @@ int main(int argc, char** argv) {
     if (warm) signorini::bench::print_warm(quick);
     if (again) signorini::bench::print_again(quick);
     if (steps) signorini::bench::print_steps(quick);
+    if (partial_slip) signorini::bench::print_partial_slip(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
@@ -219,7 +223,7 @@ int main(int argc, char** argv) {
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
     if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside)
+        !aside && !partial_slip)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
