@@ -11,6 +11,8 @@
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
 #include "apps/bench/choice.hpp"
+#include "apps/bench/friction_coefficients.hpp"
+#include "apps/bench/friction_costs.hpp"
 #include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
@@ -187,7 +189,8 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, again = false, steps = false, aside = false;
+       aggregates = false, warm = false, again = false, steps = false, aside = false, coefficients = false,
+       friction = false, renewal = false, direct = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -195,6 +198,10 @@ int main(int argc, char** argv) {
   app.add_flag("--warm", warm, "only the cycles from a solution before, for matrices without meshes");
   app.add_flag("--again", again, "only the cost of a second solve with other bounds");
   app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
+  app.add_flag("--friction-coefficients", coefficients, "only what becomes of coefficients of friction from 0 to 5");
+  app.add_flag("--friction-costs", friction, "only cycles and time of steps with friction beside those without");
+  app.add_flag("--friction-renewal", renewal, "only when the bounds of friction are best renewed");
+  app.add_flag("--friction-direct", direct, "only friction by cycles beside Newton's method with a direct solver");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
@@ -212,6 +219,10 @@ int main(int argc, char** argv) {
     if (warm) signorini::bench::print_warm(quick);
     if (again) signorini::bench::print_again(quick);
     if (steps) signorini::bench::print_steps(quick);
+    if (coefficients) signorini::bench::print_friction_coefficients(quick);
+    if (friction) signorini::bench::print_friction_costs(quick);
+    if (renewal) signorini::bench::print_friction_renewal(quick);
+    if (direct) signorini::bench::print_friction_direct(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
@@ -219,7 +230,7 @@ int main(int argc, char** argv) {
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
     if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside)
+        !aside && !coefficients && !friction && !renewal && !direct)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
