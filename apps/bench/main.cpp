@@ -10,6 +10,7 @@
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
+#include "apps/bench/calculix.hpp"
 #include "apps/bench/choice.hpp"
 #include "apps/bench/friction_coefficients.hpp"
 #include "apps/bench/friction_costs.hpp"
@@ -190,7 +191,7 @@ int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
        aggregates = false, warm = false, again = false, steps = false, aside = false, coefficients = false,
-       friction = false, renewal = false, direct = false;
+       friction = false, renewal = false, direct = false, ccx = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -202,6 +203,7 @@ int main(int argc, char** argv) {
   app.add_flag("--friction-costs", friction, "only cycles and time of steps with friction beside those without");
   app.add_flag("--friction-renewal", renewal, "only when the bounds of friction are best renewed");
   app.add_flag("--friction-direct", direct, "only friction by cycles beside Newton's method with a direct solver");
+  app.add_flag("--calculix", ccx, "only friction beside CalculiX, whose program ccx has to be there");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
@@ -223,6 +225,7 @@ int main(int argc, char** argv) {
     if (friction) signorini::bench::print_friction_costs(quick);
     if (renewal) signorini::bench::print_friction_renewal(quick);
     if (direct) signorini::bench::print_friction_direct(quick);
+    if (ccx) signorini::bench::print_calculix(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
@@ -230,7 +233,7 @@ int main(int argc, char** argv) {
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
     if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside && !coefficients && !friction && !renewal && !direct)
+        !aside && !coefficients && !friction && !renewal && !direct && !ccx)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
