@@ -21,20 +21,23 @@ class Renewal {
   bool due() const { return when_ != When::outer || cycles_ % cycles_between == 0; }
   /// Replaces what was frozen in the last cycles by what is to be frozen in the next one.
   /// @param follows what follows from their iterate
-  void next(const std::vector<double>& follows, std::vector<double>& frozen) const;
+  void next(const std::vector<double>& follows, std::vector<double>& frozen);
   /// A cycle has ended with this natural residual.
   void add(double natural_residual);
   /// Why it makes no sense to go on; empty: it does.
   std::string stuck() const;
 
  private:
+  void relax(const std::vector<double>& follows, const std::vector<double>& frozen);
+
   static constexpr int cycles_between = 4;  ///< of When::outer
   static constexpr int patience = 15;       ///< cycles in which the residual has to fall
   static constexpr double enough = 0.7;     ///< to so much of what it was
-  static constexpr double least_part = 1.0 / 16;
+  static constexpr double least_part = 1.0 / 16, least_relaxation = 1.0 / 8;
 
   When when_;
-  double part_ = 1, least_ = infinity;
+  double part_ = 1, relaxation_ = 1, least_ = infinity;
+  std::vector<double> difference_;  // of what followed last and what was frozen
   int cycles_ = 0, idle_ = 0;
 };
 

@@ -10,7 +10,10 @@
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/boundary.hpp"
+#include "apps/bench/calculix.hpp"
 #include "apps/bench/choice.hpp"
+#include "apps/bench/friction_coefficients.hpp"
+#include "apps/bench/friction_costs.hpp"
 #include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
@@ -188,7 +191,8 @@ void fetch_memory() {
 int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, again = false, steps = false, aside = false, partial_slip = false;
+       aggregates = false, warm = false, again = false, steps = false, aside = false, partial_slip = false,
+       coefficients = false, friction = false, renewal = false, direct = false, ccx = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -198,6 +202,11 @@ int main(int argc, char** argv) {
   app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
   app.add_flag("--partial-slip", partial_slip,
                "only friction against Cattaneo and Mindlin, the tables of docs/friction.md");
+  app.add_flag("--friction-coefficients", coefficients, "only what becomes of coefficients of friction from 0 to 5");
+  app.add_flag("--friction-costs", friction, "only cycles and time of steps with friction beside those without");
+  app.add_flag("--friction-renewal", renewal, "only when the bounds of friction are best renewed");
+  app.add_flag("--friction-direct", direct, "only friction by cycles beside Newton's method with a direct solver");
+  app.add_flag("--calculix", ccx, "only friction beside CalculiX, whose program ccx has to be there");
   app.add_flag("--memory", memory, "only the peak memory of a solve");
   app.add_flag("--variants", variants, "only the tables of docs/variants.md");
   app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
@@ -216,6 +225,11 @@ int main(int argc, char** argv) {
     if (again) signorini::bench::print_again(quick);
     if (steps) signorini::bench::print_steps(quick);
     if (partial_slip) signorini::bench::print_partial_slip(quick);
+    if (coefficients) signorini::bench::print_friction_coefficients(quick);
+    if (friction) signorini::bench::print_friction_costs(quick);
+    if (renewal) signorini::bench::print_friction_renewal(quick);
+    if (direct) signorini::bench::print_friction_direct(quick);
+    if (ccx) signorini::bench::print_calculix(quick);
     if (memory) signorini::bench::print_memory(quick);
     if (variants) signorini::bench::print_variants();
     if (variants || aggregates) signorini::bench::print_aggregates();
@@ -223,7 +237,7 @@ int main(int argc, char** argv) {
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
     if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside && !partial_slip)
+        !aside && !partial_slip && !coefficients && !friction && !renewal && !direct && !ccx)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -7,10 +7,10 @@
 
 namespace signorini::bench {
 
+std::filesystem::path scene_file(const std::string& name) { return std::filesystem::path(SIGNORINI_SCENES) / name; }
+
 Problem::Problem(std::string title, const std::string& file, std::vector<std::string> overrides)
-    : name(std::move(title)),
-      scene(read_scene(std::filesystem::path(SIGNORINI_SCENES) / file, overrides)),
-      registry(solver_components()) {
+    : name(std::move(title)), scene(read_scene(scene_file(file), overrides)), registry(solver_components()) {
   load_plugins(scene, registry);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "driver/problem.hpp"
 
 namespace signorini::bench {
+
+/// A file of apps/scenes.
+std::filesystem::path scene_file(const std::string& name);
 
 /// A scene of apps/scenes, changed by overrides as `--set` takes them.
 struct Problem {

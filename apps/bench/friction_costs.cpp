@@ -1,0 +1,218 @@
+#include "apps/bench/friction_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "apps/bench/friction_scenes.hpp"
+#include "apps/bench/processor_time.hpp"
+#include "core/base/error.hpp"
+#include "driver/driver.hpp"
+
+namespace signorini::bench {
+namespace {
+
+/// All steps of one scene.
+struct Steps {
+  std::vector<int> cycles;
+  std::vector<double> seconds;  ///< of processor time, per step: bounds, set-up, cycles and results
+  double unknowns = 0;
+  bool solved = true;
+
+  int most_cycles() const { return *std::ranges::max_element(cycles); }
+  /// Without the first step, which assembles the matrix, where there are others.
+  double time() const {
+    double sum = 0;
+    for (std::size_t k = seconds.size() > 1 ? 1 : 0; k < seconds.size(); ++k) sum += seconds[k];
+    return sum;
+  }
+  double whole() const {
+    double sum = 0;
+    for (const double s : seconds) sum += s;
+    return sum;
+  }
+};
+
+Steps solve(const Scene& scene) {
+  Steps out;
+  Driver driver(scene);
+  std::optional<ProcessorTime> watch(std::in_place);
+  driver.solve([&] {
+    const Summary& summary = driver.report().last().summary;
+    out.seconds.push_back(watch->elapsed());
+    out.cycles.push_back(summary.iterations);
+    out.unknowns = summary.level_unknowns.back();
+    out.solved = out.solved && summary.converged();
+    watch.emplace();
+  });
+  out.solved = out.solved && driver.report().failed.empty();
+  return out;
+}
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
+/// The median of ratios of `time`, from runs in turns; results are those of the last pair.
+struct Pairs {
+  Steps first, second;
+  double ratio;
+
+  Pairs(int count, const Scene& a, const Scene& b, const std::function<double(const Steps&)>& time) {
+    std::vector<double> ratios;
+    for (int k = 0; k < count; ++k) {
+      first = solve(a);
+      second = solve(b);
+      ratios.push_back(time(first) / time(second));
+    }
+    ratio = median(ratios);
+  }
+};
+
+double step_time(const Steps& steps) { return steps.time(); }
+double whole_time(const Steps& steps) { return steps.whole(); }
+
+int pairs_for(double unknowns) { return unknowns < 1e5 ? 9 : unknowns < 5e5 ? 5 : 3; }
+
+std::string list(const std::vector<int>& numbers) { return fmt::format("{}", fmt::join(numbers, ", ")); }
+
+void row(const std::string& text) { fmt::print("{}\n", text), std::fflush(stdout); }
+
+/// The way of the top in `count` steps: pressed and pushed at the same time.
+FrictionScene plane_steps(int refinements, int count) {
+  FrictionScene scene = block_2d("block 2D", "[\"0.01*t\", \"-0.03*t\"]", refinements);
+  scene.overrides.push_back(fmt::format("steps.count={}", count));
+  return scene;
+}
+
+FrictionScene space_steps(int refinements, int count) {
+  FrictionScene scene = block_3d("block 3D", "[\"0.01*t\", \"0.005*t\", \"-0.03*t\"]", refinements);
+  scene.overrides.push_back(fmt::format("steps.count={}", count));
+  return scene;
+}
+
+void with_and_without(const char* levels, const FrictionScene& scene, double unknowns, const Overrides& more) {
+  const Pairs pairs(pairs_for(unknowns), scene.with(0.3, more), scene.with(0, more), step_time);
+  row(fmt::format("| {} | {} | {:.0f} | {}{} | {} | {:.2f} | {:.2f} |", scene.name, levels, pairs.first.unknowns,
+                  list(pairs.first.cycles), pairs.first.solved ? "" : " (not solved)", list(pairs.second.cycles),
+                  static_cast<double>(pairs.first.most_cycles()) / pairs.second.most_cycles(), pairs.ratio));
+}
+
+void print_without_friction(bool quick) {
+  fmt::print(
+      "\n## `friction = 0` over plain contact\n\n| scene | unknowns | cycles | of contact | time over contact |\n"
+      "| --- | --- | --- | --- | --- |\n");
+  const auto compare = [](const FrictionScene& scene, int count) {
+    Scene contact = scene.with(0);
+    for (Scene::Obstacle& obstacle : contact.obstacles) {
+      obstacle.type = "contact";
+      std::erase_if(obstacle.options.entries, [](const auto& entry) { return entry.first == "friction"; });
+    }
+    const Pairs pairs(count, scene.with(0), contact, whole_time);
+    row(fmt::format("| {} | {:.0f} | {} | {} | {:.2f} |", scene.name, pairs.first.unknowns, list(pairs.first.cycles),
+                    list(pairs.second.cycles), pairs.ratio));
+  };
+  compare(plane_steps(6, 1), 15);
+  compare(plane_steps(quick ? 6 : 7, 1), 11);
+  compare(space_steps(3, 1), 15);
+  if (!quick) compare(space_steps(4, 1), 9);
+}
+
+/// A scene with each of the ways to renew: cycles and time over that of the first.
+void ways(const FrictionScene& scene, double friction, int count) {
+  std::string cells;
+  std::vector<std::vector<double>> seconds(3);
+  const char* const values[] = {"cycle", "sweep", "outer"};
+  Steps last[3];
+  for (int k = 0; k < count; ++k)
+    for (int way = 0; way < 3; ++way) {
+      last[way] = solve(scene.with(friction, {fmt::format("solver.renew={}", values[way])}));
+      seconds[way].push_back(last[way].whole());
+    }
+  for (int way = 0; way < 3; ++way) {
+    std::vector<double> ratios;
+    for (int k = 0; k < count; ++k) ratios.push_back(seconds[way][k] / seconds[0][k]);
+    cells += last[way].solved ? fmt::format(" {} ({:.2f}) |", list(last[way].cycles), median(ratios)) : " none |";
+  }
+  row(fmt::format("| {} | {:.0f} | {} |{}", scene.name, last[0].unknowns, friction, cells));
+}
+
+}  // namespace
+
+void print_friction_costs(bool quick) {
+  fmt::print(
+      "## Steps with friction over steps without\n\n| scene | levels | unknowns | cycles per step | without friction | "
+      "cycles over | time over |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  const Overrides matrix{"solver.hierarchy=matrix"};
+  const auto plane = [](int refinements) { return 2 * 8 * std::pow(4.0, refinements); };
+  const auto space = [](int refinements) { return 3 * 16 * std::pow(8.0, refinements); };
+  for (int k = 5; k <= (quick ? 6 : 8); ++k) with_and_without("meshes", plane_steps(k, 3), plane(k), {});
+  for (int k = 2; k <= (quick ? 3 : 5); ++k) with_and_without("meshes", space_steps(k, 3), space(k), {});
+  for (int k = 5; k <= (quick ? 6 : 8); ++k) with_and_without("matrix", plane_steps(k, 3), plane(k), matrix);
+  for (int k = 2; k <= (quick ? 3 : 5); ++k) with_and_without("matrix", space_steps(k, 3), space(k), matrix);
+  print_without_friction(quick);
+}
+
+void print_friction_renewal(bool quick) {
+  const int less = quick ? 1 : 0, count = quick ? 1 : 5;
+  fmt::print(
+      "## When the bounds are renewed\n\n| scene | unknowns | friction | `cycle` | `sweep` | `outer` |\n| --- | --- | "
+      "--- | --- | --- | --- |\n");
+  for (const double friction : {0.1, 0.3, 0.6, 1.0}) {
+    ways(block_2d("block 2D, (0.03, -0.03)", "[0.03, -0.03]", 5 - less), friction, count);
+    ways(block_2d("block 2D, (0.1, -0.01)", "[0.1, -0.01]", 5 - less), friction, count);
+    ways(plane_steps(5 - less, 4), friction, count);
+    ways(wedge(3 - less), friction, count);
+    ways(block_3d("block 3D, (0.03, 0.015, -0.03)", "[0.03, 0.015, -0.03]", 3 - less), friction, count);
+    ways(block_3d("block 3D, (0.1, 0.05, -0.01)", "[0.1, 0.05, -0.01]", 3 - less), friction, count);
+    ways(space_steps(3 - less, 4), friction, count);
+    ways(ball(2 - less), friction, count);
+  }
+}
+
+void print_friction_direct(bool quick) {
+  fmt::print(
+      "## Cycles beside Newton's method with a direct solver\n\n| scene | unknowns | cycles | Newton steps | time of "
+      "Newton over cycles | largest difference |\n| --- | --- | --- | --- | --- | --- |\n");
+  const auto compare = [](const FrictionScene& scene) {
+    std::vector<double> u[2];
+    Steps steps[2];
+    for (int way = 0; way < 2; ++way) {
+      const ProcessorTime time;
+      Driver driver(scene.with(0.3, way == 0 ? Overrides{} : Overrides{"solver.method=newton"}));
+      const Summary& summary = driver.solve().last().summary;
+      steps[way].seconds = {time.elapsed()};
+      steps[way].cycles = {summary.iterations};
+      steps[way].unknowns = summary.level_unknowns.back();
+      steps[way].solved = summary.converged();
+      u[way] = driver.solution();
+    }
+    double largest = 0, apart = 0;
+    for (std::size_t i = 0; i < u[0].size(); ++i) {
+      largest = std::max(largest, std::abs(u[0][i]));
+      apart = std::max(apart, std::abs(u[0][i] - u[1][i]));
+    }
+    row(fmt::format("| {} | {:.0f} | {} | {}{} | {:.1f} | {:.0e} |", scene.name, steps[0].unknowns, steps[0].cycles[0],
+                    steps[1].cycles[0], steps[0].solved && steps[1].solved ? "" : " (not solved)",
+                    steps[1].seconds[0] / steps[0].seconds[0], apart / largest));
+  };
+  compare(plane_steps(5, 1));
+  if (!quick) compare(plane_steps(7, 1));
+  compare(space_steps(2, 1));
+  compare(space_steps(3, 1));
+  FrictionScene wide = space_steps(3, 1);
+  wide.overrides.push_back("body.0.cells=[8, 3, 3]");
+  wide.name = "block 3D, 8 x 3 x 3 cells";
+  if (!quick) compare(wide);
+  FrictionScene large = space_steps(3, 1);
+  large.overrides.push_back("body.0.cells=[7, 4, 4]");
+  large.name = "block 3D, 7 x 4 x 4 cells";
+  if (!quick) compare(large);
+}
+
+}  // namespace signorini::bench

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace signorini::bench {
+
+/// Prints cycles and processor time of steps with Coulomb friction, on nested meshes and on levels chosen by the matrix
+/// alone, beside those of the same steps without friction, and what `friction = 0` costs beside plain contact.
+/// @param quick without the largest sizes
+void print_friction_costs(bool quick);
+
+/// Prints cycles and time with each value of the option `renew`.
+void print_friction_renewal(bool quick);
+
+/// Prints the time of method "newton", with its direct solver, over that of the default.
+void print_friction_direct(bool quick);
+
+}  // namespace signorini::bench

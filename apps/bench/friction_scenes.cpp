@@ -1,0 +1,44 @@
+#include "apps/bench/friction_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/bench/problems.hpp"
+#include "apps/scenes/tables.hpp"
+
+namespace signorini::bench {
+namespace {
+
+// The block of block_with_coulomb_friction_3d.toml in the plane.
+const std::string plane_block = tables::block("block", "[0, 0]", "[2, 1]", "[4, 2]") +
+                                tables::fix("block", "top", "[0.01, -0.03]") +
+                                "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.3\nbody = \"block\"\non = \"bottom\"\n"
+                                "shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n";
+
+std::string refined(int refinements) { return fmt::format("refine.uniform={}", refinements); }
+
+}  // namespace
+
+Scene FrictionScene::with(double friction, const Overrides& more) const {
+  Overrides all = joined(overrides, more);
+  for (int k = 0; k < obstacles; ++k) all.push_back(fmt::format("obstacle.{}.friction={}", k, friction));
+  return file.empty() ? parse_scene(plane_block, "block.toml", ".", all) : read_scene(scene_file(file), all);
+}
+
+FrictionScene block_2d(const std::string& name, const std::string& top, int refinements) {
+  return {name, "", 1, {"fix.0.value=" + top, refined(refinements)}};
+}
+
+FrictionScene block_3d(const std::string& name, const std::string& top, int refinements) {
+  return {name, "block_with_coulomb_friction_3d.toml", 1, {"fix.0.value=" + top, refined(refinements)}};
+}
+
+FrictionScene ball(int refinements) {
+  return {"ball",
+          "ball_on_plane.toml",
+          1,
+          {"obstacle.0.type=\"coulomb\"", "fix.0.value=[0.004, 0, -0.011]", refined(refinements)}};
+}
+
+FrictionScene wedge(int refinements) { return {"wedge", "wedge_in_groove_2d.toml", 2, {refined(refinements)}}; }
+
+}  // namespace signorini::bench
