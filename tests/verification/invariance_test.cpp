@@ -77,6 +77,23 @@ SceneText square_on_incline(const Frame<2>& f) {
           .refinements = 3};
 }
 
+/// A block pressed on a plane and pushed along it: most of what touches slips, some of it sticks.
+template <int D>
+SceneText block_with_friction(const Frame<D>& f) {
+  Point<D> way{}, point{}, normal{};
+  way[0] = 0.02;
+  way[D - 1] = -0.06;
+  if (D == 3) way[1] = -0.01;
+  point[D - 1] = -1;
+  normal[D - 1] = 1;
+  return {.body = f.body(),
+          .fixes = {"on = \"top\"\nvalue = " + f.length(way)},
+          .obstacle = fmt::format("type = \"coulomb\"\nfriction = 0.3\non = \"bottom\"\nshape = \"plane\"\n"
+                                  "point = {}\nnormal = {}",
+                                  f.point(point), f.direction(normal)),
+          .refinements = D == 2 ? 3 : 1};
+}
+
 template <int D>
 using Scenes = SceneText (*)(const Frame<D>&);
 
@@ -91,6 +108,8 @@ void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& mot
   ASSERT_EQ(there.u().size(), here.u().size());
   EXPECT_GT(here.contact().nodes, 3);
   EXPECT_EQ(there.contact().nodes, here.contact().nodes);
+  EXPECT_EQ(there.contact().slip_nodes, here.contact().slip_nodes);
+  EXPECT_EQ(there.contact().stick_nodes, here.contact().stick_nodes);
   double difference = 0, size = 0;
   for (std::size_t p = 0; p < here.mesh().points.size(); ++p) {
     Point<D> u;
@@ -110,7 +129,10 @@ void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& mot
               1e-8 * modulus * here.contact().max_pressure);
   EXPECT_NEAR(there.contact().area, std::pow(motion.scale, D - 1) * here.contact().area,
               1e-8 * std::pow(motion.scale, D - 1));
-  show("{} nodes in contact, {} and {} cycles, difference {:.1e}\n", here.contact().nodes, here.summary().iterations,
+  EXPECT_NEAR(there.contact().dissipated, force * motion.scale * here.contact().dissipated,
+              1e-8 * force * motion.scale * norm<D>(expected));
+  show("{} nodes in contact, {} slip, {} and {} cycles, difference {:.1e}\n", here.contact().nodes,
+       here.contact().slip_nodes, here.summary().iterations,
        there.summary().iterations, difference / size);
 }
 
@@ -123,6 +145,24 @@ TEST(Invariance, RotationAndTranslation) {
     space.shift = {3, -2, 5};
     expect_invariant<3>(half_ball(), ball_on_sphere, space, 1);
   }
+}
+
+Mesh<3> cube_on_floor() { return signorini::box({-1, -1, -1}, {1, 1, 1}, {3, 3, 3}); }
+
+TEST(Invariance, OfFriction) {
+  for (const double length : {1.0, 1e-3, 1e6})
+    for (const double modulus : {1.0, 1e-6, 2.1e11})
+      for (const double angle : {0.0, 0.7}) {
+        SCOPED_TRACE(fmt::format("lengths by {}, moduli by {}, turned by {}", length, modulus, angle));
+        Motion<2> plane = rotation2(angle);
+        plane.shift = {3 * length * angle, -2 * length * angle};
+        plane.scale = length;
+        expect_invariant<2>(square(), block_with_friction<2>, plane, modulus);
+        Motion<3> space = rotation3(angle, 1.1 * angle, -2.3 * angle);
+        space.shift = {3 * length * angle, -2 * length * angle, 5 * length * angle};
+        space.scale = length;
+        expect_invariant<3>(cube_on_floor(), block_with_friction<3>, space, modulus);
+      }
 }
 
 TEST(Invariance, OfNodesOnTheEdgesOfASurface) {
@@ -271,6 +311,8 @@ void expect_independent_of_numbering(const Mesh<D>& mesh, Scenes<D> scene) {
 }
 
 TEST(Invariance, NumberingOfTheMeshFile) {
+  expect_independent_of_numbering<2>(square(), block_with_friction<2>);
+  expect_independent_of_numbering<3>(cube_on_floor(), block_with_friction<3>);
   expect_independent_of_numbering<2>(square(), square_on_incline);
   expect_independent_of_numbering<3>(half_ball(), ball_on_sphere);
 }
