@@ -52,9 +52,15 @@ struct Kind {
   const char* plural;
   const char* kind;
 };
-constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},    {"smoothers", "smoother"},  {"transfers", "transfer"},
-                                {"coarse", "coarse"},         {"linear", "linear"},       {"amg", "amg"},
-                                {"aggregates", "aggregates"}, {"estimators", "estimator"}};
+constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},
+                                {"smoothers", "smoother"},
+                                {"transfers", "transfer"},
+                                {"coarse", "coarse"},
+                                {"linear", "linear"},
+                                {"unsymmetric", "unsymmetric"},
+                                {"amg", "amg"},
+                                {"aggregates", "aggregates"},
+                                {"estimators", "estimator"}};
 
 void print_kind(const Kind& kind, const Catalogue& all) {
   fmt::print("{}\n", kind.plural);

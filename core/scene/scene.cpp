@@ -62,8 +62,11 @@ Scene::Steps read_steps(const TableReader& table) {
     return steps;
   }
   if (table.given("count"))
-    input_error(table.origin("at"),
-                fmt::format("both 'at' and 'count' ({}) are given, expected one of them", table.origin("count")));
+    input_error(
+        table.origin("at"),
+        fmt::format("both 'at' and 'count' ({}) are given, expected one of them: give steps.at another list, or "
+                    "remove it",
+                    table.origin("count")));
   steps.at = table.ascending("at");
   if (steps.at.back() != 1)
     input_error(table.origin("at"), fmt::format("expected 1 as the last value, found {}", steps.at.back()));

@@ -109,6 +109,7 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
                            "all | twins", "global | local", "(true or false, default true)"})
     EXPECT_THAT(amg.out, HasSubstr(text));
   EXPECT_THAT(amg.out, HasSubstr("`signorini list aggregates` (text, default greedy)"));
+  EXPECT_THAT(signorini({"list", "unsymmetric"}).out, HasSubstr("umfpack "));
   EXPECT_THAT(signorini({"list", "aggregates"}).out, AllOf(HasSubstr("greedy "), HasSubstr("metis ")));
   EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
 }
