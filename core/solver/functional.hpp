@@ -39,6 +39,9 @@ LevelView<B> view(const DiscreteProblem<B>& problem) {
   const Constraints<B>& c = problem.constraints;
   LevelView<B> out{};
   out.vectors = problem.A.size();
+  out.row = problem.A.row.data();
+  out.column = problem.A.column.data();
+  out.value = problem.A.value.data();
   out.slot = c.slot.data();
   out.constrained = c.vector.data();
   out.slots = c.size();

@@ -38,10 +38,11 @@ class Coulomb final : public FunctionalObstacle<B, CoulombFriction<B>> {
              double* data) const noexcept override {
     const auto [from, to] = slots_between(level, first, last);
     for (Index slot = from; slot < to; ++slot) {
-      const Offset at = Offset{level.constrained[slot]} * B;
+      const Index p = level.constrained[slot];
+      const Offset at = Offset{p} * B;
       const Slot<B> s = this->slot_of(level, slot);
       double* own = data + Offset{slot} * level.width;
-      own[0] = CoulombFriction<B>::bound(s, r + at, level.x + at);
+      own[0] = CoulombFriction<B>::bound(s, level.value + level.row[p] * B * B, r + at, level.x + at);
       own[1] = s.data[1];
     }
   }
