@@ -80,6 +80,9 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   if (const int found = obstacle->descriptor().directions; found < 0 || found > most_directions)
     throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' describes {} directions, expected 0 to {}", origin,
                                           scene.type, found, most_directions));
+  if (const int found = obstacle->descriptor().data; found < 0 || found > most_data)
+    throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' has {} numbers of its own, expected 0 to {}", origin,
+                                          scene.type, found, most_data));
   check_asked(*settings, origin);
   std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
   return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};

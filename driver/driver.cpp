@@ -51,6 +51,7 @@ const Report& Driver::solve(const std::function<void()>& done) {
   report_.steps.clear();
   report_.failed.clear();
   report_.interrupted = false;
+  report_.error.clear();
   if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
   if (bodies_.empty()) build_bodies();
   report_.warnings = mesh_warnings_;
@@ -62,7 +63,12 @@ const Report& Driver::solve(const std::function<void()>& done) {
       if (!advance({step, from, scene_.steps.at[step - 1]}, done)) break;
     progress_.stop_if_interrupted();
   } catch (const Error& error) {
-    if (error.status() != Exit::interrupted || !report_.has_steps() || report_.steps.empty()) throw;
+    if (!report_.has_steps() || report_.steps.empty()) throw;
+    if (error.status() != Exit::interrupted) {
+      report_.error = error.what();
+      finish();
+      throw;
+    }
     report_.interrupted = true;
   }
   finish();
@@ -125,7 +131,7 @@ bool Driver::may_be_cut(const Advance& by, const StepReport& report) const {
 
 void Driver::note_failure(const Advance& by, const Summary& summary) {
   report_.failed.push_back({by.step, by.from, by.to, summary.iterations, summary.reason});
-  report_.warnings.push_back(fmt::format("step {}: from t = {} to {} there was no solution, and it was cut in two: {}",
+  report_.warnings.push_back(fmt::format("step {}: from t = {} to {} no solution was found, and it was cut in two: {}",
                                          by.step, by.from, by.to, summary.reason));
 }
 

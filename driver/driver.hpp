@@ -39,8 +39,8 @@ class Driver {
 
   /// Solves all steps. The first one starts from the last solution where there is one. A step of a body with friction
   /// that fails is solved in parts (docs/scene.md, "[steps]"); where that fails, too, it is the last one in the report,
-  /// and the next solve starts from the step before it. Where the work is ended after the first of several steps, the
-  /// report has those that were finished, marked as interrupted.
+  /// and the next solve starts from the step before it. Where the work is ended after the first of several steps, by an
+  /// interrupt or by an error, which is thrown, the report has those that were finished, and is marked so.
   /// @param done is called after each step or part, when report() and bodies have its results
   const Report& solve(const std::function<void()>& done = {});
   /// The next solve starts from u: B per vertex of the body's finest mesh, see BodyRun.

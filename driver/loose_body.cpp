@@ -208,8 +208,9 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   return functional::slope(problem, far.data(), step.data());
 }
 
-// Whether a motion goes along an obstacle with a functional and does not leave it: functionals that follow the solution
-// may resist as much as loads press.
+// Whether a functional that follows the solution may resist a motion as much as loads press: one that goes along its
+// obstacle and does not leave it. Friction also resists a motion that leaves it by less than the coefficient of what it
+// goes along: what presses does less work there than friction takes.
 template <int D, int B>
 bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least) const {
   const Constraints<B>& c = discretization_.problem.constraints;
@@ -223,9 +224,17 @@ bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least
       else
         away = std::max(away, v);
     }
-    if (along > least && away <= least) return true;
+    if (along > least && away <= std::max(least, coefficient_of_friction(slot) * along)) return true;
   }
   return false;
+}
+
+template <int D, int B>
+double LooseBody<D, B>::coefficient_of_friction(Index slot) const {
+  const Constraints<B>& c = discretization_.problem.constraints;
+  const Nonlinearity<B>& phi = *model_.obstacles[discretization_.functional[slot]].obstacle->nonlinearity();
+  FrictionLaw law;
+  return phi.friction(c.data.data() + Offset{slot} * c.width, law) ? law.coefficient : 0;
 }
 
 /// The same of what presses on a vertex with faces, among which the force is divided.

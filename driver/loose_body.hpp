@@ -45,6 +45,7 @@ class LooseBody {
 
   void add_work();
   double resistance(const Eigen::VectorXd& motion) const;
+  double coefficient_of_friction(Index slot) const;
   bool slides_along(const std::vector<double>& step, double least) const;
   std::vector<double> as_prescribed() const;
   Eigen::VectorXd come_clear(std::vector<double>& x) const;

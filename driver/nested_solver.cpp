@@ -151,6 +151,8 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   if (first_ == 0) prolongations_ = prolongations(hierarchy, nodes_);
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
+  numbers_before_.resize(hierarchy.levels.size());
+  numbers_now_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
@@ -175,6 +177,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (model.follows && !problem.constraints.last.empty() && !before_[level].empty())
     remember(to_local(problem, before_[level]), problem);
+  if (model.follows) numbers_before_[level].hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
   solution.x = problem.start;
   times_.assemble += watch.elapsed();
@@ -384,6 +387,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     if (solution.discretization.functional.empty()) body.emplace(nodes_[level], model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
+    numbers_now_[level] = {solution.discretization, solution.x};
     coarse = std::move(solution);
     return "";
   };
@@ -402,12 +406,14 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   for (auto& of_level : now_) of_level = {};
+  for (auto& of_level : numbers_now_) of_level = {};
   Solution<B> coarse;
   if (options_.start == "nested") coarse = solve_coarser_meshes(model);
   if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
   solve_finest(model, solution);
+  numbers_now_[finest] = {solution.discretization, solution.x};
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
@@ -437,6 +443,7 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   Scene::Solver own = options_;
   own.hierarchy = "meshes";
   auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_, nodes_);
+  meshes->numbers_before_ = numbers_before_;
   Solution<B> second = before_.back().empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back());
   const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
   if (better) meshes_ = std::move(meshes);
@@ -451,6 +458,7 @@ template <int D, int B>
 void NestedSolver<D, B>::accept() {
   if (meshes_) return meshes_->accept();
   before_.swap(now_);
+  numbers_before_.swap(numbers_now_);
   for (auto& of_level : now_) of_level = {};
 }
 
@@ -458,6 +466,7 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   if (meshes_) return meshes_->solve(model);
   for (auto& solution : before_) solution.clear();
+  for (auto& numbers : numbers_before_) numbers = {};
   return solve_safely(model);
 }
 

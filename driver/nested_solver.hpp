@@ -12,6 +12,7 @@
 #include "core/scene/scene.hpp"
 #include "core/solver/prolongation.hpp"
 #include "core/solver/summary.hpp"
+#include "driver/own_numbers.hpp"
 #include "driver/progress.hpp"
 #include "methods/configuration.hpp"
 #include "methods/solve.hpp"
@@ -127,6 +128,7 @@ class NestedSolver {
   // Per mesh, solutions in global coordinates: of the last step that was accepted, and of the last solve (finest mesh:
   // none).
   std::vector<std::vector<double>> before_, now_;
+  std::vector<OwnNumbers<B>> numbers_before_, numbers_now_;  // likewise, of the finest mesh as well
 };
 
 }  // namespace signorini

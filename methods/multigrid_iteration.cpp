@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/solver/rounding.hpp"
@@ -254,7 +255,12 @@ double MultigridIteration<B>::rounding_of_gain() const {
     return std::abs(problem.b[Offset{p} * B + k]) + terms_of_product(problem.A, this->x_.data(), p, k) +
            terms_of_product(problem.A, this->x_before_.data(), p, k);
   });
-  return this->sums_.moved * work * (1 + amplification_);
+  double forces = 0;  // where positions are known to rounding of those of the step before
+  for (const Index p : problem.constraints.vector)
+    for (int k = 0; k < B; ++k)
+      forces += std::abs(this->r_[Offset{p} * B + k]) + std::abs(this->r_before_[Offset{p} * B + k]);
+  const double of_positions = 4 * std::numeric_limits<double>::epsilon() * this->largest_before_ * forces;
+  return (this->sums_.moved * work + of_positions) * (1 + amplification_);
 }
 
 template class MultigridIteration<1>;

@@ -51,9 +51,8 @@ void Renewal::add(double natural_residual) {
 std::string Renewal::stuck() const {
   if (part_ >= least_part) return "";
   return fmt::format(
-      "friction does not come to rest, though its bound was damped down to a part of {:g}: for so large a coefficient "
-      "of "
-      "friction there may be no solution, or several",
+      "friction does not come to rest, though its bound was damped down to a part of {:g}: it may be too weak to hold "
+      "the body against the loads, or its coefficient so large that there is no solution, or several",
       2 * part_);
 }
 

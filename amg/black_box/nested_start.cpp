@@ -18,24 +18,36 @@ namespace signorini {
 
 namespace {
 
+/// Appends what `from` has at a slot, `width` numbers, where it has anything.
+template <class T>
+void inherit(const std::vector<T>& from, Index slot, int width, std::vector<T>& to) {
+  if (from.empty()) return;
+  const auto first = from.begin() + Offset{slot} * width;
+  to.insert(to.end(), first, first + width);
+}
+
 template <int B>
-void inherit_bounds(const DiscreteProblem<B>& fine, const std::vector<Index>& twin, Constraints<B>& coarse) {
+void inherit_constraints(const DiscreteProblem<B>& fine, const std::vector<Index>& twin, Constraints<B>& coarse) {
   const Constraints<B>& c = fine.constraints;
   coarse.slot.assign(twin.size(), -1);
+  coarse.width = c.width;
   for (std::size_t q = 0; q < twin.size(); ++q) {
     const Index slot = twin[q] < 0 || c.slot.empty() ? -1 : c.slot[twin[q]];
     if (slot < 0) continue;
     coarse.slot[q] = coarse.size();
     coarse.vector.push_back(static_cast<Index>(q));
-    const auto from = Offset{slot} * B;
-    coarse.lower.insert(coarse.lower.end(), c.lower.begin() + from, c.lower.begin() + from + B);
-    coarse.upper.insert(coarse.upper.end(), c.upper.begin() + from, c.upper.begin() + from + B);
+    inherit(c.lower, slot, B, coarse.lower);
+    inherit(c.upper, slot, B, coarse.upper);
+    inherit(c.data, slot, c.width, coarse.data);
+    inherit(c.before, slot, c.width, coarse.before);
+    inherit(c.last, slot, B, coarse.last);
+    inherit(c.tangential, slot, 1, coarse.tangential);
   }
 }
 
 /// Coarse vectors are in the order of their twins: runs of one obstacle stay runs.
 template <int B>
-std::vector<Segment<B>> inherit_obstacles(const DiscreteProblem<B>& fine, const std::vector<Index>& twin) {
+std::vector<Segment<B>> inherited_segments(const DiscreteProblem<B>& fine, const std::vector<Index>& twin) {
   std::vector<Segment<B>> out;
   Index first = 0;
   const auto end = static_cast<Index>(twin.size());
@@ -47,6 +59,42 @@ std::vector<Segment<B>> inherit_obstacles(const DiscreteProblem<B>& fine, const 
   }
   if (!out.empty()) out.back().last = end;
   return out;
+}
+
+/// For how many of the finer level's slots a vector of the coarser one stands: the sum of its weights there.
+template <int B>
+std::vector<double> slots_per_vector(const DiscreteProblem<B>& fine, const Prolongation& P) {
+  std::vector<double> out(P.coarse, 0.0);
+  weights::with<B>(P, [&](const auto& weight) {
+    for (const Index p : fine.constraints.vector)
+      for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) out[P.column[k]] += weight(k).mean();
+  });
+  return out;
+}
+
+/// Makes the functionals that were inherited those of the coarser level's vectors.
+/// @return false: one of them does not say what it is there
+template <int B>
+bool scale_functionals(const std::vector<double>& ratio, const std::vector<Segment<B>>& segments, Constraints<B>& c) {
+  for (const Segment<B>& s : segments) {
+    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    if (!phi) continue;
+    const auto [from, to] = slots_between(c, s.first, s.last);
+    for (Index slot = from; slot < to; ++slot)
+      for (std::vector<double>* numbers : {&c.data, &c.before})
+        if (!phi->scale(ratio[c.vector[slot]], numbers->data() + Offset{slot} * c.width)) return false;
+  }
+  return true;
+}
+
+/// Obstacles as if they were assembled on the coarser level. Without them, and then without functionals, bounds stay.
+template <int B>
+void inherit_obstacles(const DiscreteProblem<B>& fine, const Prolongation& P, const std::vector<Index>& twin,
+                       DiscreteProblem<B>& coarse) {
+  inherit_constraints(fine, twin, coarse.constraints);
+  std::vector<Segment<B>> segments = inherited_segments(fine, twin);
+  if (!has_functional(segments) || scale_functionals(slots_per_vector(fine, P), segments, coarse.constraints))
+    coarse.segments = std::move(segments);
 }
 
 /// Forces on the free components, those of prescribed values included.
@@ -99,9 +147,7 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
     if (const Index p = twin[k / B]; out.fixed[k / B] >> (k % B) & 1u)
       out.b[k] = out.start[k] = p < 0 ? 0 : problem.start[Offset{p} * B + k % B];
   out.frames = std::move(coarse.frames);
-  inherit_bounds(problem, twin, out.constraints);
-  // A functional scales with the mesh: coarse starts go without it.
-  if (!has_functional(problem.segments)) out.segments = inherit_obstacles(problem, twin);
+  inherit_obstacles(problem, P, twin, out);
   return out;
 }
 

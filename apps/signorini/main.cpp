@@ -24,13 +24,14 @@ namespace {
 constexpr const char* exit_status = R"(Exit status:
   0    solved to the tolerance, or as far as rounding allows, which the results then say
   1    wrong usage
-  2    bad input (file, scene, matrix), or too little memory; nothing is written but the message
+  2    bad input (file, scene, matrix), or too little memory; nothing is written but the message, see below
   3    the iteration limit was reached, rounding leaves an error above 1e-2, or obstacles that meet at a vertex in
        dependent directions could not all be held; results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded, or failed
-  130  interrupted (Ctrl-C); nothing is written but, of several steps, those that were finished, marked
-       "interrupted": true)";
+  130  interrupted (Ctrl-C); nothing is written, see below
+Where the steps of a scene end with 2, 4, 5 or 130 those that were finished are written, marked "converged": false,
+with the reason)";
 
 constexpr const char* solve_notes =
     "Progress goes to standard error, a line every ten seconds at least; the convergence table goes to standard "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
@@ -123,6 +124,25 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
       time.mesh, time.assemble, time.setup, time.solve, time.output, time.total, report.peak_memory_mb);
   for (const auto& file : written) fmt::print("wrote {}\n", file.string());
 }
+/// "2 of 4 steps were finished and are written"
+std::string finished_steps(const Scene& scene, const Report& report) {
+  const StepReport& last = report.last();
+  const bool within = last.t < scene.steps.at[last.step - 1];
+  return fmt::format("{} of {} steps were finished and are written{}", last.step - within, report.planned_steps,
+                     within ? ", and a part of the next" : "");
+}
+
+/// The error that ended the steps after the first of them, if any.
+std::optional<Error> solve_steps(Driver& driver, ResultFiles& results) {
+  try {
+    driver.solve([&] { results.add_step(); });
+  } catch (const Error& error) {
+    if (driver.report().error.empty()) throw;
+    return error;
+  }
+  if (!driver.report().interrupted) return {};
+  return Error(Exit::interrupted, "interrupted");
+}
 }  // namespace
 
 Exit solve_command(const SolveArguments& arguments) {
@@ -133,7 +153,7 @@ Exit solve_command(const SolveArguments& arguments) {
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
                     inputs(scene));
   ResultFiles results(driver, files);
-  driver.solve([&] { results.add_step(); });
+  const std::optional<Error> ended = solve_steps(driver, results);
   progress.phase("writing");
   results.finish();
   Report& report = driver.report();
@@ -142,13 +162,7 @@ Exit solve_command(const SolveArguments& arguments) {
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
   if (!report.has_steps()) progress.stop_if_interrupted();
   const auto written = files.commit();
-  if (report.interrupted) {
-    const StepReport& last = report.last();
-    const bool within = last.t < scene.steps.at[last.step - 1];
-    throw Error(Exit::interrupted,
-                fmt::format("interrupted; {} of {} steps were finished and are written{}", last.step - within,
-                            report.planned_steps, within ? ", and a part of the next" : ""));
-  }
+  if (ended) throw Error(ended->status(), fmt::format("{}; {}", ended->what(), finished_steps(scene, report)));
   if (!arguments.quiet) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);

@@ -76,7 +76,9 @@ class Collector {
     obstacle_ = obstacle;
     const Candidates<D> candidates(nodes_, model_.obstacles[obstacle], model_.t);
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
-    functional_ = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
+    functional_ = of.nonlinearity() != nullptr;
+    needs_numbers_ = of.descriptor().data > 0;
     candidates.each(nodes_, [this](Index p, const Point<D>& normal, double measure) { push(p, normal, measure); });
     flush();
   }
@@ -101,6 +103,7 @@ class Collector {
     if (!status.ok()) throw_failure(status, term.origin);
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       check_directions(numbers_[i], constraints_[i].directions);
+      rules_ = false;
       for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], vertices_[i], constraints_[i], k);
     }
     numbers_.clear();
@@ -130,11 +133,12 @@ class Collector {
                               bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
                               position(nodes_, vertex)));
     const bool bounded = bound.lower > -infinity || bound.upper < infinity;
-    if (functional_ && k == 0 && (has_data(constraint, vertex) || bounded)) {
+    if (functional_ && k == 0 && (!needs_numbers_ || has_data(constraint, vertex) || bounded)) {
+      rules_ = true;
       bound.data = static_cast<Index>(functionals_.size());
       add_functional(at, constraint);
     }
-    if (bound.data >= 0 || bounded) bounds_.push_back(bound);
+    if (rules_ || bounded) bounds_.push_back(bound);
   }
 
   void add_functional(const SurfaceVertex& at, const LocalConstraint<B>& constraint) {
@@ -162,7 +166,8 @@ class Collector {
   std::vector<Bound<B>>& bounds_;
   std::vector<FunctionalNumbers<B>>& functionals_;
   Index obstacle_ = 0;
-  bool functional_ = false;
+  bool functional_ = false, needs_numbers_ = false;
+  bool rules_ = false;  // its functional acts at the vertex, all of whose directions are coordinates then
   std::vector<Index> numbers_;
   std::vector<SurfaceVertex> vertices_;
   std::vector<LocalConstraint<B>> constraints_;
@@ -200,11 +205,12 @@ const std::vector<CombinedBound<B>>& BoundCombiner<D, B>::combine(const Bound<B>
   combined_.clear();
   facets_.clear();
   find_functional(first, last);
+  if (fixed) refuse_fixed_coordinates(first, last, *fixed);
   for (const Bound<B>* bound = first; bound != last; ++bound) reduce(*bound, fixed, held);
   if (reduced_.size() > 1)  // it takes memory
     std::stable_sort(reduced_.begin(), reduced_.end(), [this](const Reduced& a, const Reduced& b) {
-      const bool a_rules = a.from == functional_, b_rules = b.from == functional_;
-      return a_rules != b_rules ? a_rules : a.distance() < b.distance();
+      const bool a_rules = rules(a), b_rules = rules(b);
+      return a_rules != b_rules ? a_rules : !a_rules && a.distance() < b.distance();
     });
   for (const Reduced& bound : reduced_) merge(bound);
   for (CombinedBound<B>& bound : combined_) check_order(bound, first->vertex);
@@ -227,6 +233,19 @@ void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>*
   }
 }
 
+// A functional that has coordinates of its own counts on all of them.
+template <int D, int B>
+void BoundCombiner<D, B>::refuse_fixed_coordinates(const Bound<B>* first, const Bound<B>* last,
+                                                   const FixedDirections<B>& fixed) const {
+  if (!functional_ || fixed.count == B) return;
+  const Index obstacle = functional_->obstacle;
+  if (std::count_if(first, last, [&](const Bound<B>& bound) { return bound.obstacle == obstacle; }) == 1) return;
+  input_error(model_.obstacles[obstacle].origin,
+              fmt::format("has a functional of several directions at {}, where a direction is prescribed, which is not "
+                          "available in this version",
+                          position(nodes_, functional_->vertex)));
+}
+
 // Takes out of a bound what is prescribed: direction . v = prescribed + |rest| (rest / |rest|) . v.
 template <int D, int B>
 void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held) {
@@ -243,7 +262,8 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
     prescribed += c * fixed->value[k];
   }
   const double length = normalise(out.direction);
-  if (&bound == functional_ && length > same_direction && length < 1 - same_direction && fixed->count < B)
+  const bool oblique = length > same_direction && length < 1 - same_direction;
+  if (&bound == functional_ && oblique && fixed->count < B)
     input_error(model_.obstacles[bound.obstacle].origin,
                 fmt::format("meets a direction prescribed at {} that is neither along its normal nor across it, which "
                             "is not available in this version",
@@ -278,7 +298,8 @@ void BoundCombiner<D, B>::merge(const Reduced& bound) {
       if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle, other.upper_from = bound.from;
       return;
     }
-  const bool direction = functional_ ? bound.from == functional_ : independent_of_combined(bound);
+  const bool direction = functional_ ? bound.from == functional_ || (rules(bound) && independent_of_combined(bound))
+                                     : independent_of_combined(bound);
   (direction ? combined_ : facets_)
       .push_back({bound.direction, bound.lower, bound.upper, obstacle, obstacle, bound.from, bound.from});
 }

@@ -50,8 +50,8 @@ class BoundCombiner {
   /// to 0.02 of their length from the span of the others, for rounding grows by that number's inverse squared. The
   /// other bounds are facets(). Unit vectors, in storage that the next call overwrites. Bounds along a direction that
   /// is prescribed and that what is prescribed there touches are appended to `held`. Error(Exit::no_solution): bounds
-  /// that are violated whatever the free components are, or that leave nothing admissible. A bound with a functional
-  /// rules its vertex: it alone gives a direction, others are faces. Error(Exit::input): two functionals at one vertex,
+  /// that are violated whatever the free components are, or that leave nothing admissible. An obstacle with a
+  /// functional rules its vertex: its directions alone are coordinates, in its order; others are faces. Error(Exit::input): two functionals at one vertex,
   /// or one whose direction is neither free nor prescribed.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
                                                const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
@@ -74,7 +74,13 @@ class BoundCombiner {
     double distance() const { return std::min(-lower, upper); }
   };
 
+  /// Whether it is along a direction of the obstacle whose functional acts at the vertex.
+  bool rules(const Reduced& bound) const {
+    return functional_ && bound.from->obstacle == functional_->obstacle;
+  }
+
   void find_functional(const Bound<B>* first, const Bound<B>* last);
+  void refuse_fixed_coordinates(const Bound<B>* first, const Bound<B>* last, const FixedDirections<B>& fixed) const;
   void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
   void merge(const Reduced& bound);
   bool independent_of_combined(const Reduced& bound) const;

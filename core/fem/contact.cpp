@@ -144,6 +144,17 @@ class NodeReader {
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
 
+  /// What obstacles exert on the free components of a slot: with faces only what its functional does.
+  std::array<double, B> force_of_functional(Index slot) const {
+    const Index p = problem_.constraints.vector[slot];
+    double local[B];
+    for (int k = 0; k < B; ++k) {
+      const bool hidden = has_facets(slot) || problem_.fixed[p] >> k & 1u;
+      local[k] = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
+    }
+    return force_in_space(p, local);
+  }
+
   /// A vertex where a functional acts and nothing is bounded.
   ContactNode<B> free_node(Index slot) const {
     ContactNode<B> node{
@@ -303,24 +314,50 @@ void release(ContactNode<B>& node) {
   node.force = node.tangential;
 }
 
+template <int B>
+bool is_friction(const Model<B>& model, const Discretization<B>& discretization, Index slot) {
+  const Constraints<B>& c = discretization.problem.constraints;
+  FrictionLaw law;
+  return model.obstacles[discretization.functional[slot]].obstacle->nonlinearity()->friction(
+      c.data.data() + Offset{slot} * c.width, law);
+}
+
+// Of a functional that is not friction: what is left of the vertex's force beside what its nodes have by their bounds.
+template <int B>
+void add_force(const NodeReader<B>& reader, Index slot, const ContactNode<B>* first, const ContactNode<B>* last,
+               ContactNode<B>& node) {
+  const std::array<double, B> force = reader.force_of_functional(slot);
+  std::array<double, B> bounds{};
+  if (!reader.has_facets(slot))
+    for (; first != last && first->vertex == node.vertex; ++first)
+      for (int i = 0; i < B && !first->held; ++i) bounds[i] += first->force[i];
+  for (int i = 0; i < B; ++i) node.force[i] += force[i] - bounds[i];
+}
+
 // What functionals do, at their vertices' nodes; where there is none yet, one of its own.
 template <int B>
-void add_friction(const NodeReader<B>& reader, const Discretization<B>& discretization,
-                  std::vector<ContactNode<B>>& nodes) {
+void add_functionals(const NodeReader<B>& reader, const Model<B>& model, const Discretization<B>& discretization,
+                     std::vector<ContactNode<B>>& nodes) {
   const auto known = nodes.size();
   const auto by_vertex = [](const auto& a, const auto& b) { return a.vertex < b.vertex; };
   for (std::size_t slot = 0; slot < discretization.functional.size(); ++slot) {
     const Index obstacle = discretization.functional[slot];
     if (obstacle < 0) continue;
     const Index p = discretization.problem.constraints.vector[slot];
-    auto node = std::partition_point(nodes.begin(), nodes.begin() + static_cast<Offset>(known),
-                                     [p](const auto& n) { return n.vertex < p; });
-    const auto end = nodes.begin() + static_cast<Offset>(known);
-    while (node != end && node->vertex == p && node->obstacle != obstacle) ++node;
-    if (node != end && node->vertex == p)
-      reader.add_friction(static_cast<Index>(slot), *node);
+    const auto here = static_cast<Index>(slot);
+    auto at = static_cast<std::size_t>(std::partition_point(nodes.begin(), nodes.begin() + static_cast<Offset>(known),
+                                                            [p](const auto& n) { return n.vertex < p; }) -
+                                       nodes.begin());
+    const std::size_t first = at;
+    while (at < known && nodes[at].vertex == p && nodes[at].obstacle != obstacle) ++at;
+    if (at == known || nodes[at].vertex != p) {
+      at = nodes.size();
+      nodes.push_back(reader.free_node(here));
+    }
+    if (is_friction(model, discretization, here))
+      reader.add_friction(here, nodes[at]);
     else
-      reader.add_friction(static_cast<Index>(slot), nodes.emplace_back(reader.free_node(static_cast<Index>(slot))));
+      add_force(reader, here, nodes.data() + first, nodes.data() + known, nodes[at]);
   }
   std::inplace_merge(nodes.begin(), nodes.begin() + static_cast<Offset>(known), nodes.end(), by_vertex);
 }
@@ -330,7 +367,7 @@ void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least
   for (int i = 0; i < B; ++i) summary.tangential_force[i] += node.tangential[i];
   summary.dissipated += node.dissipated;
   if (!node.contact) {
-    for (int i = 0; i < B; ++i) summary.force[i] += node.tangential[i];
+    for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
     return;
   }
   summary.slip_nodes += node.friction && !node.sticks;
@@ -364,7 +401,7 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
-  add_friction(reader, discretization, state.nodes);
+  add_functionals(reader, model, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);

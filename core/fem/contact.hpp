@@ -18,9 +18,10 @@ struct ContactNode {
   /// degrees of -direction; where there is none all do.
   double area;
   double pressure;                     ///< consistent nodal force over area, positive where the obstacle pushes
-  std::array<double, B> force;         ///< exerted by the obstacle, global coordinates; zero without contact
+  /// Exerted by the obstacle, global coordinates; without contact what a functional of the obstacle exerts, or zero.
+  std::array<double, B> force;
   std::array<double, B> direction;     ///< of what presses, and of the gap; of length 1, global
-  bool friction = false;               ///< the obstacle has a functional here; then:
+  bool friction = false;               ///< the obstacle has friction here; then:
   bool sticks = false;                 ///< no motion along the surface
   std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
   double dissipated = 0;               ///< work of that against the motion, not negative but for rounding

@@ -62,7 +62,7 @@ class Discretizer {
     if (!functionals_.empty())
       for (const ObstacleTerm<B>& term : model.obstacles)
         if (term.obstacle->nonlinearity())
-          constraints().width = std::max(constraints().width, term.obstacle->descriptor().data);
+          constraints().width = std::max({1, constraints().width, term.obstacle->descriptor().data});
     reserve(bounds_.size());
     localise();
     add_segments();
@@ -187,6 +187,7 @@ class Discretizer {
     out_.functional.push_back(bound ? bound->obstacle : -1);
     std::vector<double>& data = constraints().data;
     data.resize(data.size() + static_cast<std::size_t>(constraints().width));
+    constraints().before.resize(data.size());
     constraints().tangential.push_back(0);
     constraints().last.resize(constraints().last.size() + B);
     if (!bound) return;

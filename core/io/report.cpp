@@ -207,11 +207,12 @@ std::vector<double> BalanceReport::sum() const {
 }
 
 bool Report::converged() const {
-  return !interrupted &&
+  return !interrupted && error.empty() &&
          std::all_of(steps.begin(), steps.end(), [](const StepReport& step) { return step.summary.converged(); });
 }
 
 std::string Report::reason() const {
+  if (!error.empty()) return error;
   const auto first =
       std::find_if(steps.begin(), steps.end() - 1, [](const StepReport& step) { return !step.summary.converged(); });
   if (first == steps.end() - 1 || !last().summary.converged()) return last().summary.reason;

@@ -110,6 +110,7 @@ struct Report {
   Times time;
   double peak_memory_mb = 0;
   bool interrupted = false;  ///< before the last step; those that were finished are there
+  std::string error;         ///< the same, by an error: its message. Empty: none
 
   /// Whether there are several steps, or were to be: of the scene or parts of its only one.
   bool has_steps() const { return planned_steps > 1 || !failed.empty(); }

@@ -133,6 +133,8 @@ static constexpr FingerprintField fingerprint[] = {
     SIGNORINI_OFFSET(ObstacleDescriptor, direction),
     SIGNORINI_SIZE(ObstacleDescriptor::Direction),
     SIGNORINI_SIZE(Distance),
+    SIGNORINI_SIZE(FrictionLaw),
+    SIGNORINI_SIZE(Placement),
     SIGNORINI_SIZE(SurfaceVertex),
     SIGNORINI_OFFSET(SurfaceVertex, normal),
     SIGNORINI_OFFSET(SurfaceVertex, vertex),

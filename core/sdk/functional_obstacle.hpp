@@ -15,6 +15,7 @@ struct Slot {
   const double* last;           ///< its values after the last load step, zero in the first
   Flags tangential;             ///< components orthogonal to the obstacle's direction
   bool frozen = true;           ///< as LevelView::frozen
+  const double* before = nullptr;  ///< data at the end of the last load step, zero in the first
 };
 
 /// An obstacle with bounds in local coordinates and a functional phi. What is left to an implementation is
@@ -96,7 +97,8 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
  protected:
   static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
     return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
-            level.last + Offset{slot} * B,  level.tangential[slot],         level.frozen};
+            level.last + Offset{slot} * B,  level.tangential[slot],         level.frozen,
+            level.before + Offset{slot} * level.width};
   }
 
  private:

@@ -23,6 +23,11 @@ bool Nonlinearity<B>::follows_solution() const noexcept {
 }
 
 template <int B>
+bool Nonlinearity<B>::scale(double, double*) const noexcept {
+  return false;
+}
+
+template <int B>
 bool Nonlinearity<B>::friction(const double*, FrictionLaw&) const noexcept {
   return false;
 }

@@ -40,6 +40,8 @@ struct LevelView {
   /// Sweeps leave what Nonlinearity::renew() writes as it is; else they let it follow the vector that they move, where
   /// the obstacle can do so.
   bool frozen = true;
+  /// `width` per slot: `data` at the end of the last load step, as renew() left them; zero in the first.
+  const double* before = nullptr;
 };
 
 }  // namespace signorini

@@ -47,6 +47,7 @@ struct Constraints {
   std::vector<double> lower, upper;  ///< B per slot, infinite where there is none
   std::vector<double> data;          ///< `width` per slot, see LevelView::data; empty without functionals
   int width = 0;
+  std::vector<double> before;     ///< `width` per slot, see LevelView::before; empty without functionals
   std::vector<double> last;       ///< B per slot, see LevelView::last; empty without functionals
   std::vector<Flags> tangential;  ///< per slot, see LevelView::tangential; empty without functionals
   std::vector<Offset> facet_row;  ///< slots + 1, see LevelView::facet_row; empty where no slot has facets

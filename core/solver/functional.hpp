@@ -49,6 +49,7 @@ LevelView<B> view(const DiscreteProblem<B>& problem) {
   out.upper = c.upper.data();
   out.data = c.data.data();
   out.width = c.width;
+  out.before = c.before.data();
   out.last = c.last.data();
   out.tangential = c.tangential.data();
   out.facet_row = c.facet_row.empty() ? nullptr : c.facet_row.data();

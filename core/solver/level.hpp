@@ -190,7 +190,8 @@ struct Level : LevelSystem<B> {
             c.tangential.data(),
             c.facet_row.empty() ? nullptr : c.facet_row.data(),
             c.facet.data(),
-            frozen};
+            frozen,
+            c.before.data()};
   }
 
   /// Phases of the iterate at the vectors first <= p < last: what the bounds admit and hold, and phi's linearisation.

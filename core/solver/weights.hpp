@@ -13,6 +13,7 @@ struct Scalar {
   double w;
 
   double size() const { return std::fabs(w); }
+  double mean() const { return w; }
   /// y += W x
   void add_value(const double* x, double* y) const {
     for (int i = 0; i < B; ++i) y[i] += w * x[i];
@@ -36,6 +37,12 @@ struct Block {
     double largest = 0;
     for (int i = 0; i < B * B; ++i) largest = std::max(largest, std::fabs(W[i]));
     return largest;
+  }
+  /// Of the components' weights for themselves.
+  double mean() const {
+    double sum = 0;
+    for (int i = 0; i < B; ++i) sum += W[i * (B + 1)];
+    return sum / B;
   }
   void add_value(const double* x, double* y) const { block::add_product<B>(W, x, y); }
   void add_force(const double* x, double* y) const {

@@ -47,6 +47,11 @@ class Coulomb final : public FunctionalObstacle<B, CoulombFriction<B>> {
     }
   }
 
+  bool scale(double ratio, double* data) const noexcept override {
+    data[0] *= ratio;
+    return true;
+  }
+
   bool friction(const double* data, FrictionLaw& law) const noexcept override {
     law = {data[1], 0};
     return true;

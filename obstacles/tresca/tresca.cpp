@@ -31,6 +31,11 @@ class Tresca final : public FunctionalObstacle<B, GivenFriction<B>> {
     }
   }
 
+  bool scale(double ratio, double* data) const noexcept override {
+    data[0] *= ratio;
+    return true;
+  }
+
   bool friction(const double* data, FrictionLaw& law) const noexcept override {
     law = {0, data[0]};
     return true;

@@ -105,8 +105,8 @@ TEST_F(Steps, WhatFailsInItsSmallestPartEndsTheRun) {
   const Ended ended = signorini({"solve", "block.toml", "--out", "o", "--set", "solver.max_iterations=2", "--set",
                                  "steps.at=[0.5, 1]", "--set", "steps.halvings=2"});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_THAT(ended.err, HasSubstr("warning: step 1: from t = 0 to 0.5 there was no solution, and it was cut in two"));
-  EXPECT_THAT(ended.err, HasSubstr("warning: step 1: from t = 0 to 0.25 there was no solution"));
+  EXPECT_THAT(ended.err, HasSubstr("warning: step 1: from t = 0 to 0.5 no solution was found, and it was cut in two"));
+  EXPECT_THAT(ended.err, HasSubstr("warning: step 1: from t = 0 to 0.25 no solution was found"));
   EXPECT_THAT(ended.out, HasSubstr("not solved: iteration limit 2"));
   EXPECT_THAT(ended.out, HasSubstr("the part from t = 0 to 0.125 of a step that was cut in two 2 times"));
   const auto r = report("o");
@@ -131,7 +131,7 @@ TEST_F(Steps, WhatFailsAsAWholeIsSolvedInParts) {
                  "--set", "solver.tolerance=1e-7", "--set", "refine.uniform=2", "--set", "steps.at=[0.5, 1]", "--set",
                  "obstacle.0.bound=0.01", "--set", "fix.0.value=['0.02 * t', -0.03]"});
   EXPECT_EQ(ended.status, 0) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr("warning: step 2: from t = 0.5 to 1 there was no solution, and it was cut in two"));
+  EXPECT_THAT(ended.err, HasSubstr("warning: step 2: from t = 0.5 to 1 no solution was found, and it was cut in two"));
   EXPECT_THAT(ended.out, HasSubstr("more failed and were cut in two"));
   const auto r = report("o");
   EXPECT_EQ(r.at("converged"), true);

@@ -80,7 +80,7 @@ TEST(StepsInParts, AreThoseThatWouldHaveBeenGiven) {
   EXPECT_EQ(cut.report.failed[0].from, 0.5);
   EXPECT_EQ(cut.report.failed[0].t, 1);
   EXPECT_EQ(cut.report.failed[0].iterations, limit);
-  EXPECT_THAT(cut.report.warnings, testing::Contains(HasSubstr("step 2: from t = 0.5 to 1 there was no solution")));
+  EXPECT_THAT(cut.report.warnings, testing::Contains(HasSubstr("step 2: from t = 0.5 to 1 no solution was found")));
   double from = 0;
   for (const StepReport& step : cut.report.steps) {
     EXPECT_EQ(step.from, from);
