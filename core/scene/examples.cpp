@@ -105,7 +105,7 @@ forgotten: parts start from the last step that was solved. The report lists the 
 under `failed_steps`; a warning says it. Where the smallest part fails, too, the run ends there with exit status 3. The
 steps before it are kept.
 
-Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction. Such a body
+Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction or another energy of its own. Such a body
 remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that failed.
 )";
 

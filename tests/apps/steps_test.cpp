@@ -124,6 +124,20 @@ TEST_F(Steps, WhatFailsInItsSmallestPartEndsTheRun) {
   EXPECT_THAT(written("o"), IsSupersetOf({"solution_001.vtu", "solution.pvd"}));
 }
 
+TEST_F(Steps, AnErrorKeepsTheStepsThatWereFinished) {
+  write("block.toml", block);
+  const Ended ended = signorini({"solve", "block.toml", "--out", "o", "--set", "steps.at=[0.5, 1]", "--set",
+                                 "obstacle.0.bound='0.01 - 0.012 * t'"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("obstacle.0.bound"), HasSubstr("1 of 2 steps were finished and are written")));
+  const auto r = report("o");
+  EXPECT_EQ(r.at("converged"), false);
+  EXPECT_THAT(r.at("reason").get<std::string>(), HasSubstr("obstacle.0.bound"));
+  ASSERT_EQ(r.at("steps").size(), 1u);
+  EXPECT_EQ(r.at("steps")[0].at("converged"), true);
+  EXPECT_THAT(written("o"), IsSupersetOf({"solution_001.vtu", "solution.pvd", "steps.csv"}));
+}
+
 TEST_F(Steps, WhatFailsAsAWholeIsSolvedInParts) {
   write("block.toml", block);
   const Ended ended =

@@ -1,4 +1,6 @@
 // Friction by Coulomb's law: closed forms, what has to hold at every vertex, steps, invariances, what is refused.
+#include <gmock/gmock.h>
+
 #include "core/base/error.hpp"
 #include "core/mesh/structured.hpp"
 #include "driver/driver.hpp"
@@ -250,6 +252,55 @@ TEST(Coulomb, ABlockStaysOnAnInclineUpToTheAngleOfFriction) {
   };
   EXPECT_EQ(outcome(1.01 * std::tan(angle)), Outcome::converged);
   EXPECT_EQ(outcome(0.99 * std::tan(angle)), Outcome::stuck);
+}
+
+// Pressed and sheared a little beyond what friction bears it slides off, ever farther.
+TEST(Coulomb, ABlockThatFrictionHardlyFailsToHoldIsNotSolved) {
+  const double pressure = 0.01, friction = 0.3;
+  for (const double excess : {1e-5, 1e-4, 3e-4}) {
+    SCOPED_TRACE(excess);
+    SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 1);
+    scene.fixes.clear();
+    scene.loads = {fmt::format("on = \"top\"\nvalue = [{:.17g}, {}]", (1 + excess) * friction * pressure, -pressure)};
+    Driver driver(parse_scene(std::string(scene), "test.toml", "."));
+    const StepReport& step = driver.solve().last();
+    EXPECT_EQ(step.summary.outcome, Outcome::stuck);
+    EXPECT_THAT(step.summary.reason, testing::HasSubstr("it may be too weak to hold the body"));
+  }
+}
+
+TEST(Coulomb, ABlockThatIsUnloadedComesBackToZero) {
+  for (const std::string left : {"0", "-2e-10", "1e-10"}) {
+    SCOPED_TRACE(left);
+    SceneText scene = block2(coulomb(on_plane, "0.3"), 2);
+    scene.fixes = {"on = \"top\"\nvalue = [\"t < 0.6 ? 0.04*t : 0\", \"t < 0.6 ? -0.02 : " + left + "\"]"};
+    Driver driver(parse_scene(std::string(scene) + "[steps]\ncount = 2\n", "test.toml", "."));
+    const Report& report = driver.solve();
+    EXPECT_TRUE(report.converged()) << report.reason();
+    EXPECT_EQ(report.steps.size(), 2u);
+    for (const double u : driver.solution()) EXPECT_LE(std::abs(u), 1e-9);
+  }
+}
+
+// Between walls that open upwards by less than the angle of friction a block that is squeezed does not slip out.
+TEST(Coulomb, ASqueezedBlockStaysBetweenWallsThatOpen) {
+  for (const double tilt : {0.0, -0.01, 0.01}) {
+    SCOPED_TRACE(tilt);
+    std::string scene = "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [8, 8]\n"
+                        "young = 1\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, \"t < 0.6 ? 0 : 0.002\"]\n"
+                        "[steps]\ncount = 2\n";
+    for (const bool right : {false, true})
+      scene += fmt::format(
+          "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.5\nbody = \"b\"\non = \"{}\"\nshape = \"plane\"\n"
+          "point = [\"{}\", 0.5]\nnormal = [{}, {}]\n",
+          right ? "right" : "left", right ? "1 - 0.02 * min(1, 2*t)" : "0.02 * min(1, 2*t)", right ? -1 : 1, tilt);
+    Driver driver(parse_scene(scene, "test.toml", "."));
+    const Report& report = driver.solve();
+    ASSERT_TRUE(report.converged()) << report.reason();
+    const auto& contact = report.last().contact;
+    EXPECT_GE(contact[0].stick_nodes, 5);
+    EXPECT_NEAR(contact[0].force[1] + contact[1].force[1], -0.002, 1e-9);
+  }
 }
 
 TEST(Coulomb, BadInputIsRefusedWithItsPlace) {

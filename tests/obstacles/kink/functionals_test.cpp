@@ -1,0 +1,107 @@
+// Functionals of plugins beside friction and the kink: without numbers, with some that survive a load step, with forces
+// along their normal, and with several directions.
+#include <gmock/gmock.h>
+
+#include "driver/driver.hpp"
+#include "run.hpp"
+#include "scene_text.hpp"
+#include "tests/support/convex.hpp"
+
+namespace signorini::test {
+namespace {
+
+constexpr const char* plugins = "[plugins]\npath = [\"" SIGNORINI_KINK "\"]\n";
+
+std::string membrane(const std::string& obstacle, const std::string& more = "") {
+  const SceneText scene{.body =
+                            "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\n"
+                            "equation = \"diffusion\"",
+                        .fixes = {"on = \"left\"\nvalue = [0.2]", "on = \"right\"\nvalue = [-0.1]"},
+                        .loads = {"value = [\"3 * sin(7 * x * y)\"]"},
+                        .obstacle = obstacle,
+                        .refinements = 2};
+  return std::string(scene) + more + plugins;
+}
+
+// A bound that nothing meets, or an obstacle on a part of the body, must not make a difference either.
+TEST(Functionals, NeedNoNumbersOfTheirOwn) {
+  for (const std::string where : {"", "\nwhere = \"x < 0.8\""}) {
+    const auto r = run<2, 1>(membrane("type = \"cost\"" + where), {"solver.tolerance=1e-11"});
+    const auto& problem = r.problem();
+    const auto prox = [&problem](double rho, Eigen::VectorXd& y) {
+      for (Index p = 0; p < problem.A.size(); ++p)
+        if (problem.fixed[p]) y[p] = problem.start[p];
+      for (const Index p : problem.constraints.vector)
+        if (!problem.fixed[p]) y[p] -= std::clamp(y[p], -0.01 / rho, 0.01 / rho);
+    };
+    const Eigen::VectorXd expected = convex_minimiser(dense(problem.A), vector(problem.b), prox, 1e-13);
+    EXPECT_LE((vector(r.solution.x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST(Functionals, KeepTheirNumbersFromStepToStep) {
+  const auto r = run<2, 1>(membrane("type = \"hardening\""), {"solver.tolerance=1e-11"});
+  const DiscreteProblem<1>& problem = r.problem();
+  Eigen::MatrixXd A = dense(problem.A);
+  for (Index slot = 0; slot < problem.constraints.size(); ++slot)
+    if (const Index p = problem.constraints.vector[slot]; !problem.fixed[p])
+      A(p, p) += problem.constraints.data[2 * slot + 1] * std::abs(r.u()[p]);
+  const Eigen::VectorXd expected = A.ldlt().solve(vector(problem.b));
+
+  Driver driver(parse_scene(membrane("type = \"hardening\"", "[solver]\ntolerance = 1e-11\n[steps]\ncount = 2\n"),
+                            "test.toml", "."));
+  ASSERT_TRUE(driver.solve().converged()) << driver.report().reason();
+  const Eigen::VectorXd second = vector(driver.solution());
+  EXPECT_LE((second - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff());
+  EXPECT_GE((second - vector(r.u())).cwiseAbs().maxCoeff(), 0.1 * second.cwiseAbs().maxCoeff()) << "no test";
+}
+
+// Nothing but springs carries the load.
+TEST(Functionals, HaveTheirForcesInTheReport) {
+  SceneText scene{.body =
+                      "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
+                  .fixes = {"on = \"top\"\nvalue = [0, \"free\"]"},
+                  .loads = {"on = \"top\"\nvalue = [0.01, \"-0.1 - 0.02*x\"]"},
+                  .obstacle = "type = \"spring\"\non = \"bottom\"",
+                  .refinements = 2};
+  Driver driver(parse_scene(std::string(scene) + plugins, "test.toml", "."));
+  const StepReport& step = driver.solve().last();
+  ASSERT_TRUE(step.summary.converged()) << step.summary.reason;
+  EXPECT_NEAR(step.contact[0].force[1], 0.24, 1e-7);
+  EXPECT_NEAR(step.contact[0].force[0], 0, 1e-7);
+  EXPECT_EQ(step.contact[0].slip_nodes + step.contact[0].stick_nodes, 0) << "this is no friction";
+  EXPECT_EQ(step.contact[0].dissipated, 0);
+  for (const double rest : step.balance[0].sum()) EXPECT_NEAR(rest, 0, 1e-7);
+  EXPECT_THAT(driver.report().warnings, testing::IsEmpty());
+}
+
+TEST(Functionals, HaveTheirDirectionsAsComponents) {
+  SceneText scene{.body =
+                      "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\nyoung = 10\npoisson = 0.3",
+                  .fixes = {"on = \"top\"\nvalue = [0.03, 0.01, -0.05]"},
+                  .obstacle = "type = \"rail\"\non = \"bottom\"",
+                  .refinements = 1};
+  const auto r = run<3, 3>(std::string(scene) + plugins);
+  double off = 0, along = 0;
+  for (std::size_t p = 0; p < r.mesh().points.size(); ++p) {
+    if (r.mesh().points[p][2] != 0) continue;
+    const double x = r.u()[3 * p], y = r.u()[3 * p + 1];
+    off = std::max(off, std::abs(std::cos(0.5) * x + std::sin(0.5) * y));
+    along = std::max(along, std::abs(std::cos(0.5) * y - std::sin(0.5) * x));
+  }
+  EXPECT_LE(off, 1e-14);
+  EXPECT_GE(along, 1e-3);
+}
+
+TEST(Functionals, OfTooManyNumbersAreRefused) {
+  try {
+    run<2, 1>(membrane("type = \"greedy\""));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::plugin);
+    EXPECT_THAT(error.what(), testing::HasSubstr("9 numbers of its own, expected 0 to 8"));
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test

@@ -1,0 +1,212 @@
+// Small functionals, each with one thing that the kernel has to get right. They use the SDK alone.
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+
+#include "core/sdk/plugin.hpp"
+#include "core/sdk/functional_obstacle.hpp"
+
+namespace signorini::test {
+namespace {
+
+/// g |v| at every vertex, without any number of its own.
+struct Cost {
+  static constexpr double g = 0.01;
+  static double size(const double* v) { return std::fabs(*v); }
+  static void minimise(const Slot<1>& slot, const double* M, const double* r, const double* x, double* y) {
+    const double force = *r + *M * *x;
+    *y = force > g ? (force - g) / *M : force < -g ? (force + g) / *M : 0;
+    *y = *y < *slot.lower ? *slot.lower : *y > *slot.upper ? *slot.upper : *y;
+  }
+  static double change(const Slot<1>&, const double* from, const double* to) { return g * (size(to) - size(from)); }
+  static double slope(const Slot<1>&, const double* at, const double* step) {
+    return *at == 0 ? g * size(step) : *at > 0 ? g * *step : -g * *step;
+  }
+  static void linearise(const Slot<1>&, const double* x, const Linearisation<1>& out) {
+    if (*x == 0) {
+      *out.critical |= 1;
+      *out.lower = *out.upper = 0;
+    } else {
+      *out.gradient = *x > 0 ? g : -g;
+    }
+  }
+};
+
+class CostObstacle final : public FunctionalObstacle<1, Cost> {
+ public:
+  explicit CostObstacle(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 0}; }
+  void assemble(const SurfaceVertex*, std::size_t count, LocalConstraint<1>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t k = 0; k < count; ++k) {
+      constraints[k].directions = 1;
+      constraints[k].direction[0][0] = 1;
+      constraints[k].lower[0] = -infinity;
+      constraints[k].upper[0] = infinity;
+    }
+  }
+};
+
+/// k h v^2 / 2, h being the largest |v| there was until the end of the last load step: 0 in the first one. Data: h, k.
+struct Hardening {
+  static double stiffness(const Slot<1>& slot) { return slot.data[1] * slot.before[0]; }
+  static void minimise(const Slot<1>& slot, const double* M, const double* r, const double* x, double* y) {
+    *y = (*r + *M * *x) / (*M + stiffness(slot));
+  }
+  static double change(const Slot<1>& slot, const double* from, const double* to) {
+    return 0.5 * stiffness(slot) * (*to - *from) * (*to + *from);
+  }
+  static double slope(const Slot<1>& slot, const double* at, const double* step) {
+    return stiffness(slot) * *at * *step;
+  }
+  static void linearise(const Slot<1>& slot, const double* x, const Linearisation<1>& out) {
+    *out.gradient = stiffness(slot) * *x;
+    *out.hessian = stiffness(slot);
+  }
+};
+
+class HardeningObstacle final : public FunctionalObstacle<1, Hardening> {
+ public:
+  explicit HardeningObstacle(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 2}; }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t k = 0; k < count; ++k) {
+      constraints[k].directions = 1;
+      constraints[k].direction[0][0] = 1;
+      constraints[k].lower[0] = -infinity;
+      constraints[k].upper[0] = infinity;
+      constraints[k].data[1] = 50 * vertices[k].measure;
+    }
+  }
+  bool follows_solution() const noexcept override { return true; }
+  void renew(const LevelView<1>& level, Index first, Index last, const double*, double* data) const noexcept override {
+    for (Index slot = 0; slot < level.slots; ++slot) {
+      if (level.constrained[slot] < first || level.constrained[slot] >= last) continue;
+      const double before = level.before[Offset{slot} * level.width];
+      data[Offset{slot} * level.width] = std::fmax(before, std::fabs(level.x[level.constrained[slot]]));
+    }
+  }
+};
+
+/// A one-sided spring under the body, k (c - v_y)+^2 / 2. Data: k. The surface may be moved along it.
+struct Spring {
+  static constexpr double c = -0.01;
+  static double gap(const double* v) { return v[0] < c ? c - v[0] : 0; }
+  static void minimise(const Slot<2>& slot, const double* M, const double* r, const double* x, double* y) {
+    const double k = slot.data[0];
+    for (const bool pressed : {false, true}) {
+      double K[4] = {M[0] + (pressed ? k : 0), M[1], M[2], M[3]};
+      const double f[2] = {r[0] + (pressed ? k * (c - x[0]) : 0), r[1]};
+      const double det = K[0] * K[3] - K[1] * K[2];
+      y[0] = x[0] + (K[3] * f[0] - K[1] * f[1]) / det;
+      y[1] = x[1] + (K[0] * f[1] - K[2] * f[0]) / det;
+      if (pressed == (y[0] < c)) return;
+    }
+  }
+  static double change(const Slot<2>& slot, const double* from, const double* to) {
+    return 0.5 * slot.data[0] * (gap(to) - gap(from)) * (gap(to) + gap(from));
+  }
+  static double slope(const Slot<2>& slot, const double* at, const double* step) {
+    return -slot.data[0] * gap(at) * step[0];
+  }
+  static void linearise(const Slot<2>& slot, const double* x, const Linearisation<2>& out) {
+    if (!(x[0] < c)) return;
+    out.gradient[0] = -slot.data[0] * gap(x);
+    out.hessian[0] = slot.data[0];
+  }
+};
+
+class SpringObstacle final : public FunctionalObstacle<2, Spring> {
+ public:
+  explicit SpringObstacle(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", 1, 1}}, 1}; }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<2>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t k = 0; k < count; ++k) {
+      constraints[k].directions = 1;
+      constraints[k].direction[0][1] = 1;
+      constraints[k].lower[0] = -infinity;
+      constraints[k].upper[0] = infinity;
+      constraints[k].data[0] = 20 * vertices[k].measure;
+    }
+  }
+};
+
+/// g |a . v| for one direction a along the surface, its second one: what is on rails does not leave them. Data: g.
+struct Rail {
+  static double size(const double* v) { return std::fabs(v[1]); }
+  static void minimise(const Slot<3>& slot, const double* M, const double* r, const double* x, double* y) {
+    for (const int sign : {0, 1, -1}) {  // on the rail, or off to either side
+      double left[3] = {r[0], r[1] - sign * slot.data[0], r[2]}, d[3] = {}, z[3];
+      if (sign == 0) d[1] = -x[1];
+      block::subtract_product<3>(M, d, left);
+      block::solve<3>(M, left, sign == 0 ? 5u : 7u, z);
+      for (int i = 0; i < 3; ++i) y[i] = x[i] + d[i] + z[i];
+      if (sign == 0) y[1] = 0;
+      if (sign * y[1] > 0) return;
+      if (sign != 0) continue;
+      double force[3] = {r[0], r[1], r[2]}, step[3];
+      for (int i = 0; i < 3; ++i) step[i] = y[i] - x[i];
+      block::subtract_product<3>(M, step, force);
+      if (std::fabs(force[1]) <= slot.data[0]) return;
+    }
+  }
+  static double change(const Slot<3>& slot, const double* from, const double* to) {
+    return slot.data[0] * (size(to) - size(from));
+  }
+  static double slope(const Slot<3>& slot, const double* at, const double* step) {
+    return slot.data[0] * (at[1] == 0 ? size(step) : at[1] > 0 ? step[1] : -step[1]);
+  }
+  static void linearise(const Slot<3>& slot, const double* x, const Linearisation<3>& out) {
+    if (x[1] == 0) {
+      *out.critical |= 2;
+      out.lower[1] = out.upper[1] = 0;
+    } else {
+      out.gradient[1] = x[1] > 0 ? slot.data[0] : -slot.data[0];
+    }
+  }
+};
+
+class RailObstacle final : public FunctionalObstacle<3, Rail> {
+ public:
+  explicit RailObstacle(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {2, {{"normal", 1, 1}, {"rail", 1, 1}}, 1}; }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<3>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t k = 0; k < count; ++k) {
+      constraints[k].directions = 2;
+      constraints[k].direction[0][2] = 1;
+      constraints[k].direction[1][0] = std::cos(0.5);
+      constraints[k].direction[1][1] = std::sin(0.5);
+      for (int d = 0; d < 2; ++d) constraints[k].lower[d] = -infinity, constraints[k].upper[d] = infinity;
+      constraints[k].data[0] = 1000 * vertices[k].measure;
+    }
+  }
+};
+
+/// Says that it has more numbers than a slot can hold.
+class Greedy final : public FunctionalObstacle<1, Cost> {
+ public:
+  explicit Greedy(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, most_data + 1}; }
+  void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<1>*, Status&) const noexcept override {}
+};
+
+void register_all(Registrar& registrar, Status& status) {
+  const auto add = [&](const char* id, Obstacle<1>* (*one)(const Settings&, Status&) noexcept,
+                       Obstacle<2>* (*two)(const Settings&, Status&) noexcept,
+                       Obstacle<3>* (*three)(const Settings&, Status&) noexcept) {
+    registrar.obstacle({id, "for a test", nullptr, 0, false, one, two, three}, status);
+  };
+  add("cost", sdk::create<CostObstacle, 1>, nullptr, nullptr);
+  add("hardening", sdk::create<HardeningObstacle, 1>, nullptr, nullptr);
+  add("greedy", sdk::create<Greedy, 1>, nullptr, nullptr);
+  add("spring", nullptr, sdk::create<SpringObstacle, 2>, nullptr);
+  add("rail", nullptr, nullptr, sdk::create<RailObstacle, 3>);
+}
+
+}  // namespace
+}  // namespace signorini::test
+
+SIGNORINI_PLUGIN("functionals", "0.1.0", "functionals of the tests", signorini::test::register_all);
