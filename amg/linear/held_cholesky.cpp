@@ -134,8 +134,14 @@ typename BasicHeldCholesky<Real>::Vector BasicHeldCholesky<Real>::falling_direct
 // x = L^-T x
 template <class Real>
 void BasicHeldCholesky<Real>::solve_transposed(Vector& x) const {
-  for (Eigen::Index i = size() - 1; i >= 0; --i)
-    for (Eigen::Index m = start_[i]; m < end_[i]; ++m) x[i] -= value_[m] * x[row_[m]];
+  for (Eigen::Index i = size() - 1; i >= 0; --i) {
+    Real sum[4] = {};  // that do not wait for each other
+    Eigen::Index m = start_[i];
+    for (; m + 4 <= end_[i]; m += 4)
+      for (int k = 0; k < 4; ++k) sum[k] += value_[m + k] * x[row_[m + k]];
+    for (; m < end_[i]; ++m) sum[0] += value_[m] * x[row_[m]];
+    x[i] -= (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
 }
 
 template class BasicHeldCholesky<double>;

@@ -108,6 +108,7 @@ Json solver(const SolverOptions& options) {
           {"truncate", options.truncate},
           {"cut", options.cut},
           {"rotate", options.rotate},
+          {"renew", options.renew},
           {"krylov", options.krylov},
           {"threads", options.threads}};
 }
