@@ -51,8 +51,8 @@ class BoundCombiner {
   /// other bounds are facets(). Unit vectors, in storage that the next call overwrites. Bounds along a direction that
   /// is prescribed and that what is prescribed there touches are appended to `held`. Error(Exit::no_solution): bounds
   /// that are violated whatever the free components are, or that leave nothing admissible. An obstacle with a
-  /// functional rules its vertex: its directions alone are coordinates, in its order; others are faces. Error(Exit::input): two functionals at one vertex,
-  /// or one whose direction is neither free nor prescribed.
+  /// functional rules its vertex: its directions alone are coordinates, in its order; others are faces.
+  /// Error(Exit::input): two functionals at one vertex, or one whose direction is neither free nor prescribed.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
                                                const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
 
@@ -75,9 +75,7 @@ class BoundCombiner {
   };
 
   /// Whether it is along a direction of the obstacle whose functional acts at the vertex.
-  bool rules(const Reduced& bound) const {
-    return functional_ && bound.from->obstacle == functional_->obstacle;
-  }
+  bool rules(const Reduced& bound) const { return functional_ && bound.from->obstacle == functional_->obstacle; }
 
   void find_functional(const Bound<B>* first, const Bound<B>* last);
   void refuse_fixed_coordinates(const Bound<B>* first, const Bound<B>* last, const FixedDirections<B>& fixed) const;

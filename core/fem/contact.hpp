@@ -17,7 +17,7 @@ struct ContactNode {
   /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
   /// degrees of -direction; where there is none all do.
   double area;
-  double pressure;                     ///< consistent nodal force over area, positive where the obstacle pushes
+  double pressure;  ///< consistent nodal force over area, positive where the obstacle pushes
   /// Exerted by the obstacle, global coordinates; without contact what a functional of the obstacle exerts, or zero.
   std::array<double, B> force;
   std::array<double, B> direction;     ///< of what presses, and of the gap; of length 1, global

@@ -10,11 +10,11 @@ namespace signorini {
 /// What a local functional knows of its vector: B components in local coordinates.
 template <int B>
 struct Slot {
-  const double *lower, *upper;  ///< bounds; equal where a component is prescribed
-  const double* data;           ///< as LocalConstraint::data
-  const double* last;           ///< its values after the last load step, zero in the first
-  Flags tangential;             ///< components orthogonal to the obstacle's direction
-  bool frozen = true;           ///< as LevelView::frozen
+  const double *lower, *upper;     ///< bounds; equal where a component is prescribed
+  const double* data;              ///< as LocalConstraint::data
+  const double* last;              ///< its values after the last load step, zero in the first
+  Flags tangential;                ///< components orthogonal to the obstacle's direction
+  bool frozen = true;              ///< as LevelView::frozen
   const double* before = nullptr;  ///< data at the end of the last load step, zero in the first
 };
 
@@ -96,8 +96,12 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
 
  protected:
   static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
-    return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
-            level.last + Offset{slot} * B,  level.tangential[slot],         level.frozen,
+    return {level.lower + Offset{slot} * B,
+            level.upper + Offset{slot} * B,
+            level.data + Offset{slot} * level.width,
+            level.last + Offset{slot} * B,
+            level.tangential[slot],
+            level.frozen,
             level.before + Offset{slot} * level.width};
   }
 

@@ -47,8 +47,8 @@ class Nonlinearity {
   /// Coulomb's bound. @param data written like LevelView::data, which it need not be
   virtual void renew(const LevelView<B>& level, Index first, Index last, const double* r, double* data) const noexcept;
 
-  /// Makes data of one slot those of phi at a vertex that stands for `ratio` times as much of the surface, as vectors of
-  /// a coarser level do. @return false: that is not known, and starts on coarser levels of a matrix go without phi
+  /// Makes data of one slot those of phi at a vertex that stands for `ratio` times as much of the surface, as vectors
+  /// of a coarser level do. @return false: that is not known, and starts on coarser levels of a matrix go without phi
   virtual bool scale(double ratio, double* data) const noexcept;
 
   /// Where phi is friction on the tangential components its law, for methods with a formulation of their own.

@@ -218,7 +218,8 @@ bool Iteration<B>::finished(bool gaining, bool exact) {
     s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
     hidden = any ? forces.rounding / forces.acting : 0;
   }
-  // What friction hardly fails to hold slides so far that forces drown in rounding: small errors beside that say nothing.
+  // What friction hardly fails to hold slides so far that forces drown in rounding: small errors beside that say
+  // nothing.
   const bool runs_away = finest().nonlinear && s.residual > far_off * options_.tolerance;
   const bool rounding_alone = !runs_away && (is_rounding_of_unknowns() || (exact && s.residual <= small_residual));
   const bool at_rest = stalled_ >= 3 && !gaining && rounding_alone && !has_risen();
@@ -313,8 +314,7 @@ double Iteration<B>::residual_at_projected_zero() {
   make_admissible(problem_, x_before_);
   const Sums sums = evaluate(x_before_, r_);
   const double size = std::max(sums.largest, largest_before_);
-  if (sums.natural_residual > of_products * std::numeric_limits<double>::epsilon() * size)
-    return sums.natural_residual;
+  if (sums.natural_residual > of_products * std::numeric_limits<double>::epsilon() * size) return sums.natural_residual;
   x_ = x_before_;
   return 0;
 }

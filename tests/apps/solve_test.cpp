@@ -351,7 +351,9 @@ TEST_F(Solve, ErrorsNameTheStep) {
     const Ended ended = signorini({"solve", "membrane.toml", "--set", set}),
                 checked = signorini({"check", "membrane.toml", "--set", set});
     EXPECT_EQ(ended.status, status);
-    EXPECT_THAT(ended.err, testing::AllOf(HasSubstr(message), testing::HasSubstr(", at t = 0.75; 2 of 4 steps were finished and are written")));
+    EXPECT_THAT(ended.err,
+                testing::AllOf(HasSubstr(message),
+                               testing::HasSubstr(", at t = 0.75; 2 of 4 steps were finished and are written")));
     EXPECT_EQ(checked.status, status);
     EXPECT_THAT(checked.err, testing::AllOf(HasSubstr(message), testing::EndsWith(", at t = 1\n")));
     EXPECT_THAT(signorini({"solve", "membrane.toml", "--set", set, "--set", "steps.count=1"}).err,

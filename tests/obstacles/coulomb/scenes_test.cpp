@@ -286,9 +286,10 @@ TEST(Coulomb, ABlockThatIsUnloadedComesBackToZero) {
 TEST(Coulomb, ASqueezedBlockStaysBetweenWallsThatOpen) {
   for (const double tilt : {0.0, -0.01, 0.01}) {
     SCOPED_TRACE(tilt);
-    std::string scene = "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [8, 8]\n"
-                        "young = 1\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, \"t < 0.6 ? 0 : 0.002\"]\n"
-                        "[steps]\ncount = 2\n";
+    std::string scene =
+        "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [8, 8]\n"
+        "young = 1\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, \"t < 0.6 ? 0 : 0.002\"]\n"
+        "[steps]\ncount = 2\n";
     for (const bool right : {false, true})
       scene += fmt::format(
           "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.5\nbody = \"b\"\non = \"{}\"\nshape = \"plane\"\n"

@@ -58,8 +58,7 @@ TEST(Functionals, KeepTheirNumbersFromStepToStep) {
 
 // Nothing but springs carries the load.
 TEST(Functionals, HaveTheirForcesInTheReport) {
-  SceneText scene{.body =
-                      "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
+  SceneText scene{.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
                   .fixes = {"on = \"top\"\nvalue = [0, \"free\"]"},
                   .loads = {"on = \"top\"\nvalue = [0.01, \"-0.1 - 0.02*x\"]"},
                   .obstacle = "type = \"spring\"\non = \"bottom\"",
@@ -76,11 +75,11 @@ TEST(Functionals, HaveTheirForcesInTheReport) {
 }
 
 TEST(Functionals, HaveTheirDirectionsAsComponents) {
-  SceneText scene{.body =
-                      "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\nyoung = 10\npoisson = 0.3",
-                  .fixes = {"on = \"top\"\nvalue = [0.03, 0.01, -0.05]"},
-                  .obstacle = "type = \"rail\"\non = \"bottom\"",
-                  .refinements = 1};
+  SceneText scene{
+      .body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\nyoung = 10\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.03, 0.01, -0.05]"},
+      .obstacle = "type = \"rail\"\non = \"bottom\"",
+      .refinements = 1};
   const auto r = run<3, 3>(std::string(scene) + plugins);
   double off = 0, along = 0;
   for (std::size_t p = 0; p < r.mesh().points.size(); ++p) {

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <iterator>
 
-#include "core/sdk/plugin.hpp"
 #include "core/sdk/functional_obstacle.hpp"
+#include "core/sdk/plugin.hpp"
 
 namespace signorini::test {
 namespace {
