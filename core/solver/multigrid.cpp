@@ -290,15 +290,17 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   report_.cut_off = report_.cut_off || (line_search_ && met);
   if (k > lasting_ && !extended_ && !level.nonlinear && !met) return;
   step_.resize(n);
-  product_.resize(n);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];
-  product<B>(*level.A, step_.data(), product_.data());
-  r_.resize(n);
-  residual<B>(*level.A, level.x, level.b, 0, level.vectors, r_.data());
   double energy = 0, work = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    energy += step_[i] * product_[i];
-    work += step_[i] * r_[i];
+  for (Index p = 0; p < level.vectors; ++p) {  // both products while the row is at hand
+    const Offset at = Offset{p} * B;
+    double Ad[B], Ax[B];
+    row_product(*level.A, p, step_.data(), Ad);
+    row_product(*level.A, p, level.x, Ax);
+    for (int i = 0; i < B; ++i) {
+      energy += step_[at + i] * Ad[i];
+      work += step_[at + i] * (level.b[at + i] - Ax[i]);
+    }
   }
   if (level.nonlinear) return search_nonlinear(level, energy, work);
   if (!(energy > 0 || work < 0)) return;

@@ -108,8 +108,8 @@ class MonotoneMultigrid {
   bool line_search_ = false, extended_ = false;
   bool knows_frames_ = true;  // the interpolation to the finest level
   double near_ = 0;
-  std::vector<double> r_;                       // residual of one chunk
-  std::vector<double> start_, step_, product_;  // of a line search
+  std::vector<double> r_;             // residual of one chunk
+  std::vector<double> start_, step_;  // of a line search
 };
 
 /// Levels for block size B on the finest matrix alone.
