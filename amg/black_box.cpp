@@ -242,6 +242,7 @@ class BlackBox::BlockSolver final : public Solver {
                                       monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
+    if (!motions_->complete() && went_on(result.summary)) refuse_indefinite_by_steps<B>(problem_.A);
     if (fall_.certain && result.summary.outcome == Outcome::unbounded)
       go_on_without_motions(levels, result, monitor);
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
@@ -249,6 +250,11 @@ class BlackBox::BlockSolver final : public Solver {
     refine<B>(problem_, held_, b, options_, result.x, result.summary);
     add_multiplier(result);
     return result;
+  }
+
+  /// Whether a method that solves linear systems has solved what cycles could not.
+  bool went_on(const Summary& summary) const {
+    return options_.method == "auto" && summary.converged() && !summary.stages.back().linear.empty();
   }
 
   void add_multiplier(Result& result) const {
