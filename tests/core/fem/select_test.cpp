@@ -5,6 +5,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/boundary.hpp"
 #include "core/mesh/refine.hpp"
 #include "support.hpp"
 
