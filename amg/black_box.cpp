@@ -161,8 +161,8 @@ class BlackBox::BlockSolver final : public Solver {
     const double ready = seconds();
     Result result;
     fall_ = motions_->fall(problem_.b, problem_.constraints);
-    if (fall_.row)
-      result = without_solution(*fall_.row, start);
+    if (fall_.row || fall_.unclear)
+      result = without_solution(start);
     else if (!algebraic_settings(options_).only_twins)
       result = solve(*levels_, b, start, monitor);
     else
@@ -242,13 +242,19 @@ class BlackBox::BlockSolver final : public Solver {
                                       monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
+    if (!motions_->complete() && went_on(result.summary)) refuse_indefinite_by_steps<B>(problem_.A);
     if (fall_.certain && result.summary.outcome == Outcome::unbounded)
       go_on_without_motions(levels, result, monitor);
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
       recognise_unbounded(levels, result);
-    refine<B>(problem_, held_, b, options_, result.x, result.summary);
+    refine<B>(problem_, held_, b, options_, *motions_, result.x, result.summary);
     add_multiplier(result);
     return result;
+  }
+
+  /// Whether a method that solves linear systems has solved what cycles could not.
+  bool went_on(const Summary& summary) const {
+    return options_.method == "auto" && summary.converged() && !summary.stages.back().linear.empty();
   }
 
   void add_multiplier(Result& result) const {
@@ -258,13 +264,16 @@ class BlackBox::BlockSolver final : public Solver {
   }
 
   /// The admissible vector next to the start, and why there is no better one.
-  Result without_solution(Offset row, std::span<const double> start) const {
+  Result without_solution(std::span<const double> start) const {
     Result result;
     result.x.assign(start.begin(), start.end());
     result.x.resize(problem_.b.size(), 0);
     make_admissible(problem_, result.x);
     add_multiplier(result);
-    set_unbounded(result.summary, row);
+    if (fall_.row)
+      set_unbounded(result.summary, *fall_.row);
+    else
+      set_unclear(result.summary, *fall_.unclear);
     result.summary.options = options_;
     result.summary.energy = energy(problem_, result.x);
     return result;
@@ -324,6 +333,15 @@ class BlackBox::BlockSolver final : public Solver {
     summary.reason = fmt::format(
         "the energy is unbounded below: the load does work along a direction without energy that no bound ends; its "
         "largest entry is in row {}",
+        row + 1);
+  }
+
+  static void set_unclear(Summary& summary, Offset row) {
+    summary.outcome = Outcome::inaccurate;
+    summary.algebraic_error = summary.rounding_error = 1;
+    summary.reason = fmt::format(
+        "rounding hides whether there is a solution: what supports the unknowns coupled to row {} is so weak beside "
+        "the couplings that the diagonal hardly shows it",
         row + 1);
   }
 

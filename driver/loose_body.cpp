@@ -97,6 +97,20 @@ Eigen::VectorXd exactly_within(const Eigen::VectorXd& wanted, const std::vector<
   return part * found;
 }
 
+/// Where most of the loads press on bounds, the little that is left of them has few digits. Which bounds it does not
+/// leave is seen all the same, and these leave the whole digits of the loads.
+/// @param rows the bounded unknowns move by row . c
+Eigen::VectorXd along_bounds(const Eigen::VectorXd& work, const Eigen::VectorXd& left,
+                             const std::vector<Eigen::RowVectorXd>& rows) {
+  constexpr double part = 1e-3, rounding_of_projections = 4e-12;
+  const double small = part * left.norm() + rounding_of_projections * work.norm();
+  std::vector<Eigen::RowVectorXd> kept;
+  for (const Eigen::RowVectorXd& row : rows)
+    if (std::abs(row.normalized().dot(left)) <= small) kept.push_back(row.normalized());
+  const Eigen::MatrixXd along = null_space(stacked(kept, left.size()), decided);
+  return (along * (along.transpose() * work)).normalized();
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -179,12 +193,21 @@ void LooseBody<D, B>::require_minimum() const {
   const double enough = negligible * most_work_;
   if (free_.cols() == 0 || !(work_.norm() > enough)) return;
   AllowedMotions allowed(free_.cols());
-  for (const Room& room : rooms(discretization_.problem.start)) allowed.bound(room.row, room.lower, room.upper);
+  std::vector<Eigen::RowVectorXd> rows;
+  for (const Room& room : rooms(discretization_.problem.start)) {
+    allowed.bound(room.row, room.lower, room.upper);
+    rows.push_back(room.row);
+  }
   // What is left of the loads is a direction only if it is one by itself, too, and not rounding.
   const Eigen::VectorXd left = allowed.nearest(work_);
   if (!(left.norm() > enough)) return;
-  const Eigen::VectorXd motion = allowed.nearest(left.normalized());
-  if (!(work_.dot(motion) - resistance(free_ * motion) > enough * motion.norm())) return;
+  const auto falls = [&](const Eigen::VectorXd& motion) {
+    return allowed.least_rate(motion) >= -negligible * motion.norm() &&
+           work_.dot(motion) - resistance(free_ * motion) > enough * motion.norm();
+  };
+  Eigen::VectorXd motion = along_bounds(work_, left, rows);
+  if (!falls(motion)) motion = allowed.nearest(left.normalized());
+  if (!falls(motion)) return;
   throw Error(Exit::no_solution,
               fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "
                           "which do work along this motion: {} (contact is linearised about the undeformed body)",

@@ -96,6 +96,19 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
                   poisson)};
 }
 
+namespace {
+
+std::string cut_warning(const CutSelection& cut, int dimension) {
+  std::string text = fmt::format(
+      "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked",
+      cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces", cut.picked);
+  if (cut.wrong > 0) text += fmt::format(", it does not hold on about {:.2g} of these", cut.wrong);
+  if (cut.missed > 0) text += fmt::format(", and it holds on about {:.2g} besides", cut.missed);
+  return text + "; a smaller 'size' or more 'cells' follow it more closely";
+}
+
+}  // namespace
+
 template <int D, int B>
 std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model,
                                         std::size_t body) {
@@ -106,12 +119,7 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
                                    scene.fixes[fixes[conflict.later]].source.table,
                                    scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
                                    conflict.vertices == 1 ? "vertex" : "vertices"));
-  for (const CutSelection& cut : cut_selections(nodes.mesh(), model))
-    warnings.push_back(fmt::format(
-        "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked, and "
-        "it "
-        "holds on about {:.2g} besides; a smaller 'size' or more 'cells' follow it more closely",
-        cut.selection->origin, cut.selection->where->text(), D == 2 ? "edges" : "faces", cut.picked, cut.missed));
+  for (const CutSelection& cut : cut_selections(nodes.mesh(), model)) warnings.push_back(cut_warning(cut, D));
   return warnings;
 }
 

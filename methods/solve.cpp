@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <new>
 #include <utility>
 
+#include "core/algebra/energy_along.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "methods/active_set.hpp"
@@ -117,25 +120,39 @@ class Automatic {
     const int before = steps_;
     const std::vector<double> start = x_;
     const double begin = seconds();
+    bool ended = false;
     Stage stage;
     stage.method = rule.method;
     stage.linear = rule.solver;
     try {
       Summary found = Method(problem_, x_, own, registry_, rule.solver, more...).run(counted(), steps_);
       found.iterations = found.stages.front().iterations = 0;  // no cycles
-      if (found.converged() || found.outcome == Outcome::interrupted) return done_.append(std::move(found));
-      stage = std::move(found.stages.front());
+      stage = found.stages.front();
+      ended = found.converged() || found.outcome == Outcome::interrupted;
+      if (ended) done_.append(std::move(found));
     } catch (const Error& error) {
       if (error.status() == Exit::interrupted) throw;
       stage.reason = error.what();
     } catch (const std::bad_alloc&) {
       stage.reason = "out of memory";
     }
+    if (ended) {
+      if (done_.converged()) refuse_if_indefinite(start);
+      return;
+    }
     stage.seconds = seconds() - begin;
     stage.kept = false;
     done_.stages.push_back(std::move(stage));
     x_ = start;
     steps_ = before;
+  }
+
+  /// What such a method calls solved is a minimum only if the matrix has no negative eigenvalue. Else it may lie above
+  /// where the cycles came to, and the way there shows that.
+  void refuse_if_indefinite(const std::vector<double>& start) const {
+    std::vector<double> way(x_.size());
+    std::transform(x_.begin(), x_.end(), start.begin(), way.begin(), std::minus<>());
+    refuse_if_negative_along(problem_.A, way);
   }
 
   void cycle(const automatic::StageRule& rule, std::span<const Prolongation> prolongations) {

@@ -33,14 +33,36 @@ constexpr double suspicious = 1e-4;        // pivots, of a diagonal of one
 
 enum class Dominance { none, weak, strict };
 
-/// Of the diagonal entry of row i of block row p.
+/// Of the diagonal entry of row i of block row p over the others. In more digits: what is left may be little.
+struct Excess {
+  double value = 0, of_sizes = 0;  // of_sizes: the sum of all entries' sizes
+  int entries = 0;                 // that are not zero
+
+  template <int B>
+  Excess(const BlockMatrix<B>& A, Index p, int i) {
+    long double all = 0;
+    for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
+      for (int j = 0; j < B; ++j) {
+        const double size = std::abs(A.at(k)[i * B + j]);
+        all += size;
+        entries += size > 0;
+      }
+    of_sizes = static_cast<double>(all);
+    value = static_cast<double>(2 * static_cast<long double>(A.diagonal(p)[i * (B + 1)]) - all);
+  }
+
+  Dominance dominance() const {
+    const double small = std::min(2 * epsilon * entries, rounding_of_rows) * of_sizes;
+    return value > small ? Dominance::strict : value >= -small ? Dominance::weak : Dominance::none;
+  }
+
+  /// Whether it is more than summing the others in the machine's precision leaves.
+  bool is_more_than_sums_leave() const { return value > 0.25 * epsilon * (entries - 1) * of_sizes; }
+};
+
 template <int B>
 Dominance dominance(const BlockMatrix<B>& A, Index p, int i) {
-  double all = 0;
-  for (Offset k = A.row[p]; k < A.row[p + 1]; ++k)
-    for (int j = 0; j < B; ++j) all += std::abs(A.at(k)[i * B + j]);
-  const double excess = 2 * A.diagonal(p)[i * (B + 1)] - all, small = rounding_of_rows * all;
-  return excess > small ? Dominance::strict : excess >= -small ? Dominance::weak : Dominance::none;
+  return Excess(A, p, i).dominance();
 }
 
 template <int B>
@@ -58,9 +80,11 @@ class Motions<B>::Finder {
   Finder(const BlockMatrix<B>& A, Motions& out) : A_(A), out_(out), place_(static_cast<std::size_t>(A.size()), -1) {}
 
   void run() {
+    out_.regular_ = true;
     if (is_held()) return;
     for (Index p = 0; p < A_.size(); ++p)
       if (place_[p] < 0) settle(collect(p));
+    out_.regular_ = out_.regular_ && out_.bases_.empty();
   }
 
  private:
@@ -110,29 +134,33 @@ class Motions<B>::Finder {
   }
 
   void settle(const Seen& seen) {
+    const bool tree = seen.blocks <= blocks_of_a_tree * static_cast<Offset>(vectors_.size());
     if (seen.least == Dominance::none) {
-      const bool cheap = vectors_.size() <= few_vectors || seen.blocks * B * B <= few_entries ||
-                         seen.blocks <= blocks_of_a_tree * static_cast<Offset>(vectors_.size());
+      out_.regular_ = false;
+      const bool cheap = vectors_.size() <= few_vectors || seen.blocks * B * B <= few_entries || tree;
       if (!cheap || !factorise()) out_.complete_ = false;
     } else if (seen.least == Dominance::weak && (B > 1 || seen.most == Dominance::weak)) {
       sign_.resize(static_cast<std::size_t>(A_.size()) * B, 0);
       for (const Index p : vectors_)
         for (int i = 0; i < B; ++i)
-          if (sign_[Offset{p} * B + i] == 0) follow_signs(Offset{p} * B + i);
+          if (sign_[Offset{p} * B + i] == 0) follow_signs(Offset{p} * B + i, tree);
     }
   }
 
   // Where the diagonal dominates and no row strictly, only entries of the same size are a motion, and couplings say
-  // with which signs.
-  void follow_signs(Offset first) {
+  // with which signs. Diagonals of trees are sums of so few others that what rounding leaves of them is known: more may
+  // be a weak support.
+  void follow_signs(Offset first, bool tree) {
     std::vector<Offset> rows{first};
-    bool motion = true;
+    bool motion = true, clear = true;
     sign_[first] = 1;
     for (std::size_t next = 0; next < rows.size(); ++next) {
       const Offset i = rows[next];
       const auto p = static_cast<Index>(i / B);
       const auto in_block = static_cast<int>(i % B);
-      motion = motion && dominance(A_, p, in_block) == Dominance::weak;
+      const Excess excess(A_, p, in_block);
+      motion = motion && excess.dominance() == Dominance::weak;
+      clear = clear && !(tree && excess.is_more_than_sums_leave());
       for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k)
         for (int j = 0; j < B; ++j) {
           const double value = A_.at(k)[in_block * B + j];
@@ -150,7 +178,7 @@ class Motions<B>::Finder {
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd value(n, 1);
     for (Eigen::Index k = 0; k < n; ++k) value(k) = sign_[rows[static_cast<std::size_t>(k)]];
-    out_.bases_.push_back({std::move(rows), Eigen::VectorXd::Ones(n), std::move(value), 0});
+    out_.bases_.push_back({std::move(rows), Eigen::VectorXd::Ones(n), std::move(value), 0, clear});
   }
 
   // Returns whether everything is known of the component then.
@@ -247,7 +275,7 @@ class Motions<B>::Finder {
     for (Eigen::Index k = 0; k < n; ++k) rows.push_back(row(k));
     const double left = Eigen::MatrixXd(S.selfadjointView<Eigen::Lower>() * value).norm();
     const double error = std::max(rounding_of_motions, 2 * left) * norm_of_pseudoinverse(factor, value);
-    out_.bases_.push_back({std::move(rows), scale, std::move(value), error});
+    out_.bases_.push_back({std::move(rows), scale, std::move(value), error, true});
     return true;
   }
 
@@ -281,13 +309,16 @@ Motions<B>::Motions(const BlockMatrix<B>& A) {
 template <int B>
 typename Motions<B>::Fall Motions<B>::fall(const std::vector<double>& b, const Constraints<B>& constraints) const {
   bool certain = complete_;
+  std::optional<Offset> unclear;
   for (const Basis& basis : bases_)
     if (const Eigen::VectorXd d = falling_direction(basis, b, constraints, certain); d.size() > 0) {
       Eigen::Index largest = 0;
       basis.scale.cwiseProduct(d).cwiseAbs().maxCoeff(&largest);
-      return {basis.row[static_cast<std::size_t>(largest)], true};
+      const Offset row = basis.row[static_cast<std::size_t>(largest)];
+      if (basis.clear) return {row, {}, true};
+      unclear = row;
     }
-  return {{}, certain};
+  return {{}, unclear, certain && !unclear};
 }
 
 // The one next to the forces among the motions that every bound allows, if there is more than rounding of it.

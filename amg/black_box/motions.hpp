@@ -20,9 +20,13 @@ class Motions {
   /// Whether all components are known to be positive semidefinite, and all motions are known.
   bool complete() const { return complete_; }
 
+  /// Whether there is none for sure, by the signs of couplings and diagonals that dominate.
+  bool regular() const { return regular_; }
+
   struct Fall {
-    std::optional<Offset> row;  ///< the unknown that moves most; nothing: no motion is known to fall
-    bool certain;               ///< if not, there may be one all the same
+    std::optional<Offset> row;      ///< the unknown that moves most; nothing: no motion is known to fall
+    std::optional<Offset> unclear;  ///< the same of one that rounding does not tell from one with a weak support
+    bool certain;                   ///< if not, there may be one all the same
   };
 
   /// Whether b does work, by more than rounding, along a motion that no bound ends: then 1/2 x'Ax - b'x has no minimum.
@@ -35,6 +39,7 @@ class Motions {
     Eigen::VectorXd scale;    ///< the motions are scale times the columns of `value`, which are orthogonal
     Eigen::MatrixXd value;
     double error;  ///< of such a column, of length one, from the rounding in A
+    bool clear;    ///< if not, a support may resist that is too weak to be told from rounding
   };
 
   class Finder;
@@ -44,7 +49,7 @@ class Motions {
                                            const Constraints<B>& constraints, bool& certain);
 
   std::vector<Basis> bases_;
-  bool complete_ = true;
+  bool complete_ = true, regular_ = false;
 };
 
 }  // namespace signorini

@@ -10,7 +10,7 @@ namespace signorini {
 namespace {
 
 constexpr double most = 0.6, mostly_not = 0.25;  // of pairs of rows
-constexpr double no_small_part = 0.01;           // of couplings
+constexpr double more_than_rounding = 1e-5;      // part of couplings; of cells stretched s times it is about 0.3 / s
 constexpr Index fewest_blocks = 4;               // below, chance makes rows alike
 /// Blocks that both rows are coupled to over those that one is. Zeros and single prescribed components take some away;
 /// neighbours in a seven-point stencil have 5 / 7.
@@ -91,7 +91,7 @@ int recognised_block(const SparseRows& A) {
   if (!has_proper_rows(A)) return 1;
   for (const Index block : {3, 2})
     if (A.rows % block == 0 && A.rows >= fewest_blocks * block && Couplings(A, block, 0).part_alike() >= most &&
-        part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= no_small_part)
+        part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= more_than_rounding)
       return block;
   return 1;
 }

@@ -27,6 +27,7 @@ using Set = std::vector<signed char>;  // per unknown: -1 at the lower bound, 1 
 
 constexpr int most_sets = 40, most_steps = 8;
 constexpr Real no_pivot = 4 * std::numeric_limits<double>::epsilon();  // of a diagonal of about one: a motion
+constexpr Real rounding_of_pivots = 512 * std::numeric_limits<Real>::epsilon();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double rounding_of_rows = 16 * epsilon;  // of the sum of the terms
 constexpr double weightless = 8 * epsilon;         // supports that are rounding, of the diagonal
@@ -47,12 +48,13 @@ template <int B>
 class ExtendedSets {
  public:
   ExtendedSets(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::span<const double> b, double tolerance,
-               double most_operations)
+               double most_operations, bool regular)
       : problem_(problem),
         held_(held),
         b_(b),
         tolerance_(tolerance),
         most_operations_(most_operations),
+        no_pivot_(regular ? rounding_of_pivots : no_pivot),
         x_(b.size()),
         r_(b.size()),
         active_(b.size(), 0) {}
@@ -171,7 +173,7 @@ class ExtendedSets {
     for (std::size_t i = 0; i < active_.size(); ++i)
       if (active_[i] != 0) mask[i / B] |= static_cast<Flags>(1u << (i % B));
     ++sets_;
-    return factor_.factorise(scaled_exactly(problem_.A, mask, scale_), most_operations_, no_pivot) &&
+    return factor_.factorise(scaled_exactly(problem_.A, mask, scale_), most_operations_, no_pivot_) &&
            factor_.falling_direction().size() == 0;
   }
 
@@ -210,6 +212,7 @@ class ExtendedSets {
   const HeldRows<B>& held_;
   std::span<const double> b_;
   const double tolerance_, most_operations_;
+  const Real no_pivot_;
   std::vector<TwoDoubles> x_;
   Vector r_;
   Set active_;
@@ -302,20 +305,39 @@ void judge(Summary& s, double tolerance) {
   }
 }
 
+template <int B>
+bool is_tree(const BlockMatrix<B>& A) {
+  return A.row[A.size()] <= 3 * Offset{A.size()};  // each vector, and each of less edges twice
+}
+
+/// Where rounding in the matrix alone may have led to another solution, either may be the right one.
+void doubt(Summary& s, double difference, double tolerance) {
+  if (!s.converged() || difference <= std::max(s.algebraic_error, tolerance)) return;
+  s.algebraic_error = s.rounding_error = difference;
+  s.history.back().algebraic_error = difference;
+  judge(s, tolerance);
+}
+
 }  // namespace
 
 template <int B>
 void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::span<const double> b,
-            const SolverOptions& options, std::vector<double>& x, Summary& summary) {
+            const SolverOptions& options, const Motions<B>& motions, std::vector<double>& x, Summary& summary) {
   const double most = most_operations(problem.A, options, summary);
   if (most == 0) return;
   const double begin = seconds();
-  ExtendedSets<B> sets(problem, held, b, options.tolerance, most);
-  if (!sets.solve(x) || sets.came_by_motion(x)) return;
-  if (summary.outcome == Outcome::unbounded && sets.came_by_motion(std::vector<double>(x.size(), 0.0))) return;
+  ExtendedSets<B> sets(problem, held, b, options.tolerance, most, motions.regular());
+  if (!sets.solve(x)) return;
   const auto size = static_cast<double>(sets.size());
   const auto relative = [&](double error) { return error == 0 ? 0 : size > 0 ? error / size : 1; };
   const double before = relative(sets.error(x));
+  if (!motions.regular() && sets.came_by_motion(x)) {
+    if (!motions.complete() && is_tree(problem.A)) doubt(summary, before, options.tolerance);
+    return;
+  }
+  if (!motions.regular() && summary.outcome == Outcome::unbounded &&
+      sets.came_by_motion(std::vector<double>(x.size(), 0.0)))
+    return;
   if (summary.outcome == Outcome::converged && before <= options.tolerance) {
     summary.algebraic_error = std::max(summary.algebraic_error, before);
     summary.history.back().algebraic_error = summary.algebraic_error;
@@ -360,10 +382,10 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
 }
 
 template void refine(const DiscreteProblem<1>&, const HeldRows<1>&, std::span<const double>, const SolverOptions&,
-                     std::vector<double>&, Summary&);
+                     const Motions<1>&, std::vector<double>&, Summary&);
 template void refine(const DiscreteProblem<2>&, const HeldRows<2>&, std::span<const double>, const SolverOptions&,
-                     std::vector<double>&, Summary&);
+                     const Motions<2>&, std::vector<double>&, Summary&);
 template void refine(const DiscreteProblem<3>&, const HeldRows<3>&, std::span<const double>, const SolverOptions&,
-                     std::vector<double>&, Summary&);
+                     const Motions<3>&, std::vector<double>&, Summary&);
 
 }  // namespace signorini

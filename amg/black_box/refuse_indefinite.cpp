@@ -1,7 +1,5 @@
 #include "amg/black_box/refuse_indefinite.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,7 +8,6 @@
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
-#include "core/base/error.hpp"
 #include "core/solver/weights.hpp"
 
 namespace signorini {
@@ -20,6 +17,7 @@ using Vector = std::vector<double>;  // B per vector of a level
 
 constexpr int steps_on_coarsest = 40, steps_on_finest = 8;  // of conjugate gradients
 constexpr int inverse_iterations = 4;
+constexpr int steps_of_long_search = 2000;  // about what sixty cycles take
 
 template <int B>
 Vector interpolated(const Prolongation& P, const Vector& coarse) {
@@ -36,6 +34,19 @@ Vector random_vector(std::size_t size) {
   Vector out(size);
   for (double& value : out) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
   return out;
+}
+
+template <int B, class Visit>
+void for_each_diagonal(const BlockMatrix<B>& A, const Visit& visit) {
+  for (Index p = 0; p < A.size(); ++p)
+    for (int i = 0; i < B; ++i) visit(Offset{p} * B + i, A.diagonal(p)[i * B + i]);
+}
+
+template <int B>
+Precondition by_diagonal(const BlockMatrix<B>& A) {
+  return [&](const Vector& r, Vector& z) {
+    for_each_diagonal(A, [&](Offset i, double diagonal) { z[i] = r[i] / diagonal; });
+  };
 }
 
 /// The levels of a matrix, the finest last.
@@ -68,8 +79,7 @@ class Search {
 
   void check_on_finest(std::size_t level, Vector d) const {
     for (std::size_t k = level; k < levels_.prolongations.size(); ++k) d = interpolated<B>(levels_.prolongations[k], d);
-    const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    refuse_if_negative(energy_along(A_, d), std::max_element(d.begin(), d.end(), larger) - d.begin());
+    refuse_if_negative_along(A_, d);
   }
 
   /// More on coarser levels, where they cost less.
@@ -81,12 +91,9 @@ class Search {
   /// times a smooth direction this is a step of inverse iteration, and whatever falls in the space it searches is met.
   Vector solution(std::size_t k, Vector r, int steps) const {
     const BlockMatrix<B>& A = matrix(k);
-    const Precondition by_diagonal = [&](const Vector& from, Vector& z) {
-      for_each_diagonal(A, [&](Offset i, double diagonal) { z[i] = from[i] / diagonal; });
-    };
     Vector d;
     apply_mask<B>(off(k), r);
-    masked_cg<B>(A, off(k), by_diagonal, {.iterations = steps}, r, d);
+    masked_cg<B>(A, off(k), by_diagonal(A), {.iterations = steps}, r, d);
     scale_to_one(d);
     return d;
   }
@@ -94,12 +101,6 @@ class Search {
   Vector times_diagonal(std::size_t k, Vector d) const {
     for_each_diagonal(matrix(k), [&](Offset i, double diagonal) { d[i] *= diagonal; });
     return d;
-  }
-
-  template <class Visit>
-  static void for_each_diagonal(const BlockMatrix<B>& A, const Visit& visit) {
-    for (Index p = 0; p < A.size(); ++p)
-      for (int i = 0; i < B; ++i) visit(Offset{p} * B + i, A.diagonal(p)[i * B + i]);
   }
 
   static void scale_to_one(Vector& d) {
@@ -190,19 +191,22 @@ double affordable_operations(Offset entries) {
   return std::max(few, per_entry * static_cast<double>(entries));
 }
 
-void refuse_if_negative(const EnergyAlong& energy, Offset row) {
-  if (!(energy.of_matrix < -rounding_of_energy * energy.of_diagonal)) return;
-  input_error("matrix",
-              fmt::format("indefinite: d'Ad is {:.3g} times d'Dd, D its diagonal, for a direction d with the largest "
-                          "entry in row {}; expected a positive semidefinite matrix",
-                          energy.of_matrix / energy.of_diagonal, row + 1));
-}
-
 template <int B>
 void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels) {
   Search<B>(A, levels).run();
 }
 
+template <int B>
+void refuse_indefinite_by_steps(const BlockMatrix<B>& A) {
+  const std::vector<Flags> nothing_off(static_cast<std::size_t>(A.size()), 0);
+  Vector r = random_vector(nothing_off.size() * B), d;
+  if (masked_cg<B>(A, nothing_off, by_diagonal(A), {.iterations = steps_of_long_search}, r, d).singular)
+    refuse_if_negative_along(A, d);
+}
+
+template void refuse_indefinite_by_steps(const BlockMatrix<1>&);
+template void refuse_indefinite_by_steps(const BlockMatrix<2>&);
+template void refuse_indefinite_by_steps(const BlockMatrix<3>&);
 template void refuse_indefinite(const BlockMatrix<1>&, const AlgebraicLevels<1>&);
 template void refuse_indefinite(const BlockMatrix<2>&, const AlgebraicLevels<2>&);
 template void refuse_indefinite(const BlockMatrix<3>&, const AlgebraicLevels<3>&);

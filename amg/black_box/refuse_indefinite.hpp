@@ -4,13 +4,6 @@
 
 namespace signorini {
 
-/// Of d'Ad, relative to d'Dd with the diagonal D of A.
-inline constexpr double rounding_of_energy = 1e-12;
-
-/// Error(Exit::input) where the energy along a direction is negative by more than rounding.
-/// @param row of the direction's largest entry, for the message
-void refuse_if_negative(const EnergyAlong& energy, Offset row);
-
 /// What a factorisation may take without being seen beside a set-up, for a lower triangle with so many entries.
 double affordable_operations(Offset entries);
 
@@ -20,5 +13,10 @@ double affordable_operations(Offset entries);
 /// @param A with a positive diagonal
 template <int B>
 void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels);
+
+/// The same by up to 2000 conjugate gradient steps on the whole matrix alone, for a random right-hand side. Where they
+/// converge there is no such direction, but by chance; where they do not, smaller negative eigenvalues may be missed.
+template <int B>
+void refuse_indefinite_by_steps(const BlockMatrix<B>& A);
 
 }  // namespace signorini

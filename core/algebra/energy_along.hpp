@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/algebra/products.hpp"
@@ -24,6 +26,21 @@ EnergyAlong energy_along(const BlockMatrix<B>& A, const std::vector<double>& d) 
     }
   }
   return out;
+}
+
+/// Of d'Ad, relative to d'Dd.
+inline constexpr double rounding_of_energy = 1e-12;
+
+/// Error(Exit::input) where the energy along a direction is negative by more than rounding: the matrix is indefinite.
+/// @param row of the direction's largest entry, for the message
+void refuse_if_negative(const EnergyAlong& energy, Offset row);
+
+/// The same for a direction.
+/// @param d B per vector
+template <int B>
+void refuse_if_negative_along(const BlockMatrix<B>& A, const std::vector<double>& d) {
+  const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  refuse_if_negative(energy_along(A, d), std::max_element(d.begin(), d.end(), larger) - d.begin());
 }
 
 }  // namespace signorini

@@ -1,7 +1,8 @@
 #include "core/fem/cut_faces.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
+#include <optional>
 
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
@@ -26,6 +27,14 @@ std::vector<std::array<double, D>> centroids(int n) {
   return all;
 }
 
+/// Equal parts along an edge of a face that is picked: the more the fewer faces there are.
+template <int D>
+int parts_of_picked(std::size_t faces) {
+  const double samples = 1e5 / static_cast<double>(faces);
+  return D == 2 ? static_cast<int>(std::clamp(samples, 4.0, 256.0))
+                : static_cast<int>(std::clamp(std::sqrt(samples), 2.0, 16.0));
+}
+
 /// A face of the coarsest mesh, at whose points an expression is asked for.
 template <int D>
 class CoarsestFace {
@@ -38,6 +47,17 @@ class CoarsestFace {
   }
 
   double measure() const { return measure_; }
+  const Point<D>& normal() const { return normal_; }
+  const std::array<Index, D>& vertices() const { return face_.vertices; }
+  bool curved() const { return face_.curve >= 0; }
+
+  /// The part of its measure on which the expression holds nowhere near.
+  double without(const Field& expression, double t, const std::vector<std::array<double, D>>& samples) const {
+    const auto fails = [&](const std::array<double, D>& barycentric) {
+      return !holds_near(expression, t, barycentric);
+    };
+    return measure_ * static_cast<double>(std::ranges::count_if(samples, fails)) / static_cast<double>(samples.size());
+  }
 
   /// The part of its measure on which the expression holds.
   double where(const Field& expression, double t) const {
@@ -55,10 +75,29 @@ class CoarsestFace {
                                [&](Index v) { return expression(site<D>(mesh_.points[v], t, normal_)) != 0; });
   }
 
+  /// At the point, or as little off the face as rounding may have taken it.
+  bool holds_near(const Field& expression, double t, const std::array<double, D>& barycentric) const {
+    constexpr double rounding = 1e-9;
+    const double off = rounding * std::pow(measure_, 1.0 / (D - 1));
+    return std::ranges::any_of(std::array{0.0, off, -off}, [&](double distance) {
+      Point<D> x = point(barycentric);
+      for (int i = 0; i < D; ++i) x[i] += distance * normal_[i];
+      return expression(site<D>(x, t, normal_)) != 0;
+    });
+  }
+
+  /// Exactly on the plane of a face that is orthogonal to an axis.
   Point<D> point(const std::array<double, D>& barycentric) const {
     Point<D> x{};
-    for (int a = 0; a < D; ++a)
-      for (int i = 0; i < D; ++i) x[i] += barycentric[a] * mesh_.points[face_.vertices[a]][i];
+    for (int i = 0; i < D; ++i) {
+      const auto at = [&](int a) { return mesh_.points[face_.vertices[a]][i]; };
+      bool same = true;
+      for (int a = 0; a < D; ++a) {
+        x[i] += barycentric[a] * at(a);
+        same = same && at(a) == at(0);
+      }
+      if (same) x[i] = at(0);
+    }
     return face_.curve < 0 ? x : project<D>(mesh_.curves[face_.curve], x);
   }
 
@@ -68,17 +107,48 @@ class CoarsestFace {
   double measure_;
 };
 
+/// Vertices where faces meet at an angle as small as those of facets that stand for a curved surface.
 template <int D>
-CutSelection cut(const Mesh<D>& mesh, const Selection& selection, double t) {
-  CutSelection out{&selection, 0, 0};
+class FacettedVertices {
+ public:
+  explicit FacettedVertices(const Mesh<D>& mesh) : normal_(mesh.points.size()), is_(mesh.points.size(), false) {
+    const auto faces = static_cast<Index>(mesh.boundary.size()) / faces_per_coarsest(mesh);
+    for (Index f = 0; f < faces; ++f) {
+      const CoarsestFace<D> face(mesh, f);
+      for (const Index v : face.vertices()) add(v, face.normal());
+    }
+  }
+
+  bool has_any(const std::array<Index, D>& vertices) const {
+    return std::ranges::any_of(vertices, [&](Index v) { return bool{is_[v]}; });
+  }
+
+ private:
+  void add(Index v, const Point<D>& normal) {
+    constexpr double flat = 1 - 1e-10, sharp = 0.7;  // cosines: of about a thousandth of a degree, and of 45
+    double cosine = 0;
+    for (int i = 0; i < D; ++i) cosine += normal_[v][i] * normal[i];
+    if (cosine > sharp && cosine < flat) is_[v] = true;
+    normal_[v] = normal;
+  }
+
+  std::vector<Point<D>> normal_;  // of the face seen last; zero before
+  std::vector<bool> is_;
+};
+
+template <int D>
+CutSelection cut(const Mesh<D>& mesh, const Selection& selection, const FacettedVertices<D>& facetted, double t) {
+  CutSelection out{&selection, 0, 0, 0};
   const Index children = faces_per_coarsest(mesh);
   const std::vector<Index> among = select_faces(mesh, {selection.part, {}, selection.origin}, t),
                            picked = select_faces(mesh, selection, t);
+  const auto samples = centroids<D>(parts_of_picked<D>(picked.size() / static_cast<std::size_t>(children)));
   auto next = picked.begin();
   for (auto f = among.begin(); f != among.end(); f += children) {
     const CoarsestFace<D> face(mesh, *f / children);
     if (next != picked.end() && *next == *f) {
       out.picked += face.measure();
+      if (face.curved() || !facetted.has_any(face.vertices())) out.wrong += face.without(*selection.where, t, samples);
       next += children;
     } else {
       out.missed += face.where(*selection.where, t);
@@ -92,9 +162,12 @@ CutSelection cut(const Mesh<D>& mesh, const Selection& selection, double t) {
 template <int D, int B>
 std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& model) {
   std::vector<CutSelection> out;
+  std::optional<FacettedVertices<D>> facetted;
   const auto add = [&](const Selection& selection) {
     if (!selection.where) return;
-    if (const CutSelection found = cut(mesh, selection, model.t); found.missed > 0) out.push_back(found);
+    if (!facetted) facetted.emplace(mesh);
+    const CutSelection found = cut(mesh, selection, *facetted, model.t);
+    if (found.missed > 0 || found.wrong > 0) out.push_back(found);
   };
   for (const Fix<B>& fix : model.fixes) add(fix.on);
   for (const Load<B>& load : model.loads)

@@ -8,10 +8,13 @@ namespace signorini {
 struct CutSelection {
   const Selection* selection;  ///< of the model
   double picked;               ///< measure of the faces picked
+  double wrong;                ///< of the parts of these on which the expression does not hold, by sampling
   double missed;               ///< of what the expression holds on besides, by sampling
 };
 
-/// Those of a model's fixes, loads and obstacles. The faces must be picked already: see select_faces().
+/// Those of a model's fixes, loads and obstacles. The faces must be picked already: see select_faces(). Faces that
+/// stand for a curved surface which the mesh does not know are never wrong: an expression may hold on that surface
+/// alone.
 /// @param mesh any of the hierarchy; faces are those of the coarsest one
 template <int D, int B>
 std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& model);

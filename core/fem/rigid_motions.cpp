@@ -159,15 +159,16 @@ std::string RigidMotions<D, B>::at(const Point<D>& from_middle) const {
   return text(x);
 }
 
+// A rotation whose axis is a thousand times the size of the body off is the translation that it about is.
 template <int D, int B>
 std::string RigidMotions<D, B>::describe(const Motion& motion) const {
-  constexpr double negligible = 1e-9;
+  constexpr double negligible = 1e-9, far_off = 2e3;  // in half sizes of the body
   if constexpr (B == 1) {
     return "the constant";
   } else {
     const Eigen::Matrix<double, D, 1> t = motion.template head<D>();
     const auto w = motion.template tail<modes - D>();
-    if (w.norm() <= negligible * motion.norm()) return "translation along " + text(t.normalized());
+    if (far_off * w.norm() <= t.norm()) return "translation along " + text(t.normalized());
     if constexpr (D == 2) {
       return "rotation about " + at({-t[1] / w[0], t[0] / w[0]});
     } else {

@@ -9,7 +9,8 @@ namespace {
 constexpr const char* selection = R"(
 - One of `on` and `where` picks the faces, in this table and the next ones. Both together are an error.
 - `where` is judged on the faces of the coarsest mesh. Finer ones inherit it. Where it cuts through faces of the coarsest
-  mesh a warning says how much area.
+  mesh a warning says how much area is picked though `where` does not hold there, and how much is left out. (Facets
+  that stand for a curved surface which a mesh file does not know are taken as picked rightly.)
 )";
 
 constexpr const char* load_details = R"(

@@ -27,6 +27,17 @@ TEST(RecognisedBlock, IsTheNumberOfComponentsOfElasticBodies) {
   for (const auto& c : space_cases()) EXPECT_EQ(recognised_block(Given<3>(c.nested.finest()).A), 3) << c.name;
 }
 
+// Their components hardly couple beside the stiff direction.
+TEST(RecognisedBlock, CellsMayBeStretched) {
+  for (const double stretch : {10, 50, 200, 1000}) {
+    EXPECT_EQ(recognised_block(sparse(stiffness<2, 2>(rectangle({0, 0}, {stretch, 1}, {20, 20}), Model<2>{}))), 2)
+        << stretch;
+    EXPECT_EQ(recognised_block(sparse(stiffness<3, 3>(box({0, 0, 0}, {stretch, stretch, 1}, {6, 6, 6}), Model<3>{}))),
+              3)
+        << stretch;
+  }
+}
+
 TEST(RecognisedBlock, EntriesThatAreZeroDoNotHideIt) {
   Matrix A = Given<2>(plane_cases().front().nested.finest()).A;
   A.prune(0.0);

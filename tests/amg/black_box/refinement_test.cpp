@@ -179,6 +179,61 @@ TEST(Refinement, IllConditionedTreesAreSolvedToTheTolerance) {
         for (int trial = 0; trial < 3; ++trial) expect_honest(random, n, kind, {}, true);
 }
 
+// Beyond that, rounding in matrices D A D hides what they are.
+TEST(Refinement, WorseConditionedTreesAreNoFalseClaim) {
+  Random random(114);
+  for (const int n : {5, 22, 68, 150})
+    for (const int decades : {43, 46})
+      for (const Kind& kind : kinds(decades))
+        for (int trial = 0; trial < 3; ++trial) expect_honest(random, n, kind, {}, false);
+}
+
+/// A chain of springs of stiffness 2^e, held at one end by one of stiffness 1, with loads of 1 at both ends: the
+/// solution is 2 + i / 2^e.
+BlackBox::Result solve_weakly_held_chain(int n, int e, double bound) {
+  std::vector<Eigen::Triplet<double>> entries{{0, 0, 1.0}};
+  for (int i = 0; i + 1 < n; ++i)
+    for (const auto& [row, column, sign] : {std::tuple(i, i, 1), {i + 1, i + 1, 1}, {i, i + 1, -1}, {i + 1, i, -1}})
+      entries.emplace_back(row, column, std::ldexp(sign, e));
+  Matrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  std::vector<double> b(static_cast<std::size_t>(n), 0), lower;
+  b.front() = b.back() = 1;
+  if (bound < 0) lower.assign(b.size(), bound);
+  return BlackBox(A, 1).solve(b, lower);
+}
+
+void expect_is_solution(const std::vector<double>& x, int e) {
+  for (std::size_t i = 0; i < x.size(); ++i) ASSERT_NEAR(x[i], 2 + std::ldexp(static_cast<double>(i), -e), 2e-8);
+}
+
+TEST(Refinement, WeaklyHeldChainsAreSolvedToTheTolerance) {
+  for (const int e : {30, 38, 43, 44, 45, 46})
+    for (const int n : {2, 3, 10, 50, 400})
+      for (const double bound : {0.0, -1e3}) {
+        const BlackBox::Result result = solve_weakly_held_chain(n, e, bound);
+        SCOPED_TRACE(fmt::format("2^{}, {} unknowns, bound {}: {}", e, n, bound, result.summary.reason));
+        EXPECT_EQ(result.summary.outcome, Outcome::converged);
+        expect_is_solution(result.x, e);
+      }
+}
+
+// From 2^53 on, the support is none of the matrix any more.
+TEST(Refinement, SupportsThatRoundingHidesAreNoClaim) {
+  for (const int n : {2, 3, 10, 50})
+    for (const double bound : {0.0, -1e3}) {
+      for (const int e : {47, 48, 49, 50, 51, 52}) {
+        const BlackBox::Result result = solve_weakly_held_chain(n, e, bound);
+        SCOPED_TRACE(fmt::format("2^{}, {} unknowns, bound {}: {}", e, n, bound, result.summary.reason));
+        if (result.summary.outcome == Outcome::converged)
+          expect_is_solution(result.x, e);
+        else
+          EXPECT_EQ(result.summary.outcome, Outcome::inaccurate);
+      }
+      EXPECT_EQ(solve_weakly_held_chain(n, 54, bound).summary.outcome, Outcome::unbounded) << n;
+    }
+}
+
 TEST(Refinement, NoMethodClaimsMoreThanItReached) {
   Random random(112);
   for (const char* method : {"monotone", "tnnmg", "pgs", "pdas"}) {

@@ -10,6 +10,8 @@
 #include <numbers>
 
 #include "amg/black_box.hpp"
+#include "amg/black_box/block_rows.hpp"
+#include "amg/black_box/motions.hpp"
 #include "core/base/error.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/support/random_problem.hpp"
@@ -177,6 +179,48 @@ TEST(Definite, RoundingIsNotRefused) {
   }
   EXPECT_EQ(refusal(sparse(stiffness<2, 2>(cube<2>(0, 1, 60), Model<2>{})), 2), "");
   EXPECT_EQ(refusal(sparse(stiffness<3, 3>(cube<3>(0, 1, 12), Model<3>{})), 3), "");
+}
+
+Matrix with_random_units(Random& random, const Matrix& A, double decades) {
+  Eigen::VectorXd s(A.rows());
+  for (double& value : s) value = std::pow(10, random.between(-decades, decades));
+  return s.asDiagonal() * A * s.asDiagonal();
+}
+
+// Twice the smallest eigenvalue below the Laplacian, in random units: what is smooth then no level represents, and the
+// matrix is too large to be factorised. The energy falls for ever along D^-1 sin sin, which no bound from below ends.
+TEST(Definite, StationaryPointsOfShiftedMembranesInRandomUnitsAreNotClaimed) {
+  Random random(105);
+  constexpr int cells = 261;
+  const double eigenvalue = 8 * std::pow(std::sin(std::numbers::pi / 2 / cells), 2);
+  for (const double decades : {0.3, 0.15, 0.3, 0.15}) {
+    const Matrix A = with_random_units(random, shifted(laplacian(cells), 2 * eigenvalue), decades);
+    ASSERT_FALSE(Motions<1>(block_matrix<1>(A)).complete()) << "small enough to be factorised";
+    if (!refusal(A).empty()) continue;  // seen by the set-up already
+    const Eigen::VectorXd b = Eigen::VectorXd::Constant(A.rows(), 1.0 / static_cast<double>(A.rows())),
+                          lower = Eigen::VectorXd::Constant(A.rows(), -1);
+    EXPECT_THAT([&] { BlackBox(A, 1).solve(b, lower); },
+                ::testing::ThrowsMessage<Error>(HasSubstr("indefinite: d'Ad is -")));
+    return;
+  }
+  FAIL() << "the set-up has seen them all";
+}
+
+TEST(Definite, LongSearches) {
+  Random random(106);
+  constexpr int cells = 161;
+  const double eigenvalue = 8 * std::pow(std::sin(std::numbers::pi / 2 / cells), 2);
+  const auto refuses = [&](double times) {
+    const Matrix A = with_random_units(random, shifted(laplacian(cells), times * eigenvalue), 0.3);
+    try {
+      refuse_indefinite_by_steps(block_matrix<1>(A));
+      return false;
+    } catch (const Error&) {
+      return true;
+    }
+  };
+  for (const double times : {1.1, 2.0, 20.0}) EXPECT_TRUE(refuses(times)) << times;
+  EXPECT_FALSE(refuses(0.99));
 }
 
 }  // namespace

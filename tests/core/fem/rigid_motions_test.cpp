@@ -69,6 +69,14 @@ TEST(RigidMotions, TurnAboutWhatIsHeld) {
   EXPECT_EQ(motions.describe(basis[0]), "rotation about the axis through (0, 0.5, 1) along (0, 1, 0)");
 }
 
+TEST(RigidMotions, TurnAboutAFarAxisIsATranslation) {
+  const Mesh<2> mesh = unit_mesh<2>(3);
+  const Nodes nodes(mesh);
+  const RigidMotions<2, 2> motions(nodes);
+  EXPECT_EQ(motions.describe({1, 0, 1e-4}), "translation along (1, 0)");
+  EXPECT_EQ(motions.describe({1, 0, 0.01}), "rotation about (0.5, 50.5)");
+}
+
 TEST(RigidMotions, AreLeftFreeWhateverPlaceScaleAndFrame) {
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const double far : {0.0, 1e3}) {

@@ -5,6 +5,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/boundary.hpp"
 #include "core/mesh/refine.hpp"
 #include "support.hpp"
 
@@ -96,6 +97,58 @@ TEST(Select, SaysHowMuchIsCutOff) {
     EXPECT_NEAR(found[0].picked, 0.5, 1e-12);
     EXPECT_NEAR(found[0].missed, 0.1, 0.01);
   }
+}
+
+TEST(Select, SaysOnHowMuchOfThePickedItDoesNotHold) {
+  Model<1> model;
+  // Holds at all corners, not from 0.05 to 0.2 nor from 0.55 to 0.7.
+  model.loads.push_back(
+      {where([](const Site& s) { return std::abs(std::fmod(s.x[0], 0.5) - 0.125) > 0.075 && s.x[1] == 1; }), {1.0}});
+  model.fixes.push_back({where([](const Site& s) { return s.x[1] == 0; }), {0.0}});
+  for (const Mesh<2>& mesh : hierarchy(cells<2>(4), 3).levels) {
+    const auto found = cuts<2>(mesh, model);
+    ASSERT_EQ(found.size(), 1u) << "only the load's expression cuts through faces";
+    EXPECT_NEAR(found[0].picked, 1, 1e-12);
+    EXPECT_NEAR(found[0].wrong, 0.3, 4 * 0.25 / 256);
+    EXPECT_EQ(found[0].missed, 0);
+  }
+  model.loads[0].on = where([](const Site& s) { return std::abs(s.x[0] - 0.25) > 0.1 && s.x[2] == 1; });
+  model.fixes[0].on = where([](const Site& s) { return s.x[2] == 0; });
+  for (const Mesh<3>& mesh : hierarchy(cells<3>(2), 1).levels) {
+    const auto found = cuts<3>(mesh, model);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].picked, 1, 1e-12);
+    EXPECT_NEAR(found[0].wrong, 0.2, 0.02);
+    EXPECT_EQ(found[0].missed, 0);
+  }
+}
+
+// On a turned square, at coordinates that rounding leaves next to its sides.
+TEST(Select, RoundingIsNoCut) {
+  Mesh<2> mesh = cells<2>(4);
+  for (Point<2>& x : mesh.points) x = {0.6 * x[0] - 0.8 * x[1], 0.8 * x[0] + 0.6 * x[1]};
+  const auto height = [](const Site& s) { return 0.6 * s.x[1] - 0.8 * s.x[0]; };
+  double top = 1;
+  for (const Point<2>& x : mesh.points)
+    if (const double h = 0.6 * x[1] - 0.8 * x[0]; h > 0.9) top = std::min(top, h);
+  Model<1> model;
+  model.fixes.push_back({where([=](const Site& s) { return height(s) >= top; }), {0.0}});
+  EXPECT_TRUE(cuts<2>(mesh, model).empty());
+}
+
+// A circle that the mesh knows by its chords alone.
+TEST(Select, FacetsOfACurveAreNotCutByIt) {
+  Mesh<2> mesh;
+  constexpr int corners = 24;
+  mesh.points.push_back({0, 0});
+  for (int k = 0; k < corners; ++k) {
+    mesh.points.push_back({std::cos(2 * M_PI * k / corners), std::sin(2 * M_PI * k / corners)});
+    mesh.elements.push_back({0, k + 1, (k + 1) % corners + 1});
+  }
+  mesh.boundary = find_boundary<2>(corners + 1, mesh.elements);
+  Model<1> model;
+  model.fixes.push_back({where([](const Site& s) { return std::hypot(s.x[0], s.x[1]) > 0.999; }), {0.0}});
+  EXPECT_TRUE(cuts<2>(mesh, model).empty());
 }
 
 // Chords lie inside the circle; what is asked for are points on it.
