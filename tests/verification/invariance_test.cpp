@@ -132,8 +132,7 @@ void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& mot
   EXPECT_NEAR(there.contact().dissipated, force * motion.scale * here.contact().dissipated,
               1e-8 * force * motion.scale * norm<D>(expected));
   show("{} nodes in contact, {} slip, {} and {} cycles, difference {:.1e}\n", here.contact().nodes,
-       here.contact().slip_nodes, here.summary().iterations,
-       there.summary().iterations, difference / size);
+       here.contact().slip_nodes, here.summary().iterations, there.summary().iterations, difference / size);
 }
 
 TEST(Invariance, RotationAndTranslation) {

@@ -10,9 +10,10 @@ namespace {
 SceneText block(const std::string& friction, const std::string& top, int refinements) {
   return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]\nyoung = 1\npoisson = 0",
           .fixes = {"on = \"top\"\nvalue = " + top},
-          .obstacle = "type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
-                      "friction = " +
-                      friction,
+          .obstacle =
+              "type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
+              "friction = " +
+              friction,
           .refinements = refinements};
 }
 
@@ -31,7 +32,7 @@ const Report& solve(Driver& driver) {
   return report;
 }
 
-constexpr double friction = 0.3, pressure = 0.03, shear = 0.5, limit = friction* pressure;
+constexpr double friction = 0.3, pressure = 0.03, shear = 0.5, limit = friction * pressure;
 
 // A block that slips as a whole is dragged like a weight on a leash, whose length is the shear that friction bears. Its
 // hand goes along x first and then along y: the weight follows on a tractrix, and at a way y from the turn the leash
