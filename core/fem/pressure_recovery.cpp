@@ -164,9 +164,16 @@ class Recovery {
     return out;
   }
 
+  /// At the edge of a punch: the pressure is larger than at all neighbours.
+  bool rises(Index k) const {
+    return !inside_[k] && std::ranges::all_of(faces_.around(k), [&](Index other) {
+      return !faces_.pressed(other) || faces_.node(other).pressure < faces_.node(k).pressure;
+    });
+  }
+
   std::optional<double> fitted(Index k) const {
     const auto some = samples(k);
-    if (!inside_[k] && some.size() < enough<D>) return {};
+    if (!inside_[k] && (some.size() < enough<D> || (faces_.pressed(k) && rises(k)))) return {};
     return fitted_value(some);
   }
 
@@ -184,10 +191,11 @@ class Recovery {
   double beyond(Index k) const {
     double sum = 0;
     int count = 0;
+    bool punched = false;
     for (const Index other : faces_.around(k))
-      if (faces_.pressed(other)) sum += square_[other], ++count;
+      if (faces_.pressed(other)) sum += square_[other], ++count, punched = punched || rises(other);
     const auto value = fitted(k);
-    return value && *value <= falls * sum / count ? *value : -sum / count;
+    return value && !punched && *value <= falls * sum / count ? *value : -sum / count;
   }
 
   /// Measure of the part of a face where the linear function with the squares at its corners is positive.

@@ -13,7 +13,7 @@ namespace signorini {
 ///
 /// Sets ContactNode::recovered of an obstacle's nodes. It lies between the least and 1.25 times the largest of the
 /// means at the node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it. Where
-/// too few nodes are around it is the mean.
+/// too few nodes are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
 /// @return measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where it does not
 /// fall towards the edge, as under a punch, contact goes on half way to the next node.
