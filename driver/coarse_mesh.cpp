@@ -11,6 +11,7 @@
 #include "core/fem/element.hpp"
 #include "core/io/mesh_file.hpp"
 #include "core/io/surface_complaint.hpp"
+#include "core/mesh/meridian.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
 #include "driver/materials.hpp"
@@ -105,7 +106,11 @@ int dimension_of(const Scene& scene) {
 template <int D>
 Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
                       const Progress& progress) {
-  return std::visit(Mesher<D>{scene, scene.bodies[body], block, warnings, progress}, scene.bodies[body].shape);
+  const Scene::Body& given = scene.bodies[body];
+  Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, given.shape);
+  if constexpr (D == 2)
+    if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
+  return mesh;
 }
 
 template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);

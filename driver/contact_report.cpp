@@ -1,7 +1,9 @@
 #include "driver/contact_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/scene/reference_point.hpp"
 #include "driver/numbers.hpp"
@@ -37,6 +39,11 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   return report;
 }
 
+/// Of a disk with that area; in a plane half the width.
+double radius(int dimension, Plane plane, double area) {
+  return dimension == 3 || plane == Plane::axisymmetric ? std::sqrt(area / std::numbers::pi) : area / 2;
+}
+
 /// Adds the moment of a force at a lever: three entries, or that about the z-axis alone.
 template <int D>
 void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::vector<double>& moment) {
@@ -48,9 +55,11 @@ void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::
 }
 
 template <int D, int B>
-void add_moments(const Nodes<D>& nodes, const Results<D, B>& results, std::vector<ContactReport>& reports) {
+void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& results,
+                 std::vector<ContactReport>& reports) {
   if constexpr (B == D) {
     for (ContactReport& report : reports) report.moment.resize(D == 2 ? 1 : 3);
+    if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
     for (const ContactNode<B>& node : results.contact.nodes) {
       ContactReport& report = reports[node.obstacle];
       Point<D> lever = nodes.at(node.vertex);
@@ -90,7 +99,8 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
     const std::array<double, 3> about = reference_point(scene.obstacles[numbers[k]], t);
     report.moment_about.assign(about.begin(), about.begin() + D);
   }
-  add_moments(nodes, results, reports);
+  add_moments(nodes, scene.bodies[body].plane, results, reports);
+  for (ContactReport& report : reports) report.radius = radius(D, scene.bodies[body].plane, report.area);
   add_reachable(results, reports);
   return reports;
 }

@@ -118,7 +118,7 @@ LooseBody<D, B>::LooseBody(const Nodes<D>& nodes, const Model<B>& model, const D
     : nodes_(nodes),
       model_(model),
       discretization_(discretization),
-      motions_(nodes),
+      motions_(nodes, model.plane),
       free_(motions_.free(discretization.problem)) {
   if (free_.cols() > 0) add_work();
 }
@@ -361,7 +361,7 @@ template <int D, int B>
 Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                               const Eigen::MatrixXd& costless) const {
   const Eigen::MatrixXd basis = free_ * costless;
-  const std::vector<double> u = to_global(discretization_.problem, x), mass = node_volumes(nodes_);
+  const std::vector<double> u = to_global(discretization_.problem, x), mass = node_volumes(nodes_, model_.plane);
   Eigen::Matrix<double, Motions::modes, Motions::modes> H = decltype(H)::Zero();
   typename Motions::Motion h = Motions::Motion::Zero();
   for (Index p = 0; p < nodes_.size(); ++p)

@@ -60,6 +60,17 @@ std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
 
 }  // namespace
 
+namespace {
+
+template <int D>
+Index on_axis(const Nodes<D>& nodes) {
+  Index count = 0;
+  for (Index p = 0; p < nodes.size(); ++p) count += nodes.at(p)[0] == 0;
+  return count;
+}
+
+}  // namespace
+
 template <int D, int B>
 StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t number) {
@@ -70,7 +81,8 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   const Forces<B>& forces = results.forces;
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
-  report.bodies = {{body.name, summary}};
+  const bool axisymmetric = body.plane == Plane::axisymmetric;
+  report.bodies = {{body.name, summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0}};
   report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {

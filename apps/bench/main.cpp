@@ -18,6 +18,7 @@
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
 #include "apps/bench/partial_slip.hpp"
+#include "apps/bench/pressures.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/steps.hpp"
 #include "apps/bench/traffic.hpp"
@@ -192,7 +193,7 @@ int main(int argc, char** argv) {
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
        aggregates = false, warm = false, again = false, steps = false, aside = false, partial_slip = false,
-       coefficients = false, friction = false, renewal = false, direct = false, ccx = false;
+       coefficients = false, friction = false, renewal = false, direct = false, ccx = false, pressures = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
   app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
@@ -202,6 +203,7 @@ int main(int argc, char** argv) {
   app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
   app.add_flag("--partial-slip", partial_slip,
                "only friction against Cattaneo and Mindlin, the tables of docs/friction.md");
+  app.add_flag("--pressures", pressures, "only contact pressures against Hertz, the tables of docs/pressures.md");
   app.add_flag("--friction-coefficients", coefficients, "only what becomes of coefficients of friction from 0 to 5");
   app.add_flag("--friction-costs", friction, "only cycles and time of steps with friction beside those without");
   app.add_flag("--friction-renewal", renewal, "only when the bounds of friction are best renewed");
@@ -225,6 +227,7 @@ int main(int argc, char** argv) {
     if (again) signorini::bench::print_again(quick);
     if (steps) signorini::bench::print_steps(quick);
     if (partial_slip) signorini::bench::print_partial_slip(quick);
+    if (pressures) signorini::bench::print_pressures(quick);
     if (coefficients) signorini::bench::print_friction_coefficients(quick);
     if (friction) signorini::bench::print_friction_costs(quick);
     if (renewal) signorini::bench::print_friction_renewal(quick);
@@ -237,7 +240,7 @@ int main(int argc, char** argv) {
     if (aside) signorini::bench::print_kept_aside_scenes(only);
     if (aside) signorini::bench::print_kept_aside_matrices(only);
     if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside && !partial_slip && !coefficients && !friction && !renewal && !direct && !ccx)
+        !aside && !partial_slip && !coefficients && !friction && !renewal && !direct && !ccx && !pressures)
       signorini::bench::run(quick);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

@@ -32,18 +32,22 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
 
 /// At the vertices.
 struct ContactFields {
-  std::vector<double> gap, pressure, contact, normal, tangential;
+  std::vector<double> gap, pressure, nodal_pressure, contact, normal, tangential;
 };
 
 template <int D, int B>
 ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes) {
   const auto size = static_cast<std::size_t>(nodes.size());
-  ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()), std::vector<double>(size),
-                       std::vector<double>(size), std::vector<double>(B > 1 ? 3 * size : 0),
+  ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()),
+                       std::vector<double>(size),
+                       std::vector<double>(size),
+                       std::vector<double>(size),
+                       std::vector<double>(B > 1 ? 3 * size : 0),
                        std::vector<double>(B > 1 ? 3 * size : 0)};
   for (const ContactNode<B>& node : state.nodes) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
-    fields.pressure[node.vertex] += node.pressure;
+    fields.pressure[node.vertex] += node.recovered;
+    fields.nodal_pressure[node.vertex] += node.pressure;
     if (node.contact) fields.contact[node.vertex] = !node.friction ? 1 : node.sticks ? 3 : 2;
     if (B == 1 || !(node.area > 0)) continue;
     for (int i = 0; i < B; ++i) {
@@ -52,7 +56,8 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
       fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
     }
   }
-  for (auto* field : {&fields.gap, &fields.pressure, &fields.contact}) *field = nodes.at_vertices(std::move(*field), 1);
+  for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
+    *field = nodes.at_vertices(std::move(*field), 1);
   if (B > 1)
     for (auto* field : {&fields.normal, &fields.tangential}) *field = nodes.at_vertices(std::move(*field), 3);
   return fields;
@@ -107,6 +112,7 @@ std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& r
   ContactFields contact = contact_fields(results.contact, nodes);
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
+  fields.push_back({"nodal_pressure", 1, std::move(contact.nodal_pressure)});
   if (B > 1) {
     fields.push_back({"normal_traction", 3, std::move(contact.normal)});
     fields.push_back({"tangential_traction", 3, std::move(contact.tangential)});

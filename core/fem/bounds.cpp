@@ -34,16 +34,16 @@ struct Candidates {
   std::vector<double> areas, volumes;  // per node of the surface or of all: SurfaceVertex::measure for functionals
 
   template <int B>
-  Candidates(const Nodes<D>& nodes, const ObstacleTerm<B>& term, double t)
-      : surface(term.on ? signorini::surface(nodes, select_faces(nodes.mesh(), *term.on, t))
+  Candidates(const Nodes<D>& nodes, const Model<B>& model, const ObstacleTerm<B>& term)
+      : surface(term.on ? signorini::surface(nodes, select_faces(nodes.mesh(), *term.on, model.t))
                         : signorini::surface(nodes)),
         normals(node_normals(nodes, surface)),
         everywhere(!term.on) {
     if (!term.obstacle->nonlinearity()) return;
     if (B == 1 && everywhere)
-      volumes = node_volumes(nodes);
+      volumes = node_volumes(nodes, model.plane);
     else
-      areas = node_areas(nodes, surface);
+      areas = node_areas(nodes, surface, model.plane);
   }
 
   Index size(const Nodes<D>& nodes) const {
@@ -74,7 +74,7 @@ class Collector {
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
-    const Candidates<D> candidates(nodes_, model_.obstacles[obstacle], model_.t);
+    const Candidates<D> candidates(nodes_, model_, model_.obstacles[obstacle]);
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
     const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
     functional_ = of.nonlinearity() != nullptr;

@@ -4,9 +4,8 @@
 #include <cmath>
 
 #include "core/algebra/products.hpp"
-#include "core/fem/element.hpp"
 #include "core/fem/force_split.hpp"
-#include "core/fem/select.hpp"
+#include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/functional.hpp"
 
@@ -15,46 +14,6 @@ namespace {
 
 constexpr double positive_force = 1e-8;  // of the largest force
 constexpr double on_bound = 1e-12;       // of the numbers compared
-
-// Cosine of the angle up to which a face counts as one that the obstacle pushes against: 60 degrees, less rounding.
-constexpr double facing = 0.5 - 1e-9;
-
-// Measures of the contact at nodes, see ContactNode::area.
-template <int D, int B>
-class TributaryAreas {
- public:
-  TributaryAreas(const Nodes<D>& nodes, const ObstacleTerm<B>& term, double t) : nodes_(nodes) {
-    if (B == 1 && !term.on)
-      volumes_ = node_volumes(nodes);
-    else
-      faces_ = term.on ? surface(nodes, select_faces(nodes.mesh(), *term.on, t)) : surface(nodes);
-  }
-
-  double at(const ContactNode<B>& node) const {
-    if (!volumes_.empty()) return volumes_[node.vertex];
-    const auto found = std::lower_bound(faces_.nodes.begin(), faces_.nodes.end(), node.vertex);
-    if (found == faces_.nodes.end() || *found != node.vertex) return 0;
-    const auto v = static_cast<std::size_t>(found - faces_.nodes.begin());
-    double all = 0, pushed = 0;
-    for (Offset k = faces_.first[v]; k < faces_.first[v + 1]; ++k) {
-      const double share = face_share(nodes_, faces_.around[k], node.vertex);
-      all += share;
-      if constexpr (B == D)
-        if (faces(faces_.around[k], node.direction)) pushed += share;
-    }
-    return pushed > 0 ? pushed : all;
-  }
-
- private:
-  bool faces(Index face, const Point<D>& direction) const {
-    const Point<D> n = area_normal(nodes_.mesh(), nodes_.mesh().boundary[face]);
-    return -dot(n, direction) >= facing * std::sqrt(dot(n, n));
-  }
-
-  const Nodes<D>& nodes_;
-  Surface<D> faces_;
-  std::vector<double> volumes_;  // per node, where the obstacle acts on the body
-};
 
 template <int B>
 class NodeReader {
@@ -363,7 +322,7 @@ void add_functionals(const NodeReader<B>& reader, const Model<B>& model, const D
 }
 
 template <int B>
-void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least_force) {
+void add_to(ContactSummary<B>& summary, const ContactNode<B>& node) {
   for (int i = 0; i < B; ++i) summary.tangential_force[i] += node.tangential[i];
   summary.dissipated += node.dissipated;
   if (!node.contact) {
@@ -373,11 +332,26 @@ void add_to(ContactSummary<B>& summary, const ContactNode<B>& node, double least
   summary.slip_nodes += node.friction && !node.sticks;
   summary.stick_nodes += node.friction && node.sticks;
   ++summary.nodes;
-  if (B == 1 || node.pressure * node.area > least_force) summary.area += node.area;
   for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
-  summary.max_pressure = std::max(summary.max_pressure, node.pressure);
+  summary.max_pressure = std::max(summary.max_pressure, node.recovered);
   summary.undetermined_nodes += node.held || node.shared;
   if (node.held || node.shared) summary.undetermined_force += node.pressure * node.area;
+}
+
+// Areas, pressures and what follows from them, for the nodes of one obstacle.
+template <int D, int B>
+void measure(const Nodes<D>& nodes, const Model<B>& model, Index obstacle, double least_force, ContactState<B>& state) {
+  const ContactSurface<D, B> surface(nodes, model, obstacle);
+  ContactSummary<B>& summary = state.obstacles[obstacle];
+  for (ContactNode<B>& node : state.nodes) {
+    if (node.obstacle != obstacle) continue;
+    node.area = surface.area(node);
+    node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
+    if (surface.in_body() && node.contact) summary.area += node.area;
+  }
+  if (!surface.in_body()) summary.area = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
+  for (const ContactNode<B>& node : state.nodes)
+    if (node.obstacle == obstacle) add_to(summary, node);
 }
 
 }  // namespace
@@ -410,15 +384,8 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     if (node.held && !presses) release(node);
     node.shared = node.shared && presses;
   }
-  for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle) {
-    const TributaryAreas<D, B> areas(nodes, model.obstacles[obstacle], model.t);
-    for (ContactNode<B>& node : state.nodes) {
-      if (node.obstacle != static_cast<Index>(obstacle)) continue;
-      node.area = areas.at(node);
-      node.pressure = node.area > 0 ? node.pressure / node.area : 0;
-      add_to(state.obstacles[obstacle], node, positive_force * largest[obstacle]);
-    }
-  }
+  for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
+    measure(nodes, model, static_cast<Index>(obstacle), positive_force * largest[obstacle], state);
   return state;
 }
 

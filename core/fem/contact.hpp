@@ -28,17 +28,18 @@ struct ContactNode {
   /// Obstacles press on the vertex along dependent directions: how the force divides among them is not determined; see
   /// split_force() for what is taken.
   bool shared = false;
+  double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
 };
 
 /// What one obstacle does to the body.
 template <int B>
 struct ContactSummary {
   Index nodes = 0;  ///< in contact
-  /// Sum of the areas of the vertices in contact. In elasticity only of those whose force is positive, that is larger
-  /// than 1e-8 of the largest one.
+  /// Measure of the contact, up to its edge within faces: see recover_pressure(); only forces larger than 1e-8 of the
+  /// largest one count. Of a scalar obstacle without faces the sum of the areas of the vertices in contact.
   double area = 0;
   std::array<double, B> force{};  ///< total
-  double max_pressure = 0;
+  double max_pressure = 0;        ///< the largest ContactNode::recovered
   Index undetermined_nodes = 0;   ///< of those in contact the held and the shared ones
   double undetermined_force = 0;  ///< the sum of what presses there
   Index slip_nodes = 0, stick_nodes = 0;

@@ -1,6 +1,7 @@
 #include "core/fem/error_norm.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/fem/material.hpp"
@@ -30,6 +31,7 @@ double density(const Material<D>& material, const Gradient<D, D>& g) {
 template <int D, int B>
 double energy_error(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                     const ExactGradient<D, B>& exact) {
+  assert(model.plane != Plane::axisymmetric);
   const Mesh<D>& mesh = nodes.mesh();
   const MaterialLaw<B> law(model);
   double sum = 0;

@@ -13,7 +13,7 @@ template <int D, int B>
 using ExactGradient = std::function<Gradient<D, B>(const Point<D>&)>;
 
 /// sqrt(a(u_h - u, u_h - u)) by a rule of degree 5: the error in the energy norm against a solution given by its
-/// gradient. With u_h = 0 it is the energy norm of the exact solution.
+/// gradient. With u_h = 0 it is the energy norm of the exact solution. Not for axisymmetric models.
 /// @param u in global coordinates, B per node
 template <int D, int B>
 double energy_error(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,

@@ -1,10 +1,13 @@
 #include "core/fem/fixes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/sdk/block.hpp"
@@ -59,8 +62,11 @@ class FixCollector {
   FixCollector(const Nodes<D>& nodes, const Model<B>& model)
       : nodes_(nodes), mesh_(nodes.mesh()), t_(model.t), slot_(static_cast<std::size_t>(nodes.size()), -1) {
     // What is prescribed first stays, hence backwards.
+    if (B == D && model.plane == Plane::axisymmetric) add_axis();
     for (auto number = static_cast<Index>(model.fixes.size()) - 1; number >= 0; --number)
       add_fix(model.fixes[number], number);
+    for (const Doubt& doubt : doubts_)
+      if (doubt.later < 0 && doubt.by > same_value * largest_) refuse_on_axis(model.fixes[doubt.earlier], doubt);
   }
 
   std::vector<FixedDirections<B>> fixes;
@@ -68,7 +74,8 @@ class FixCollector {
   std::vector<FixConflict> conflicts() const {
     std::map<std::pair<Index, Index>, std::set<Index>> vertices;
     for (const Doubt& doubt : doubts_)
-      if (doubt.by > same_value * largest_) vertices[{doubt.earlier, doubt.later}].insert(doubt.vertex);
+      if (doubt.later >= 0 && doubt.by > same_value * largest_)
+        vertices[{doubt.earlier, doubt.later}].insert(doubt.vertex);
     std::vector<FixConflict> result;
     result.reserve(vertices.size());
     for (const auto& [fixes_of, where] : vertices)
@@ -82,15 +89,35 @@ class FixCollector {
     double by;
   };
 
+  FixedDirections<B>& at(Index p) {
+    if (slot_[p] < 0) {
+      slot_[p] = static_cast<Index>(fixes.size());
+      fixes.push_back({.vertex = p});
+    }
+    return fixes[slot_[p]];
+  }
+
+  void add_axis() {
+    double radial[B] = {};
+    radial[0] = 1;
+    for (Index p = 0; p < nodes_.size(); ++p)
+      if (nodes_.at(p)[0] == 0) at(p).add(radial, 0, -1);
+  }
+
+  [[noreturn]] void refuse_on_axis(const Fix<B>& fix, const Doubt& doubt) const {
+    input_error(
+        fix.on.origin,
+        fmt::format("prescribes a radial displacement that is {} off at (0, {}), on the axis of an axisymmetric "
+                    "body, where it is zero; expected 0 or \"free\" there",
+                    doubt.by, nodes_.at(doubt.vertex)[1]));
+  }
+
   void add_fix(const Fix<B>& fix, Index number) {
     const Surface<D> picked = surface(nodes_, select_faces(mesh_, fix.on, t_));
     const std::vector<Point<D>> normals = node_normals(nodes_, picked);
     for (std::size_t v = 0; v < picked.nodes.size(); ++v) {
       const Index p = picked.nodes[v];
-      if (slot_[p] < 0) {
-        slot_[p] = static_cast<Index>(fixes.size());
-        fixes.push_back({.vertex = p});
-      }
+      at(p);
       if constexpr (B == D)
         if (fix.frame == Frame::normal) {
           const Index* faces = picked.around.data() + picked.first[v];
@@ -164,7 +191,7 @@ bool FixedDirections<B>::along_axes() const {
 
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model) {
-  if (model.fixes.empty()) return {};
+  if (model.fixes.empty() && model.plane != Plane::axisymmetric) return {};
   std::vector<FixedDirections<B>> fixes = FixCollector<D, B>(nodes, model).fixes;
   std::erase_if(fixes, [](const auto& f) { return f.count == 0; });
   std::sort(fixes.begin(), fixes.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });

@@ -15,9 +15,10 @@ void each_at_fixes(const std::vector<FixedDirections<B>>& fixes, const ContactSt
   }
 }
 
-/// Adds `force` to the reaction of the fix that prescribes direction k.
+/// Adds `force` to the reaction of the fix that prescribes direction k; what the axis prescribes has none.
 template <int B>
 void add(std::vector<std::array<double, B>>& reactions, const FixedDirections<B>& fixed, int k, double force) {
+  if (fixed.fix[k] < 0) return;
   for (int i = 0; i < B; ++i) reactions[fixed.fix[k]][i] += force * fixed.direction[k][i];
 }
 

@@ -4,7 +4,8 @@
 namespace signorini {
 
 /// Total forces on a body, one entry per unknown of a vertex; for a scalar unknown sources and fluxes. At a solution
-/// they sum to zero but for its algebraic error.
+/// they sum to zero but for its algebraic error. Of an axisymmetric body the first entry is an integral of radial
+/// forces, without a resultant: hoop stresses carry their sum.
 template <int B>
 struct Forces {
   std::vector<std::array<double, B>> applied;    ///< per load of the model

@@ -3,6 +3,7 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/quadrature.hpp"
+#include "core/fem/revolution.hpp"
 #include "core/fem/select.hpp"
 
 namespace signorini {
@@ -29,11 +30,13 @@ struct Loaded {
 
 // Adds what a load does on a simplex with K + 1 corners and these nodes.
 template <int D, int B, int K, class SimplexNodes>
-void integrate(const Mesh<D>& mesh, const Load<B>& load, const std::array<Index, K + 1>& corners,
-               const SimplexNodes& nodes, double measure, std::span<const QuadraturePoint<K>> rule, double t,
-               const Point<D>& normal, Loaded<B>& out) {
-  for (const auto& [barycentric, weight] : rule) {
-    const auto f = value(load, site<D>(combine<D>(mesh, corners, barycentric), t, normal));
+void integrate(const Mesh<D>& mesh, const Model<B>& model, const Load<B>& load, const std::array<Index, K + 1>& corners,
+               const SimplexNodes& nodes, double measure, const Point<D>& normal,
+               std::span<const QuadraturePoint<K>> rule, Loaded<B>& out) {
+  for (const auto& [barycentric, part] : rule) {
+    const Point<D> x = combine<D>(mesh, corners, barycentric);
+    const double weight = part * circumference<D>(model.plane, x);
+    const auto f = value(load, site<D>(x, model.t, normal));
     const auto& values = basis(barycentric);
     for (std::size_t a = 0; a < nodes.size(); ++a)
       for (int i = 0; i < B; ++i) out.b[Offset{nodes[a]} * B + i] += weight * measure * values[a] * f[i];
@@ -51,26 +54,34 @@ std::span<const QuadraturePoint<K>> midpoint_rule() {
   return {&rule, 1};
 }
 
+// Where a load is constant, and the circumference too, one point is enough; where one of them is linear, few are.
+template <int K, int B>
+std::span<const QuadraturePoint<K>> rule(const Model<B>& model, const Load<B>& load,
+                                         std::span<const QuadraturePoint<K>> varying) {
+  if (!is_constant(load)) return model.plane == Plane::axisymmetric ? quadrature5<K>() : varying;
+  return model.plane == Plane::axisymmetric ? quadrature2<K>() : midpoint_rule<K>();
+}
+
 template <int D, int B>
-void add_body_force(const Nodes<D>& nodes, const Load<B>& load, double t, Loaded<B>& out) {
+void add_body_force(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Loaded<B>& out) {
   const Mesh<D>& mesh = nodes.mesh();
-  const auto rule = is_constant(load) ? midpoint_rule<D>() : quadrature2<D>();
+  const auto points = rule<D>(model, load, quadrature2<D>());
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Simplex<D>& vertices = mesh.elements[e];
-    integrate<D, B, D>(mesh, load, vertices, nodes.of_element(e), linear_element(mesh, vertices).measure, rule, t, {},
-                       out);
+    integrate<D, B, D>(mesh, model, load, vertices, nodes.of_element(e), linear_element(mesh, vertices).measure, {},
+                       points, out);
   }
 }
 
 template <int D, int B>
-void add_traction(const Nodes<D>& nodes, const Load<B>& load, double t, Loaded<B>& out) {
+void add_traction(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Loaded<B>& out) {
   const Mesh<D>& mesh = nodes.mesh();
-  const auto rule = is_constant(load) ? midpoint_rule<D - 1>() : quadrature5<D - 1>();
-  for (const Index f : select_faces(mesh, *load.on, t)) {
+  const auto points = rule<D - 1>(model, load, quadrature5<D - 1>());
+  for (const Index f : select_faces(mesh, *load.on, model.t)) {
     const Face<D>& face = mesh.boundary[f];
     Point<D> normal = area_normal(mesh, face);
     const double measure = normalise(normal);
-    integrate<D, B, D - 1>(mesh, load, face.vertices, nodes.of_face(f), measure, rule, t, normal, out);
+    integrate<D, B, D - 1>(mesh, model, load, face.vertices, nodes.of_face(f), measure, normal, points, out);
   }
 }
 
@@ -89,9 +100,9 @@ std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
   for (const Load<B>& load : model.loads) {
     out.total = {};
     if (load.on)
-      add_traction(nodes, load, model.t, out);
+      add_traction(nodes, model, load, out);
     else if (!is_zero(load))
-      add_body_force(nodes, load, model.t, out);
+      add_body_force(nodes, model, load, out);
     if (totals) totals->push_back(out.total);
   }
   return std::move(out.b);

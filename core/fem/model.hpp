@@ -19,7 +19,8 @@ struct Selection {
   std::string origin;  ///< for messages: "scene.toml:12: fix.0"
 };
 
-enum class Plane { strain, stress };
+/// Across a plane mesh. Axisymmetric: it is the meridian (r, z) of a body of revolution.
+enum class Plane { strain, stress, axisymmetric };
 enum class Frame { global, normal };
 
 /// Dirichlet condition: one field per component, empty where the component is free.
@@ -56,7 +57,7 @@ template <int B>
 struct Model {
   Field diffusion = 1;           ///< B = 1
   Field young = 1, poisson = 0;  ///< B > 1
-  Plane plane = Plane::strain;   ///< B = 2
+  Plane plane = Plane::strain;   ///< D = 2; of B = 1 only whether it is axisymmetric
   std::vector<Fix<B>> fixes;
   std::vector<Load<B>> loads;
   std::vector<ObstacleTerm<B>> obstacles;

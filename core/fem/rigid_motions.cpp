@@ -91,7 +91,8 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, double tolerance) {
 }
 
 template <int D, int B>
-RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes) : nodes_(nodes) {
+RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes, Plane plane)
+    : nodes_(nodes), axial_(B > 1 && plane == Plane::axisymmetric) {
   for (int i = 0; i < D; ++i) {
     const auto [low, high] =
         std::ranges::minmax(nodes.mesh().points, {}, [i](const Point<D>& x) { return x[static_cast<std::size_t>(i)]; });
@@ -102,7 +103,11 @@ RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes) : nodes_(nodes) {
 
 template <int D, int B>
 auto RigidMotions<D, B>::along(Index p, const double* d) const -> Row {
-  Row row;
+  Row row = Row::Zero();
+  if (axial_) {
+    if constexpr (B > 1) row[1] = d[1];
+    return row;
+  }
   for (int i = 0; i < translations; ++i) row[i] = d[i];
   if constexpr (B > 1) {
     Point<D> y;
@@ -125,6 +130,9 @@ auto RigidMotions<D, B>::along(const Frames<B>& frames, Index p, int k) const ->
 template <int D, int B>
 Eigen::MatrixXd RigidMotions<D, B>::free(const DiscreteProblem<B>& problem) const {
   Rows rows(modes);
+  if (axial_)
+    for (int mode = 0; mode < modes; ++mode)
+      if (mode != 1) rows.add(Row::Unit(mode));
   for (std::size_t p = 0; p < problem.fixed.size(); ++p)
     for (int k = 0; k < B; ++k)
       if (problem.fixed[p] >> k & 1u) {

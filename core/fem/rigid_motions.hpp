@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
 #include "core/solver/discrete_problem.hpp"
 
@@ -19,8 +20,9 @@ class RigidMotions {
   using Motion = Eigen::Matrix<double, modes, 1>;
   using Row = Eigen::Matrix<double, 1, modes>;
 
-  /// Keeps a reference.
-  explicit RigidMotions(const Nodes<D>& nodes);
+  /// Keeps a reference. An axisymmetric elastic body has the translation along the axis alone: the other modes have
+  /// energy, move nothing here and are never free.
+  explicit RigidMotions(const Nodes<D>& nodes, Plane plane = Plane::strain);
 
   /// Half the longest extent of the body.
   double size() const { return size_; }
@@ -45,6 +47,7 @@ class RigidMotions {
   std::string at(const Point<D>& from_middle) const;
 
   const Nodes<D>& nodes_;
+  bool axial_;  // no motion but along the axis
   Point<D> middle_{};
   double size_ = 0;
 };

@@ -8,6 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
+#include "core/fem/quadrature.hpp"
+#include "core/fem/revolution.hpp"
 #include "core/mesh/boundary.hpp"
 
 namespace signorini {
@@ -41,8 +43,16 @@ void keep_where(const Mesh<D>& mesh, const Field& where, double t, std::vector<I
   });
 }
 
+/// The mean over a simplex of its k-th basis function, times the circumference.
+template <int D, std::size_t N>
+double basis_integral(Plane plane, const Mesh<D>& mesh, const std::array<Index, N>& vertices, std::size_t k) {
+  return plane == Plane::axisymmetric ? hat_circumference<D>(plane, mesh, vertices, k) : basis_mean<N>(k);
+}
+
 std::string describe(const Selection& selection) {
-  if (!selection.where) return fmt::format("part '{}' has no boundary face", selection.part.value_or("boundary"));
+  if (!selection.where)
+    return fmt::format("part '{}' has no boundary face (the axis of an axisymmetric body is no boundary)",
+                       selection.part.value_or("boundary"));
   return fmt::format(
       "no boundary face{} has all its vertices where '{}'; faces of the coarsest mesh are picked, which a smaller "
       "'size' or more 'cells' makes smaller",
@@ -105,30 +115,49 @@ std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surf
 }
 
 template <int D>
-double face_share(const Nodes<D>& nodes, Index face, Index node) {
-  const Point<D> n = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
+double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
+  const Mesh<D>& mesh = nodes.mesh();
+  const Point<D> n = area_normal(mesh, mesh.boundary[face]);
   const auto all = nodes.of_face(face);
-  const auto at = std::find(all.begin(), all.end(), node) - all.begin();
-  return std::sqrt(dot(n, n)) * basis_mean<D>(static_cast<std::size_t>(at));
+  const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
+  return std::sqrt(dot(n, n)) * basis_integral<D>(plane, mesh, mesh.boundary[face].vertices, at);
 }
 
 template <int D>
-std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface) {
+Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
+  const Mesh<D>& mesh = nodes.mesh();
+  const auto all = nodes.of_face(face);
+  const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
+  Point<D> sum{};
+  double whole = 0;
+  for (const auto& [barycentric, weight] : quadrature5<D - 1>()) {
+    const Point<D> x = combine<D>(mesh, mesh.boundary[face].vertices, barycentric);
+    const double part = weight * basis(barycentric)[at] * circumference<D>(plane, x);
+    for (int i = 0; i < D; ++i) sum[i] += part * x[i];
+    whole += part;
+  }
+  for (double& c : sum) c /= whole;
+  return whole > 0 ? sum : nodes.at(node);
+}
+
+template <int D>
+std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface, Plane plane) {
   std::vector<double> areas(surface.nodes.size());
   for (std::size_t v = 0; v < areas.size(); ++v)
     for (Offset k = surface.first[v]; k < surface.first[v + 1]; ++k)
-      areas[v] += face_share(nodes, surface.around[k], surface.nodes[v]);
+      areas[v] += face_share(nodes, surface.around[k], surface.nodes[v], plane);
   return areas;
 }
 
 template <int D>
-std::vector<double> node_volumes(const Nodes<D>& nodes) {
+std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
   const Mesh<D>& mesh = nodes.mesh();
   std::vector<double> volumes(static_cast<std::size_t>(nodes.size()));
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const double measure = linear_element(mesh, mesh.elements[e]).measure;
     const auto node = nodes.of_element(e);
-    for (std::size_t a = 0; a < node.size(); ++a) volumes[node[a]] += measure * basis_mean<D + 1>(a);
+    for (std::size_t a = 0; a < node.size(); ++a)
+      volumes[node[a]] += measure * basis_integral<D>(plane, mesh, mesh.elements[e], a);
   }
   return volumes;
 }
@@ -138,9 +167,10 @@ std::vector<double> node_volumes(const Nodes<D>& nodes) {
   template Surface<D> surface(const Nodes<D>&, std::vector<Index>);                   \
   template Surface<D> surface(const Nodes<D>&);                                       \
   template std::vector<Point<D>> node_normals<D>(const Nodes<D>&, const Surface<D>&); \
-  template double face_share(const Nodes<D>&, Index, Index);                          \
-  template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&);        \
-  template std::vector<double> node_volumes(const Nodes<D>&);
+  template double face_share(const Nodes<D>&, Index, Index, Plane);                   \
+  template Point<D> share_middle<D>(const Nodes<D>&, Index, Index, Plane);            \
+  template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&, Plane); \
+  template std::vector<double> node_volumes(const Nodes<D>&, Plane);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

@@ -33,16 +33,21 @@ Surface<D> surface(const Nodes<D>& nodes);
 template <int D>
 std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface);
 
-/// Integrals of the basis functions over a surface, one per node of it: they sum to its measure.
+/// Integrals of the basis functions over a surface, one per node of it: they sum to its measure. Of an axisymmetric
+/// body over what the surface stands for, here and below.
 template <int D>
-std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface);
+std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface, Plane plane = Plane::strain);
 
 /// The part of a node in the measure of a face that it lies on: the integral of its basis function there.
 template <int D>
-double face_share(const Nodes<D>& nodes, Index face, Index node);
+double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
+
+/// The centroid of the node's basis function on a face that it lies on.
+template <int D>
+Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
 
 /// Integrals of the basis functions over the body, one per node.
 template <int D>
-std::vector<double> node_volumes(const Nodes<D>& nodes);
+std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane = Plane::strain);
 
 }  // namespace signorini

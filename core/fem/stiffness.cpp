@@ -3,6 +3,7 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/checked_element.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/revolution.hpp"
 #include "core/fem/stiffness_scalar.hpp"
 
 namespace signorini {
@@ -77,6 +78,18 @@ inline void add_block(const Material<D>& material, double measure, const Point<D
   }
 }
 
+// What hoop strains add to it: that of a basis function is `hoop` per radial displacement.
+template <int D>
+inline void add_hoop(const Material<D>& material, double measure, double hoop, const Point<D>& g, const Point<D>& h,
+                     double* entry) {
+  const double lambda = measure * material.lambda * hoop;
+  for (int i = 0; i < D; ++i) {
+    entry[i] += lambda * h[i];
+    entry[i * D] += lambda * g[i];
+  }
+  entry[0] += (lambda + 2 * measure * material.mu * hoop) * hoop;
+}
+
 // Adds the diagonal blocks and those above the diagonal.
 template <int D, int B>
 void add_upper_half(const Nodes<D>& nodes, const Model<B>& model, Assembly<B>& out) {
@@ -84,18 +97,24 @@ void add_upper_half(const Nodes<D>& nodes, const Model<B>& model, Assembly<B>& o
   const MaterialLaw<B> law(model);
   Material<B> material = law.constant() ? law.at({}) : Material<B>{};
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const LinearElement<D> s = checked_element(mesh, mesh.elements[e], model.origin);
+    LinearElement<D> s = checked_element(mesh, mesh.elements[e], model.origin);
+    s.measure *= mean_circumference<D>(model.plane, mesh, mesh.elements[e]);
+    const double hoop = hoop_factor<D>(model.plane, mesh, mesh.elements[e]) / (D + 1);
     const auto node = nodes.of_element(e);
     if (!law.constant()) material = law.at(site_in(mesh, e, model.t));
+    const auto add = [&](int a, int b, double* entry) {
+      add_block<D>(material, s.measure, s.gradient[a], s.gradient[b], entry);
+      if (hoop > 0) add_hoop<D>(material, s.measure, hoop, s.gradient[a], s.gradient[b], entry);
+    };
     for (int a = 0; a <= D; ++a) {
       const Index p = node[a];
-      add_block<D>(material, s.measure, s.gradient[a], s.gradient[a], out.A.at(out.A.row[p]));
+      add(a, a, out.A.at(out.A.row[p]));
       for (int b = a + 1; b <= D; ++b) {
         const Index q = node[b];
         if (p < q)
-          add_block<D>(material, s.measure, s.gradient[a], s.gradient[b], out.entry(p, q));
+          add(a, b, out.entry(p, q));
         else
-          add_block<D>(material, s.measure, s.gradient[b], s.gradient[a], out.entry(q, p));
+          add(b, a, out.entry(q, p));
       }
     }
   }

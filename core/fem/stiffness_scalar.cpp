@@ -3,6 +3,7 @@
 #include "core/fem/checked_element.hpp"
 #include "core/fem/local_stiffness.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/revolution.hpp"
 #include "core/fem/symmetric_rows.hpp"
 
 namespace signorini {
@@ -42,11 +43,12 @@ class ScalarAssembler {
     Site where;
     if (!law_.constant()) where = site<D>(centroid<D>(mesh_, vertices), model_.t);
     where.region = region;
-    return element_stiffness(s, s.measure * law_.at(where).diffusion);
+    const double around = mean_circumference<D>(model_.plane, mesh_, vertices);
+    return element_stiffness(s, around * s.measure * law_.at(where).diffusion);
   }
 
   FamilyStiffness<D> family(const Family<D>& vertices) const {
-    if (law_.constant() && is_straight(vertices)) {
+    if (law_.constant() && model_.plane != Plane::axisymmetric && is_straight(vertices)) {
       Simplex<D> father;
       std::copy_n(vertices.begin(), D + 1, father.begin());
       const LinearElement<D> s = linear_element(mesh_, father);

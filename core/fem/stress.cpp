@@ -4,23 +4,31 @@
 
 #include "core/fem/gradient.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/revolution.hpp"
 
 namespace signorini {
 namespace {
 
 template <int D>
-Stress stress(const Material<D>& material, const Gradient<D, D>& g, bool plane_stress) {
-  double trace = 0;
+Stress stress(const Material<D>& material, const Gradient<D, D>& g, double hoop, bool plane_stress) {
+  double trace = hoop;
   for (int i = 0; i < D; ++i) trace += g[i][i];
   Stress s{};
   for (int i = 0; i < D; ++i) s[i] = material.lambda * trace + 2 * material.mu * g[i][i];
-  if (D == 2 && !plane_stress) s[2] = material.lambda * trace;
+  if (D == 2 && !plane_stress) s[2] = material.lambda * trace + 2 * material.mu * hoop;
   s[3] = material.mu * (g[0][1] + g[1][0]);
   if constexpr (D == 3) {
     s[4] = material.mu * (g[1][2] + g[2][1]);
     s[5] = material.mu * (g[0][2] + g[2][0]);
   }
   return s;
+}
+
+template <int D>
+double hoop_strain(const Nodes<D>& nodes, const Model<D>& model, std::size_t e, const std::vector<double>& u) {
+  double sum = 0;
+  for (const Index p : nodes.of_element(e)) sum += u[Offset{p} * D];
+  return sum / (D + 1) * hoop_factor<D>(model.plane, nodes.mesh(), nodes.mesh().elements[e]);
 }
 
 }  // namespace
@@ -34,7 +42,7 @@ std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model,
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const Gradient<D, D> g = gradient<D, D>(linear_element(mesh, mesh.elements[e]), nodes.of_element(e), u);
     const Material<D> material = law.at(site_in(mesh, e, model.t));
-    out.push_back(stress<D>(material, g, model.plane == Plane::stress));
+    out.push_back(stress<D>(material, g, hoop_strain(nodes, model, e, u), model.plane == Plane::stress));
   }
   return out;
 }

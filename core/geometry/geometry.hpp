@@ -22,6 +22,7 @@ struct Disk {
   Point<2> center;
   double radius;
   bool lower_half = false;
+  bool right_half = false;  ///< its straight side there has no name
 };
 struct Polygon {
   std::vector<Point<2>> points;

@@ -38,6 +38,7 @@ Json contact(const ContactReport& contact) {
           {"nodes", contact.nodes},
           {"open_nodes", contact.open_nodes},
           {"area", contact.area},
+          {"radius", contact.radius},
           {"force", contact.force},
           {"max_pressure", contact.max_pressure},
           {"slip_nodes", contact.slip_nodes},
@@ -91,7 +92,9 @@ Json body(const BodyReport& body) {
           {"rate", summary.rate},
           {"energy", summary.energy},
           {"limited_by_rounding", limited_by_rounding(summary)},
-          {"reason", summary.reason}};
+          {"reason", summary.reason},
+          {"axisymmetric", body.axisymmetric},
+          {"axis_nodes", body.axis_nodes}};
 }
 
 Json solver(const SolverOptions& options) {

@@ -15,6 +15,7 @@ struct ContactReport {
   Index nodes = 0;            ///< vertices in contact
   Index open_nodes = 0;       ///< those it may reach besides
   double area = 0;            ///< measure of the contact (or coincidence) set; a length in 2D
+  double radius = 0;          ///< of a disk of that area; in 2D half the length
   std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
   double max_pressure = 0;
   Index slip_nodes = 0, stick_nodes = 0;               ///< of those in contact, where there is friction
@@ -50,6 +51,8 @@ struct BalanceReport {
 struct BodyReport {
   std::string name;
   Summary summary;
+  bool axisymmetric = false;  ///< forces, areas and energies are those of the whole body
+  Index axis_nodes = 0;       ///< held on the axis, where the radial displacement is zero
 };
 
 /// The solution at a point.

@@ -6,6 +6,34 @@
 namespace signorini {
 namespace {
 
+constexpr const char* body_details = R"(
+**Axisymmetric bodies.** Half of the section is meshed, and stands for the body that it makes when it turns around the axis:
+
+```
+[[body]]
+name = "ball"
+shape = "half_disk"                # with its centre on the axis: the right half of it is meshed
+center = [0, 0]
+radius = 1
+size = 0.1
+plane = "axisymmetric"             # x is the radius r, y the axis z
+young = 1
+poisson = 0.3
+```
+
+- All of the section lies at r >= 0. A mesh that reaches beyond is refused. A `disk` or `half_disk` with its centre on the
+  axis is cut there.
+- The axis r = 0 is no boundary: no part has faces on it, and `on = "boundary"` leaves it out. The radial displacement is
+  zero there by itself; `axis_nodes` of the report counts these nodes. A fix that prescribes another one is refused.
+- Forces, areas, volumes and energies are those of the whole body. Loads are still given per area or volume.
+- The first entry of a force is the integral of its radial part. It has no resultant: hoop stresses carry it, so that only
+  the second entries of `balance` sum to zero.
+- The only rigid motion is that along the axis. Moments are zero.
+- Obstacles are the surfaces that their shapes sweep: a plane with `normal = [-1, 0]` is a bore, a tilted one a cone, a
+  sphere with its centre off the axis a ring. All types work as in the plane, friction acts along the section.
+- In the VTU `stress` has the radial stress as xx, the axial one as yy, and the hoop stress as zz.
+)";
+
 constexpr const char* selection = R"(
 - One of `on` and `where` picks the faces, in this table and the next ones. Both together are an error.
 - `where` is judged on the faces of the coarsest mesh. Finer ones inherit it. Where it cuts through faces of the coarsest
@@ -23,8 +51,12 @@ Every key not listed here belongs to the plugin; `signorini list obstacles` show
 and `upper`.
 
 **Which faces count.** `on` and `where` may pick more faces than come into contact. The contact area of a node, and its
-pressure, which is force over area, count only those of the picked faces whose outer normal is within 60 degrees of the
-direction to the obstacle. (At a tip that is sharper than that, all count.)
+pressure, count only those of the picked faces whose outer normal is within 60 degrees of the direction to the obstacle. (At
+a tip that is sharper than that, all count.)
+
+**Pressure.** `max_pressure` and `contact_pressure` of the VTU are recovered from the forces at the nodes
+([pressures.md](pressures.md)). `nodal_pressure` of the VTU is a node's force over its area. `area` ends within faces, where
+the recovered pressure does; `radius` is that of a disk with this area, in 2D half of it.
 
 **Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before it
 moves. After the solve the nodes of the deformed boundary are compared with the true obstacle:
@@ -120,7 +152,7 @@ to = [2, 1, 1]
 cells = [8, 4, 4]
 young = 210000
 poisson = 0.3)",
-     ""},
+     body_details},
     {"material", "", material_details},
     {"fix", R"([[fix]]
 body = "block"

@@ -62,10 +62,22 @@ Scene::BodyShape shape(const TableReader& reader, std::string_view name) {
   return polygon(reader);
 }
 
+Plane plane(const std::string& name) {
+  if (name == "axisymmetric") return Plane::axisymmetric;
+  return name == "strain" ? Plane::strain : Plane::stress;
+}
+
+// Of a disk around the axis the half that turns around it is meshed.
+void cut_at_axis(Scene::Body& body) {
+  auto* disk = std::get_if<geometry::Disk>(&body.shape);
+  if (disk && body.plane == Plane::axisymmetric) disk->right_half = disk->center[0] == 0;
+}
+
 void read_material(const TableReader& reader, Scene::Body& body) {
   const std::string where = fmt::format("for equation = '{}'", reader.text("equation"));
   if (body.equation == Scene::Equation::diffusion) {
-    for (const char* key : {"young", "poisson", "plane"}) reader.forbid(key, where);
+    for (const char* key : {"young", "poisson"}) reader.forbid(key, where);
+    if (body.plane != Plane::axisymmetric) reader.forbid("plane", where + ", unless it is 'axisymmetric'");
     body.diffusion = reader.field("diffusion");
     return;
   }
@@ -73,7 +85,6 @@ void read_material(const TableReader& reader, Scene::Body& body) {
   for (const char* key : {"young", "poisson"}) reader.require(key, where);
   body.young = reader.field("young");
   body.poisson = reader.field("poisson");
-  body.plane = reader.text("plane") == "strain" ? Plane::strain : Plane::stress;
 }
 
 // The target edge length belongs to the shapes that a mesh generator fills.
@@ -104,6 +115,8 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   body.shape = spec ? shape(reader, spec->name) : Scene::MeshFile{reader.file("mesh")};
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
   body.order = reader.integer("order");
+  body.plane = plane(reader.text("plane"));
+  cut_at_axis(body);
   read_material(reader, body);
   read_size(reader, body);
   return body;

@@ -53,7 +53,7 @@ struct Scene {
     Equation equation = Equation::elasticity;
     Field young = 1, poisson = 0;  ///< elasticity
     Field diffusion = 1;           ///< diffusion
-    Plane plane = Plane::strain;   ///< 2D elasticity
+    Plane plane = Plane::strain;   ///< 2D
     int order = 1;
     Source source;
   };

@@ -79,6 +79,7 @@ void expect_uniform(const std::string& what, const Mesh<D>& mesh, const Motion<D
   for (const auto& node : r.results.contact.nodes) {
     ASSERT_TRUE(node.contact);
     ASSERT_NEAR(node.pressure, -axial, 1e-9 * -axial);
+    ASSERT_NEAR(node.recovered, -axial, 1e-8 * -axial);
   }
   EXPECT_NEAR(r.contact().area, std::pow(motion.scale, D - 1), 1e-9);
   for (int i = 0; i < D; ++i) EXPECT_NEAR(r.contact().force[i], axial * axis[i], 1e-9 * -axial);
@@ -124,6 +125,36 @@ normal = [0, 0, 1])",
   for (const auto& node : r.results.contact.nodes) {
     if (!node.contact) continue;
     ASSERT_NEAR(node.pressure, 0.01, 1e-11);
+    ASSERT_NEAR(node.recovered, 0.01, 1e-10);
+  }
+}
+
+// A smooth rigid punch of width 1 with sharp corners, on a body that is wider: p = F / (pi sqrt(1/4 - x^2)) on a half
+// plane, M. Sadowsky 1928. Infinite at the corners, the pressure stays one that the nodes there have.
+TEST(Punch, SingularPressureAtTheCornersOfAPunch) {
+  const SceneText scene{
+      .body = "shape = \"rectangle\"\nfrom = [-4, 0]\nto = [4, 4]\ncells = [16, 8]\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0, -0.01]"},
+      .obstacle =
+          "type = \"contact\"\non = \"bottom\"\nshape = \"expression\"\n"
+          "distance = \"abs(x) < 0.501 ? y : y + 1\"\nnormal = [0, 1]"};
+  for (const int k : {2, 3, 4, 5}) {
+    const auto r = run<2, 2>(scene, {uniform(k)});
+    const double h = 0.5 / (1 << k), F = r.contact().force[1];
+    double largest = 0, error = 0;
+    for (const auto& node : r.results.contact.nodes) {
+      const double x = r.nodes().at(node.vertex)[0];
+      largest = std::max(largest, node.pressure);
+      EXPECT_GE(node.recovered, 0);
+      if (node.contact && std::abs(x) < 0.3)
+        error = std::max(error, std::abs(node.recovered * pi * std::sqrt(0.25 - x * x) / F - 1));
+    }
+    show("punch: largest {} of {} at nodes, width {}, error within {}\n", r.contact().max_pressure, largest,
+         r.contact().area, error);
+    EXPECT_LE(r.contact().max_pressure, 1.25 * largest);
+    EXPECT_GE(r.contact().max_pressure, 0.99 * largest);
+    EXPECT_NEAR(r.contact().area, 1, 1.01 * h);
+    EXPECT_LE(error, k < 4 ? 0.1 : 0.04);
   }
 }
 

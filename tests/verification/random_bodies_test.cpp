@@ -372,6 +372,30 @@ bool rounding_is_felt(const Discretization<D>& d, const std::vector<double>& u) 
   return std::numeric_limits<double>::epsilon() * stiffest * farthest > 1e-3 * load;
 }
 
+/// What is wrong with recovered pressures, whatever the contact is: edges, corners, single nodes.
+template <int D>
+std::string odd_pressures(const Mesh<D>& mesh, const Model<D>& model, const Solution<D>& solution) {
+  const Nodes<D> nodes(mesh);
+  const ContactState<D> state = contact_state<D, D>(nodes, model, solution.discretization, solution.x);
+  for (std::size_t o = 0; o < state.obstacles.size(); ++o) {
+    double largest = 0, reach = 0, most = 0;
+    for (const ContactNode<D>& node : state.nodes) {
+      if (node.obstacle != static_cast<Index>(o)) continue;
+      largest = std::max(largest, node.pressure);
+      most = std::max(most, node.recovered);
+      if (node.contact && node.pressure > 0) reach += D * node.area;  // all of the faces around it
+      if (!(node.recovered >= 0) || (!node.contact && node.recovered != 0))
+        return fmt::format("a pressure of {} at node {}", node.recovered, node.vertex);
+    }
+    const ContactSummary<D>& sum = state.obstacles[o];
+    if (!(most <= 1.25 * largest * (1 + 1e-12)) || sum.max_pressure != most)
+      return fmt::format("a pressure of {}, {} of the nodes'", most, largest);
+    if (!(sum.area >= 0 && sum.area <= reach * (1 + 1e-12)) || (largest > 0 && sum.area == 0))
+      return fmt::format("{} in contact, {} within reach", sum.area, reach);
+  }
+  return "";
+}
+
 template <int D>
 void judge_one(std::uint64_t seed, Bodies bodies, Tally& tally) {
   const RandomBody<D> body(seed, bodies);
@@ -399,6 +423,8 @@ void judge_one(std::uint64_t seed, Bodies bodies, Tally& tally) {
       found = "solved";
     else if (const double off = imbalance<D>(body, meshes.finest(), model, solution, crowded); !(off <= 1e-4))
       found = fmt::format("forces out of balance by {}", off);
+    else if (const std::string odd = odd_pressures<D>(meshes.finest(), model, solution); !odd.empty())
+      found = odd;
     else
       ++tally.solved, tally.crowded += crowded;
   } catch (const Error& error) {

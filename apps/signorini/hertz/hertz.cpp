@@ -80,7 +80,7 @@ void compare(const std::string& report_file, const std::string& scene_file) {
   double squares = 0;
   for (const double component : contact.at("force")) squares += component * component;
   const double force = std::sqrt(squares), area = contact.at("area");
-  const bool plane = scene.dimension == 2;
+  const bool plane = scene.dimension == 2 && scene.bodies.front().plane != Plane::axisymmetric;
   const Contact hertz = plane ? cylinder(bodies(scene), force) : ball(bodies(scene), force);
   fmt::print("Comparison with Hertz for the force {:.6g}{}\n", force, plane ? " per length" : "");
   fmt::print("  {:<16} {:>12} {:>12} {:>12}\n", "", "computed", "Hertz", "difference");

@@ -22,7 +22,12 @@ Outline outline_of(const Disk& disk) {
   const double r = disk.radius;
   const Point<2> left{c[0] - r, c[1]}, right{c[0] + r, c[1]};
   Outline result{shape, {}, Curve<2>{c, r, false}, 2 * r, r, {}};
-  if (disk.lower_half)
+  const Point<2> top{c[0], c[1] + r}, bottom{c[0], c[1] - r};
+  if (disk.lower_half && disk.right_half)
+    result.sides = {{bottom, right, true, "curved"}, {right, c, false, "flat"}, {c, bottom, false, ""}};
+  else if (disk.right_half)
+    result.sides = {{bottom, top, true, ""}, {top, bottom, false, ""}};
+  else if (disk.lower_half)
     result.sides = {{left, right, true, "curved"}, {right, left, false, "flat"}};
   else
     result.sides = {{right, right, true, ""}};

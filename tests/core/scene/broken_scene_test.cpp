@@ -224,7 +224,6 @@ struct Later {
 };
 
 const std::vector<Later> later = {{ball, "body.0.order=2"},
-                                  {ball, "body.0.plane=axisymmetric"},
                                   {ball, "obstacle.0.other=ball"},
                                   {ball, "obstacle.0.other_on=boundary"},
                                   {ball, "obstacle.0.other_where=z>0"},

@@ -1,0 +1,24 @@
+#pragma once
+#include "core/fem/contact_surface.hpp"
+
+namespace signorini {
+
+/// Contact pressure of second order from nodal forces, which stay as they are.
+///
+/// The force at a node over the area of its hat function is the mean of the pressure there, which is its value at the
+/// centroid of that function, not at the node. Squares of these values are fitted by quadratic polynomials over three
+/// rings of neighbours (at the edge five), by least squares. Why squares? At the edge of smooth contact the pressure
+/// ends like a square root; its square goes through zero there like a straight line. Only nodes count whose neighbours
+/// are all in contact: the others feel the edge, and what is fitted goes on to them and to the edge.
+///
+/// Sets ContactNode::recovered of an obstacle's nodes. It lies between the least and 1.25 times the largest of the
+/// means at the node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it. Where
+/// too few nodes are around, or it rises towards the edge as under a punch, it is the mean.
+/// @param least_force forces up to this one are none
+/// @return measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where it does not
+/// fall towards the edge, as under a punch, contact goes on half way to the next node.
+template <int D, int B>
+double recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
+                        std::vector<ContactNode<B>>& contact);
+
+}  // namespace signorini
