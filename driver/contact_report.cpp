@@ -53,7 +53,7 @@ void add_moments(const Nodes<D>& nodes, const Results<D, B>& results, std::vecto
     for (ContactReport& report : reports) report.moment.resize(D == 2 ? 1 : 3);
     for (const ContactNode<B>& node : results.contact.nodes) {
       ContactReport& report = reports[node.obstacle];
-      Point<D> lever = nodes.at(node.vertex);
+      Point<D> lever = nodes.control_point(node.vertex);
       for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
       add_moment<D>(lever, node.force, report.moment);
     }

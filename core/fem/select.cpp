@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
+#include "core/fem/quadrature.hpp"
 #include "core/mesh/boundary.hpp"
 
 namespace signorini {
@@ -108,8 +109,14 @@ template <int D>
 double face_share(const Nodes<D>& nodes, Index face, Index node) {
   const Point<D> n = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
   const auto all = nodes.of_face(face);
-  const auto at = std::find(all.begin(), all.end(), node) - all.begin();
-  return std::sqrt(dot(n, n)) * basis_mean<D>(static_cast<std::size_t>(at));
+  const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
+  const double measure = std::sqrt(dot(n, n));
+  if (nodes.order() == 1) return measure * basis_mean<1, D - 1>(at);
+  // Each corner of an element's face lies on one face of the mesh, each midpoint on as many as the face has corners.
+  const auto per_element = static_cast<std::size_t>(nodes.faces_per_element());
+  const auto k =
+      static_cast<std::size_t>(RedRefinement<D - 1>::children[static_cast<std::size_t>(face) % per_element][at]);
+  return measure * static_cast<double>(per_element) * basis_mean<2, D - 1>(k) / (k < D ? 1 : D);
 }
 
 template <int D>
@@ -125,10 +132,21 @@ template <int D>
 std::vector<double> node_volumes(const Nodes<D>& nodes) {
   const Mesh<D>& mesh = nodes.mesh();
   std::vector<double> volumes(static_cast<std::size_t>(nodes.size()));
+  if (nodes.order() == 2) {
+    for (const Family<D>& family : mesh.families) {
+      const ElementMap<D, D, 2> map(mesh, family);
+      double measure = 0;
+      for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(!map.curved()))
+        measure += weight * linear_element(map.flat(barycentric)).measure;
+      for (std::size_t k = 0; k < family.size(); ++k)
+        volumes[nodes.of_vertex(family[k])] += measure * basis_mean<2, D>(k);
+    }
+    return volumes;
+  }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const double measure = linear_element(mesh, mesh.elements[e]).measure;
-    const auto node = nodes.of_element(e);
-    for (std::size_t a = 0; a < node.size(); ++a) volumes[node[a]] += measure * basis_mean<D + 1>(a);
+    const auto node = nodes.of_simplex(e);
+    for (std::size_t a = 0; a < node.size(); ++a) volumes[node[a]] += measure * basis_mean<1, D>(a);
   }
   return volumes;
 }

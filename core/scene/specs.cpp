@@ -20,7 +20,8 @@ constexpr KeySpec body[] = {
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
     {"plane", text, "strain", "strain | stress", "axisymmetric", "what holds across the plane; 2D elasticity only"},
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
-    {"order", integer, "1", "1", "2", "1: linear elements, 2: quadratic ones"},
+    {"order", integer, "1", "[1, 2]", "",
+     "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };
