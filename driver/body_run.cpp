@@ -38,7 +38,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
         return hierarchy;
       }()),
       probes_(locate_probes(hierarchy_.finest(), scene, body)),
-      solver_(hierarchy_, scene.solver, registry, progress, times) {
+      solver_(hierarchy_, scene.solver, registry, progress, times, nodes_of(hierarchy_, scene.bodies[body].order)) {
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
 }
 
@@ -56,7 +56,7 @@ void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) cons
 
 template <int D, int B>
 std::vector<Stress> BodyRun<D, B>::stress() const {
-  if constexpr (B == D) return nodal_stress(mesh(), element_stress(nodes(), model_, results_.u));
+  if constexpr (B == D) return nodal_stress(nodes(), model_, results_.u);
   return {};
 }
 

@@ -62,7 +62,7 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
     if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
     for (const ContactNode<B>& node : results.contact.nodes) {
       ContactReport& report = reports[node.obstacle];
-      Point<D> lever = nodes.at(node.vertex);
+      Point<D> lever = nodes.control_point(node.vertex);
       for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
       add_moment<D>(lever, node.force, report.moment);
     }

@@ -13,8 +13,11 @@ namespace {
 
 /// The matrices and some twenty vectors on all levels, and the meshes. By Euler's formula there are about as many edges
 /// as vertices and elements together.
-double bytes_needed(const HierarchySize& size, int block) {
-  const double blocks = 3 * size.vertices + 2 * size.elements;
+double bytes_needed(const HierarchySize& size, int block, int quadratic) {
+  // Quadratic elements are four or eight of the mesh; likewise from the pairs of nodes in elements, faces and edges.
+  const double blocks = quadratic == 0   ? 3 * size.vertices + 2 * size.elements
+                        : quadratic == 2 ? size.vertices + 21 * size.elements / 4
+                                         : 4 * size.vertices + 33 * size.elements / 8;
   const double matrix = blocks * (8.0 * block * block + 4);
   const double all_levels = 1.25;
   return all_levels * (matrix + 20 * 8.0 * block * size.vertices) + size.bytes;
@@ -23,10 +26,11 @@ double bytes_needed(const HierarchySize& size, int block) {
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", bytes / 1e9); }
 }  // namespace
 
-void check_memory(const HierarchySize& size, int block, const std::string& origin, PromisedMemory* promised) {
+void check_memory(const HierarchySize& size, int block, const std::string& origin, PromisedMemory* promised,
+                  int quadratic) {
   constexpr double most = std::numeric_limits<Index>::max();
   const PromisedMemory before = promised ? *promised : PromisedMemory();
-  const double unknowns = size.vertices * block, bytes = bytes_needed(size, block),
+  const double unknowns = size.vertices * block, bytes = bytes_needed(size, block, quadratic),
                available = proc_bytes("/proc/meminfo", "MemAvailable").value_or(infinity);
   std::string need = fmt::format("{:.4g} unknowns need about {} of memory", unknowns, gigabytes(bytes));
   if (before.bodies > 0)

@@ -16,7 +16,9 @@ struct PromisedMemory {
 /// per vertex would not fit into the memory that is available, or needs larger numbers than Index. Else it is promised
 /// what it needs beside its meshes.
 /// @param promised to the bodies before it; null: there are no others
-void check_memory(const HierarchySize& size, int block, const std::string& origin, PromisedMemory* promised = nullptr);
+/// @param quadratic 0, or the dimension where the finest mesh cuts quadratic elements
+void check_memory(const HierarchySize& size, int block, const std::string& origin, PromisedMemory* promised = nullptr,
+                  int quadratic = 0);
 
 /// The same for a structured mesh before it is built.
 template <int D>

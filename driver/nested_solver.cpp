@@ -94,8 +94,10 @@ template <int D, int B>
 NearNullSpace near_null_space(const Nodes<D>& nodes) {
   if constexpr (B == 1) return {};
   std::vector<double> coordinates;
-  for (Index p = 0; p < nodes.size(); ++p)
-    coordinates.insert(coordinates.end(), nodes.at(p).begin(), nodes.at(p).end());
+  for (Index p = 0; p < nodes.size(); ++p) {
+    const Point<D> x = nodes.control_point(p);
+    coordinates.insert(coordinates.end(), x.begin(), x.end());
+  }
   return rigid_body_modes<D>(coordinates);
 }
 
@@ -124,8 +126,8 @@ std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::So
 }
 
 template <int D>
-std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
-  const std::size_t finest = hierarchy.levels.size() - 1;
+std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block, int order) {
+  const std::size_t finest = hierarchy.levels.size() - static_cast<std::size_t>(order);
   if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
   if (!options.algebraic || factorised_meshes(hierarchy, options, block) > 0) return 0;
   return is_stretched(hierarchy.levels.front(), block) ? finest : 0;
@@ -138,7 +140,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
     : hierarchy_(hierarchy),
       nodes_(nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
       options_(options),
-      first_(first_mesh(hierarchy, options, B)),
+      first_(first_mesh(hierarchy, options, B, nodes_.back().order())),
       factorised_(factorised_meshes(hierarchy, options, B)),
       registry_(registry),
       progress_(progress),
@@ -148,7 +150,8 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         return !progress_.interrupted();
       }) {
   Stopwatch watch;
-  if (first_ == 0) prolongations_ = prolongations(hierarchy, nodes_);
+  for (std::size_t k = first_; k < hierarchy.refinements.size(); ++k)
+    prolongations_.push_back(prolongation(hierarchy.refinements[k], nodes_[k], nodes_[k + 1]));
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
   numbers_before_.resize(hierarchy.levels.size());
@@ -479,8 +482,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
 
 template std::size_t factorised_meshes(const MeshHierarchy<2>&, const Scene::Solver&, int);
 template std::size_t factorised_meshes(const MeshHierarchy<3>&, const Scene::Solver&, int);
-template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int);
-template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int);
+template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int, int);
+template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int, int);
 template class NestedSolver<2, 1>;
 template class NestedSolver<3, 1>;
 template class NestedSolver<2, 2>;

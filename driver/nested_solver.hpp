@@ -36,9 +36,9 @@ std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int blo
 
 /// The coarsest mesh that gives a level: the first one, or the finest alone where all coarser levels are to be
 /// algebraic: where many cells are stretched, for there point smoothing needs levels that are coarser along the strong
-/// couplings only, and uniformly refined meshes have others.
+/// couplings only, and uniformly refined meshes have others. Below quadratic elements there are always linear ones.
 template <int D>
-std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
+std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block, int order = 1);
 
 /// The number of meshes, coarsest first, that have no coarser level, because of bending, which those represent badly:
 /// of elastic bodies that are slender, or whose cells are stretched, as far as a factorisation costs no more than some
@@ -52,7 +52,7 @@ template <int D, int B>
 class NestedSolver {
  public:
   /// Keeps references to all but options and nodes; adds to `times` what is spent on assembly, setup and solve.
-  /// @param nodes of each mesh; none: numbered as the vertices
+  /// @param nodes of each mesh; none: of linear elements, numbered as the vertices
   NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, const Registry& registry,
                const Progress& progress, Times& times, std::vector<Nodes<D>> nodes = {});
 

@@ -34,7 +34,9 @@ decltype(auto) at_step(const Scene& scene, double t, const Work& work) {
   }
 }
 
-/// The meshes of a body, after making sure that a problem with B unknowns per vertex on them fits into memory.
+/// The meshes of a body, after making sure that a problem with B unknowns per vertex on them fits into memory. The
+/// vertices of the finest one are the nodes of the body's elements, see nodes_of(): for quadratic elements it is one
+/// refinement finer than `refine.uniform` says.
 /// @param warnings where there are any, what is odd about the mesh of a file is added
 /// @param promised memory of the bodies before it, to which its own is added; null: it is alone
 template <int D>

@@ -33,20 +33,25 @@ void print_parts(const Mesh<D>& mesh) {
   fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
 }
 
+/// Of quadratic elements the last line tells their nodes and number.
 template <int D, int B>
-void print_levels(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
+void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& model) {
+  const std::vector<Nodes<D>> nodes = nodes_of(hierarchy, order);
   fmt::print("levels:\n");
   for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
     const Mesh<D>& mesh = hierarchy.levels[k];
     const bool finest = k + 1 == hierarchy.levels.size();
     std::string unknowns = "no start: ";
     try {
-      unknowns = fmt::format("{} unknowns", free_unknowns(Nodes(mesh), model));
+      unknowns = fmt::format("{} unknowns", free_unknowns(nodes[k], model));
     } catch (const Error& error) {  // only the finest level has to hold the whole problem
       if (finest) throw;
       unknowns += error.what();
     }
-    fmt::print("  {} {:>10} vertices {:>10} elements  {}\n", k, mesh.vertices(), mesh.elements.size(), unknowns);
+    const bool quadratic = nodes[k].order() == 2;
+    fmt::print("  {} {:>10} {} {:>10} {}  {}\n", k, mesh.vertices(), quadratic ? "nodes   " : "vertices",
+               quadratic ? mesh.families.size() : mesh.elements.size(), quadratic ? "quadratic elements" : "elements",
+               unknowns);
   }
 }
 
@@ -85,7 +90,8 @@ template <int D, int B>
 void check(const Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
   const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, Console(true), body);
-  const Nodes<D> nodes(hierarchy.finest());
+  const int order = scene.bodies[body].order;
+  const Nodes<D> nodes = nodes_of(hierarchy, order).back();
   locate_probes(hierarchy.finest(), scene, body);
   // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
   Model<B> model;
@@ -98,9 +104,9 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   if (scene.steps.count() > 1) discretize_at(scene.steps.at.front());
   discretize_at(scene.steps.at.back());
   print_parts(hierarchy.levels.front());
-  print_levels(hierarchy, model);
+  print_levels(hierarchy, order, model);
   print_contacts(nodes, scene, scene.bodies[body], model);
-  const std::size_t first = first_mesh(hierarchy, scene.solver, B);
+  const std::size_t first = first_mesh(hierarchy, scene.solver, B, order);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
   const bool functional =

@@ -57,9 +57,9 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
     }
   }
   for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
-    *field = nodes.at_vertices(std::move(*field), 1);
+    *field = nodes.per_vertex(std::move(*field), 1);
   if (B > 1)
-    for (auto* field : {&fields.normal, &fields.tangential}) *field = nodes.at_vertices(std::move(*field), 3);
+    for (auto* field : {&fields.normal, &fields.tangential}) *field = nodes.per_vertex(std::move(*field), 3);
   return fields;
 }
 
@@ -124,12 +124,12 @@ std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& r
 std::string body_suffix(std::size_t body, std::size_t bodies) { return bodies > 1 ? fmt::format("_body{}", body) : ""; }
 
 template <int D>
-void SolutionFiles::add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, const Report& report,
+void SolutionFiles::add(const Nodes<D>& nodes, const std::vector<VtuField>& fields, const Report& report,
                         std::size_t body, const VtuPacking& packing) {
   several_ = bodies_ > 1 || report.has_steps();
   const std::string step = report.has_steps() ? fmt::format("_{:03}", steps() + 1) : "";
   const std::string name = "solution" + body_suffix(body, bodies_) + step + ".vtu";
-  write_vtu(files_.stage(name), mesh, fields, {}, packing);
+  write_vtu(files_.stage(name), nodes.mesh(), fields, {}, packing, nodes.order());
   entries_.push_back({report.last().t, name, static_cast<int>(body)});
 }
 
@@ -224,9 +224,9 @@ SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)
 SIGNORINI_OUTPUT(3, 3)
 
-template void SolutionFiles::add(const Mesh<2>&, const std::vector<VtuField>&, const Report&, std::size_t,
+template void SolutionFiles::add(const Nodes<2>&, const std::vector<VtuField>&, const Report&, std::size_t,
                                  const VtuPacking&);
-template void SolutionFiles::add(const Mesh<3>&, const std::vector<VtuField>&, const Report&, std::size_t,
+template void SolutionFiles::add(const Nodes<3>&, const std::vector<VtuField>&, const Report&, std::size_t,
                                  const VtuPacking&);
 
 }  // namespace signorini

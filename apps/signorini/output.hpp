@@ -28,7 +28,7 @@ class SolutionFiles {
   /// @param report up to the step that is added
   /// @param body number of the body, the last of each step being the last one
   template <int D>
-  void add(const Mesh<D>& mesh, const std::vector<VtuField>& fields, const Report& report, std::size_t body,
+  void add(const Nodes<D>& nodes, const std::vector<VtuField>& fields, const Report& report, std::size_t body,
            const VtuPacking& packing);
   /// That were added.
   std::size_t steps() const { return entries_.size() / bodies_; }

@@ -68,7 +68,7 @@ class ResultFiles {
       driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
         // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
         constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
-        vtu_.add(run.mesh(), point_fields(run.nodes(), run.results(), stresses_[body]), driver_.report(), body,
+        vtu_.add(run.nodes(), point_fields(run.nodes(), run.results(), stresses_[body]), driver_.report(), body,
                  {worthwhile, scene().solver.threads});
       });
   }

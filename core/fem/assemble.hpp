@@ -8,14 +8,16 @@
 
 namespace signorini {
 
-/// Stiffness matrix of linear elements, without any boundary condition: B = 1 diffusion, B = D elasticity. Symmetric to
-/// the last bit; time and memory are linear in the mesh. Coefficients that are expressions are taken at the centroids.
+/// Stiffness matrix, without any boundary condition: B = 1 diffusion, B = D elasticity. Symmetric to the last bit; time
+/// and memory are linear in the mesh. Coefficients that are expressions are taken at the centroids; for quadratic
+/// elements by a rule of degree 5.
 /// Errors (Exit::input): a coefficient out of range, an element without positive measure.
 template <int D, int B>
 BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model);
 
 /// Load vector, B per node: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
-/// exact for quartic fields. An Error(Exit::input) names the origin of a selection without faces.
+/// exact for quartic fields; for quadratic elements both by one exact for cubic fields. An Error(Exit::input) names the
+/// origin of a selection without faces.
 /// @param totals where there are any, becomes the integral of each load
 template <int D, int B>
 std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,

@@ -12,6 +12,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
+#include "core/fem/bound_coefficients.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/magnitude.hpp"
 #include "core/fem/same.hpp"
@@ -55,6 +56,7 @@ class Discretizer {
         fixes_(collect_fixes(nodes, model)),
         bounds_(collect_bounds(nodes, model, functionals_)),
         combiner_(nodes, model, bounds_, fixes_) {
+    bound_coefficients(nodes, fixes_, bounds_);
     const auto n = static_cast<std::size_t>(nodes.size());
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);

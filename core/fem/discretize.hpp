@@ -47,7 +47,7 @@ struct Discretization {
   std::vector<std::array<double, B>> applied;  ///< per load of the model: its total
 };
 
-/// Linear elements for a model. Vectors are numbered as the nodes.
+/// Finite elements for a model, of the order that the nodes have. Vectors are numbered as the nodes.
 /// - Dirichlet conditions: see collect_fixes(); obstacles: see BoundCombiner.
 /// - A vector with an obstacle has a local frame: first the obstacle's directions, then free tangents, then the fixed
 ///   directions. A vector with fixed directions only has one unless these are coordinate axes.

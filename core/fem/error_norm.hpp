@@ -19,6 +19,10 @@ template <int D, int B>
 double energy_error(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                     const ExactGradient<D, B>& exact);
 
+/// The norm of u_h - u in L2, by the same rule.
+template <int D, int B>
+double l2_error(const Nodes<D>& nodes, const std::vector<double>& u, const ExactValue<D, B>& exact);
+
 /// max over the nodes of the Euclidean norm of u_h - u.
 template <int D, int B>
 double max_nodal_error(const Nodes<D>& nodes, const std::vector<double>& u, const ExactValue<D, B>& exact);

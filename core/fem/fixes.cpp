@@ -145,7 +145,7 @@ class FixCollector {
 
   void add(const std::optional<Field>& value, Index number, Index p, const Point<D>& normal, const double* direction) {
     if (!value) return;
-    const double v0 = (*value)(site<D>(nodes_.at(p), t_, normal));
+    const double v0 = nodes_.coefficient(p, [&](Index q) { return (*value)(site<D>(nodes_.at(q), t_, normal)); });
     largest_ = std::max(largest_, std::fabs(v0));
     const auto found = fixes[slot_[p]].add(direction, v0, number);
     if (found.by > 0 && found.fix != number) doubts_.push_back({number, found.fix, p, found.by});

@@ -28,61 +28,50 @@ struct Loaded {
   std::array<double, B> total{};
 };
 
-// Adds what a load does on a simplex with K + 1 corners and these nodes.
-template <int D, int B, int K, class SimplexNodes>
-void integrate(const Mesh<D>& mesh, const Model<B>& model, const Load<B>& load, const std::array<Index, K + 1>& corners,
-               const SimplexNodes& nodes, double measure, const Point<D>& normal,
-               std::span<const QuadraturePoint<K>> rule, Loaded<B>& out) {
-  for (const auto& [barycentric, part] : rule) {
-    const Point<D> x = combine<D>(mesh, corners, barycentric);
-    const double weight = part * circumference<D>(model.plane, x);
+/// On a simplex of dimension K; `simple`: a constant load on straight edges. The circumference of an axisymmetric body is
+/// one degree more.
+template <int D, int K, int P>
+std::span<const QuadraturePoint<K>> rule_for(bool simple, bool axisymmetric) {
+  if (axisymmetric) return simple ? quadrature2<K>() : quadrature5<K>();
+  if (simple) return P == 1 ? midpoint_rule<K>() : quadrature2<K>();
+  return P == 1 && K == D ? quadrature2<K>() : quadrature5<K>();
+}
+
+// Adds what a load does on a simplex of dimension K whose nodes of order P are these vertices.
+template <int D, int K, int P, int B, class Measure>
+void integrate(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load,
+               const std::array<Index, element_nodes<K, P>>& vertices, const Measure& measure, Loaded<B>& out) {
+  const ElementMap<D, K, P> map(nodes.mesh(), vertices);
+  const auto node = nodes.of(vertices);
+  const bool simple = is_constant(load) && !map.curved(), axisymmetric = model.plane == Plane::axisymmetric;
+  for (const auto& [barycentric, weight] : rule_for<D, K, P>(simple, axisymmetric)) {
+    Point<D> normal{};
+    const Point<D> x = map(barycentric);
+    const double part = weight * measure(map.flat(barycentric), normal) * circumference<D>(model.plane, x);
     const auto f = value(load, site<D>(x, model.t, normal));
-    const auto& values = basis(barycentric);
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      for (int i = 0; i < B; ++i) out.b[Offset{nodes[a]} * B + i] += weight * measure * values[a] * f[i];
-    for (int i = 0; i < B; ++i) out.total[i] += weight * measure * f[i];
+    const auto values = basis<P>(barycentric);
+    for (std::size_t a = 0; a < node.size(); ++a)
+      for (int i = 0; i < B; ++i) out.b[Offset{node[a]} * B + i] += part * values[a] * f[i];
+    for (int i = 0; i < B; ++i) out.total[i] += part * f[i];
   }
 }
 
-template <int K>
-std::span<const QuadraturePoint<K>> midpoint_rule() {
-  static const QuadraturePoint<K> rule = [] {
-    QuadraturePoint<K> q{{}, 1};
-    q.barycentric.fill(1.0 / (K + 1));
-    return q;
-  }();
-  return {&rule, 1};
-}
-
-// Where a load is constant, and the circumference too, one point is enough; where one of them is linear, few are.
-template <int K, int B>
-std::span<const QuadraturePoint<K>> rule(const Model<B>& model, const Load<B>& load,
-                                         std::span<const QuadraturePoint<K>> varying) {
-  if (!is_constant(load)) return model.plane == Plane::axisymmetric ? quadrature5<K>() : varying;
-  return model.plane == Plane::axisymmetric ? quadrature2<K>() : midpoint_rule<K>();
-}
-
-template <int D, int B>
+template <int D, int P, int B>
 void add_body_force(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Loaded<B>& out) {
-  const Mesh<D>& mesh = nodes.mesh();
-  const auto points = rule<D>(model, load, quadrature2<D>());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Simplex<D>& vertices = mesh.elements[e];
-    integrate<D, B, D>(mesh, model, load, vertices, nodes.of_element(e), linear_element(mesh, vertices).measure, {},
-                       points, out);
-  }
+  const auto measure = [](const auto& corner, const Point<D>&) { return linear_element(corner).measure; };
+  for (const auto& vertices : nodes.template elements<P>())
+    integrate<D, D, P>(nodes, model, load, vertices, measure, out);
 }
 
-template <int D, int B>
+template <int D, int P, int B>
 void add_traction(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Loaded<B>& out) {
-  const Mesh<D>& mesh = nodes.mesh();
-  const auto points = rule<D - 1>(model, load, quadrature5<D - 1>());
-  for (const Index f : select_faces(mesh, *load.on, model.t)) {
-    const Face<D>& face = mesh.boundary[f];
-    Point<D> normal = area_normal(mesh, face);
-    const double measure = normalise(normal);
-    integrate<D, B, D - 1>(mesh, model, load, face.vertices, nodes.of_face(f), measure, normal, points, out);
-  }
+  const auto measure = [](const auto& corner, Point<D>& normal) {
+    normal = area_normal(corner);
+    return normalise(normal);
+  };
+  const std::vector<Index> faces = select_faces(nodes.mesh(), *load.on, model.t);
+  for (std::size_t k = 0; k < faces.size(); k += static_cast<std::size_t>(nodes.faces_per_element()))
+    integrate<D, D - 1, P>(nodes, model, load, nodes.template element_face<P>(faces[k]), measure, out);
 }
 
 template <int B>
@@ -99,10 +88,12 @@ std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
   if (totals) totals->clear();
   for (const Load<B>& load : model.loads) {
     out.total = {};
-    if (load.on)
-      add_traction(nodes, model, load, out);
-    else if (!is_zero(load))
-      add_body_force(nodes, model, load, out);
+    with_order(nodes, [&](auto order) {
+      if (load.on)
+        add_traction<D, order>(nodes, model, load, out);
+      else if (!is_zero(load))
+        add_body_force<D, order>(nodes, model, load, out);
+    });
     if (totals) totals->push_back(out.total);
   }
   return std::move(out.b);

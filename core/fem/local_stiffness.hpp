@@ -24,22 +24,37 @@ using FamilyStiffness = LocalStiffness<std::tuple_size_v<Family<D>>, child_edges
 /// Entries below this multiple of the geometric mean of their diagonal entries vanish but for rounding.
 inline constexpr double vanishing = 1e-15;
 
+/// All pairs of N nodes, in the order of simplex_edges.
+template <std::size_t N>
+constexpr auto node_pairs() {
+  return simplex_edges<static_cast<int>(N) - 1>();
+}
+
+/// Adds what the basis functions with these gradients contribute at a point.
+/// @param weight of the point: its part of the measure times the coefficient
+template <std::size_t D, std::size_t N, std::size_t E>
+inline void add_stiffness(const std::array<std::array<double, D>, N>& gradient, double weight,
+                          LocalStiffness<N, E>& out) {
+  constexpr auto ends = node_pairs<N>();
+  for (std::size_t a = 0; a < N; ++a) out.diagonal[a] += weight * dot(gradient[a], gradient[a]);
+  for (std::size_t k = 0; k < E; ++k) out.edge[k] += weight * dot(gradient[ends[k][0]], gradient[ends[k][1]]);
+}
+
+/// Entries that vanish but for rounding become zero: right angles uncouple many nodes.
+template <std::size_t N, std::size_t E>
+inline void clear_vanishing(LocalStiffness<N, E>& local, const std::array<std::array<int, 2>, E>& ends) {
+  std::array<double, N> root;
+  for (std::size_t a = 0; a < N; ++a) root[a] = std::sqrt(local.diagonal[a]);
+  for (std::size_t k = 0; k < E; ++k)
+    if (std::abs(local.edge[k]) <= vanishing * root[ends[k][0]] * root[ends[k][1]]) local.edge[k] = 0;
+}
+
 /// @param weight measure of the element times its coefficient
-/// Entries that vanish but for rounding are zero: right angles uncouple many vertices.
 template <int D>
 inline ElementStiffness<D> element_stiffness(const LinearElement<D>& element, double weight) {
-  constexpr auto ends = simplex_edges<D>();
-  ElementStiffness<D> out;
-  std::array<double, D + 1> root;
-  for (int a = 0; a <= D; ++a) {
-    out.diagonal[a] = weight * dot(element.gradient[a], element.gradient[a]);
-    root[a] = std::sqrt(out.diagonal[a]);
-  }
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const auto [a, b] = ends[k];
-    const double value = weight * dot(element.gradient[a], element.gradient[b]);
-    out.edge[k] = std::abs(value) <= vanishing * root[a] * root[b] ? 0 : value;
-  }
+  ElementStiffness<D> out{};
+  add_stiffness(element.gradient, weight, out);
+  clear_vanishing(out, simplex_edges<D>());
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -153,7 +155,56 @@ Outside<D> outside(const Mesh<D>& mesh, const Point<D>& point) {
   return out;
 }
 
+/// The family that a simplex belongs to, and which of its nodes the simplex has.
+template <int D>
+std::pair<Index, std::array<std::size_t, D + 1>> family_of(const Mesh<D>& mesh, const Simplex<D>& simplex) {
+  std::array<std::size_t, D + 1> at{};
+  const auto found = std::ranges::find_if(mesh.families, [&](const Family<D>& family) {
+    for (std::size_t a = 0; a < simplex.size(); ++a)
+      at[a] = static_cast<std::size_t>(std::ranges::find(family, simplex[a]) - family.begin());
+    return std::ranges::max(at) < family.size();
+  });
+  assert(found != mesh.families.end());
+  return {static_cast<Index>(found - mesh.families.begin()), at};
+}
+
+/// Newton's method for the point of a curved element: the start is that of the straight one.
+template <int D>
+void move_to(const Point<D>& x, const ElementMap<D, D, 2>& map, std::array<double, D + 1>& barycentric) {
+  constexpr int enough = 20;
+  for (int k = 0; k < enough && map.curved(); ++k) {
+    const LinearElement<D> flat = linear_element(map.flat(barycentric));
+    const Point<D> left = difference<D>(x, map(barycentric));
+    double moved = 0;
+    for (int a = 0; a <= D; ++a) {
+      const double by = dot(flat.gradient[a], left);
+      barycentric[a] += by;
+      moved = std::max(moved, std::abs(by));
+    }
+    if (moved <= rounding) return;
+  }
+}
+
 }  // namespace
+
+template <int D>
+Place<D> in_element(const Nodes<D>& nodes, const Place<D>& in_simplex) {
+  if (nodes.order() == 1) return in_simplex;
+  const Mesh<D>& mesh = nodes.mesh();
+  const Simplex<D>& simplex = mesh.elements[in_simplex.element];
+  const auto [element, at] = family_of(mesh, simplex);
+  Place<D> out{element, {}};
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    const auto of_node = node_place<D>(at[a]);
+    for (int k = 0; k <= D; ++k) out.barycentric[k] += in_simplex.barycentric[a] * of_node[k];
+  }
+  move_to<D>(combine<D>(mesh, simplex, in_simplex.barycentric), ElementMap<D, D, 2>(mesh, mesh.families[element]),
+             out.barycentric);
+  return out;
+}
+
+template Place<2> in_element(const Nodes<2>&, const Place<2>&);
+template Place<3> in_element(const Nodes<3>&, const Place<3>&);
 
 template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin) {

@@ -33,8 +33,9 @@ Mesh<D> displaced(const Nodes<D>& nodes, const std::vector<double>& u) {
   Mesh<D> out;
   out.points = nodes.mesh().points;
   out.boundary = nodes.mesh().boundary;
+  const std::vector<double> by = nodes.at_vertices(u, D);
   for (Index v = 0; v < out.vertices(); ++v)
-    for (int i = 0; i < D; ++i) out.points[v][i] += u[Offset{nodes.of_vertex(v)} * D + i];
+    for (int i = 0; i < D; ++i) out.points[v][i] += by[Offset{v} * D + i];
   return out;
 }
 

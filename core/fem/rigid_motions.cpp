@@ -110,8 +110,9 @@ auto RigidMotions<D, B>::along(Index p, const double* d) const -> Row {
   }
   for (int i = 0; i < translations; ++i) row[i] = d[i];
   if constexpr (B > 1) {
+    const Point<D> x = nodes_.control_point(p);
     Point<D> y;
-    for (int i = 0; i < D; ++i) y[i] = (nodes_.at(p)[i] - middle_[i]) / size_;
+    for (int i = 0; i < D; ++i) y[i] = (x[i] - middle_[i]) / size_;
     if constexpr (D == 2) row[2] = y[0] * d[1] - y[1] * d[0];
     if constexpr (D == 3)
       for (int i = 0; i < 3; ++i) row[3 + i] = y[(i + 1) % 3] * d[(i + 2) % 3] - y[(i + 2) % 3] * d[(i + 1) % 3];

@@ -46,7 +46,8 @@ void keep_where(const Mesh<D>& mesh, const Field& where, double t, std::vector<I
 /// The mean over a simplex of its k-th basis function, times the circumference.
 template <int D, std::size_t N>
 double basis_integral(Plane plane, const Mesh<D>& mesh, const std::array<Index, N>& vertices, std::size_t k) {
-  return plane == Plane::axisymmetric ? hat_circumference<D>(plane, mesh, vertices, k) : basis_mean<N>(k);
+  if (plane == Plane::axisymmetric) return hat_circumference<D>(plane, mesh, vertices, k);
+  return basis_mean<1, static_cast<int>(N) - 1>(k);
 }
 
 std::string describe(const Selection& selection) {
@@ -114,30 +115,51 @@ std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surf
   return normals;
 }
 
+/// Where in its element's face the corner `at` of a face of the mesh is.
+template <int D>
+std::size_t place_on_element(const Nodes<D>& nodes, Index face, std::size_t at) {
+  const auto per_element = static_cast<std::size_t>(nodes.faces_per_element());
+  return static_cast<std::size_t>(RedRefinement<D - 1>::children[static_cast<std::size_t>(face) % per_element][at]);
+}
+
 template <int D>
 double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
   const Mesh<D>& mesh = nodes.mesh();
   const Point<D> n = area_normal(mesh, mesh.boundary[face]);
   const auto all = nodes.of_face(face);
   const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
-  return std::sqrt(dot(n, n)) * basis_integral<D>(plane, mesh, mesh.boundary[face].vertices, at);
+  const double measure = std::sqrt(dot(n, n));
+  if (nodes.order() == 1) return measure * basis_integral<D>(plane, mesh, mesh.boundary[face].vertices, at);
+  // Each corner of an element's face lies on one face of the mesh, each midpoint on as many as the face has corners.
+  const auto per_element = static_cast<std::size_t>(nodes.faces_per_element());
+  const std::size_t k = place_on_element(nodes, face, at);
+  return measure * static_cast<double>(per_element) * basis_mean<2, D - 1>(k) / (k < D ? 1 : D);
 }
 
-template <int D>
-Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
-  const Mesh<D>& mesh = nodes.mesh();
-  const auto all = nodes.of_face(face);
-  const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
+template <int D, int P>
+Point<D> middle(const Nodes<D>& nodes, Index face, std::size_t k, Plane plane) {
+  const ElementMap<D, D - 1, P> map(nodes.mesh(), nodes.template element_face<P>(face));
   Point<D> sum{};
   double whole = 0;
   for (const auto& [barycentric, weight] : quadrature5<D - 1>()) {
-    const Point<D> x = combine<D>(mesh, mesh.boundary[face].vertices, barycentric);
-    const double part = weight * basis(barycentric)[at] * circumference<D>(plane, x);
+    const Point<D> x = map(barycentric);
+    const double part = weight * basis<P>(barycentric)[k] * circumference<D>(plane, x);
     for (int i = 0; i < D; ++i) sum[i] += part * x[i];
     whole += part;
   }
   for (double& c : sum) c /= whole;
-  return whole > 0 ? sum : nodes.at(node);
+  return sum;
+}
+
+template <int D>
+Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
+  const auto all = nodes.of_face(face);
+  const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
+  const Point<D> out = nodes.order() == 1
+                           ? middle<D, 1>(nodes, face, at, plane)
+                           : middle<D, 2>(nodes, face - face % nodes.faces_per_element(),
+                                          place_on_element(nodes, face, at), plane);
+  return std::isfinite(out[0]) ? out : nodes.at(node);  // on the axis it stands for nothing
 }
 
 template <int D>
@@ -153,9 +175,20 @@ template <int D>
 std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
   const Mesh<D>& mesh = nodes.mesh();
   std::vector<double> volumes(static_cast<std::size_t>(nodes.size()));
+  if (nodes.order() == 2) {
+    for (const Family<D>& family : mesh.families) {
+      const ElementMap<D, D, 2> map(mesh, family);
+      double measure = 0;
+      for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(!map.curved()))
+        measure += weight * linear_element(map.flat(barycentric)).measure;
+      for (std::size_t k = 0; k < family.size(); ++k)
+        volumes[nodes.of_vertex(family[k])] += measure * basis_mean<2, D>(k);
+    }
+    return volumes;
+  }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const double measure = linear_element(mesh, mesh.elements[e]).measure;
-    const auto node = nodes.of_element(e);
+    const auto node = nodes.of_simplex(e);
     for (std::size_t a = 0; a < node.size(); ++a)
       volumes[node[a]] += measure * basis_integral<D>(plane, mesh, mesh.elements[e], a);
   }

@@ -6,7 +6,8 @@
 
 namespace signorini {
 
-/// Some faces of the boundary together with their nodes.
+/// Some faces of the boundary together with their nodes. Of quadratic elements these are the faces of the mesh, which
+/// cut those of the elements.
 template <int D>
 struct Surface {
   std::vector<Index> faces;   ///< numbers in Mesh::boundary, ascending
@@ -33,12 +34,13 @@ Surface<D> surface(const Nodes<D>& nodes);
 template <int D>
 std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface);
 
-/// Integrals of the basis functions over a surface, one per node of it: they sum to its measure. Of an axisymmetric
-/// body over what the surface stands for, here and below.
+/// Integrals of the basis functions over a surface, one per node of it: they are positive and sum to its measure.
+/// (Faces of quadratic elements count as if they were flat.) Of an axisymmetric body over what the surface stands for,
+/// here and below.
 template <int D>
 std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface, Plane plane = Plane::strain);
 
-/// The part of a node in the measure of a face that it lies on: the integral of its basis function there.
+/// The part of a node in the measure of a face of the mesh that it lies on: what adds up to that integral.
 template <int D>
 double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
 
@@ -46,7 +48,8 @@ double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane = P
 template <int D>
 Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
 
-/// Integrals of the basis functions over the body, one per node.
+/// Integrals of the basis functions over the body, one per node. (The functions of curved elements count by their
+/// mean.)
 template <int D>
 std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane = Plane::strain);
 

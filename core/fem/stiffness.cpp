@@ -3,6 +3,7 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/checked_element.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/fem/stiffness_scalar.hpp"
 
@@ -10,20 +11,21 @@ namespace signorini {
 namespace {
 
 // The elements around every node, in flat arrays.
-template <int D>
+template <int D, int P>
 struct Adjacency {
   std::vector<Offset> first;
   std::vector<Index> element;
 
   explicit Adjacency(const Nodes<D>& nodes)
-      : first(static_cast<std::size_t>(nodes.size()) + 1), element(nodes.mesh().elements.size() * (D + 1)) {
-    const std::size_t elements = nodes.mesh().elements.size();
-    for (std::size_t e = 0; e < elements; ++e)
-      for (const Index p : nodes.of_element(e)) ++first[p + 1];
+      : first(static_cast<std::size_t>(nodes.size()) + 1),
+        element(nodes.template elements<P>().size() * element_nodes<D, P>) {
+    const auto& elements = nodes.template elements<P>();
+    for (const auto& vertices : elements)
+      for (const Index p : nodes.of(vertices)) ++first[p + 1];
     for (std::size_t p = 1; p < first.size(); ++p) first[p] += first[p - 1];
     std::vector<Offset> next(first.begin(), first.end() - 1);
-    for (std::size_t e = 0; e < elements; ++e)
-      for (const Index p : nodes.of_element(e)) element[next[p]++] = static_cast<Index>(e);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      for (const Index p : nodes.of(elements[e])) element[next[p]++] = static_cast<Index>(e);
   }
 };
 
@@ -40,13 +42,14 @@ struct Assembly {
   }
 };
 
-template <int D, int B>
+template <int D, int B, int P>
 Assembly<B> pattern(const Nodes<D>& nodes) {
-  const Adjacency<D> around(nodes);
+  const Adjacency<D, P> around(nodes);
+  const auto& elements = nodes.template elements<P>();
   const Index n = nodes.size();
   Assembly<B> out;
   out.A.row.reserve(n + 1);
-  out.A.column.reserve(n + 2 * estimated_edges(nodes.mesh()));
+  out.A.column.reserve(n + 2 * estimated_pairs(nodes));
   out.upper.resize(n);
   std::vector<Index> seen(n, -1), &column = out.A.column;
   for (Index p = 0; p < n; ++p) {
@@ -54,7 +57,7 @@ Assembly<B> pattern(const Nodes<D>& nodes) {
     column.push_back(p);
     const auto begin = static_cast<Offset>(column.size());
     for (Offset k = around.first[p]; k < around.first[p + 1]; ++k)
-      for (const Index q : nodes.of_element(around.element[k]))
+      for (const Index q : nodes.of(elements[around.element[k]]))
         if (seen[q] != p) {
           seen[q] = p;
           column.push_back(q);
@@ -67,7 +70,7 @@ Assembly<B> pattern(const Nodes<D>& nodes) {
   return out;
 }
 
-// entry += measure * (block of the hat functions with gradients g, row, and h, column)
+// entry += measure * (block of the basis functions with gradients g, row, and h, column)
 template <int D>
 inline void add_block(const Material<D>& material, double measure, const Point<D>& g, const Point<D>& h,
                       double* entry) {
@@ -90,31 +93,71 @@ inline void add_hoop(const Material<D>& material, double measure, double hoop, c
   entry[0] += (lambda + 2 * measure * material.mu * hoop) * hoop;
 }
 
+// An element at the points of a rule.
+template <int D, int B, int P>
+class ElementPoints {
+ public:
+  ElementPoints(const Nodes<D>& nodes, const Model<B>& model) : nodes_(nodes), model_(model), law_(model) {
+    if (law_.constant()) material_.fill(law_.at({}));
+  }
+
+  void move_to(std::size_t e) {
+    const auto& vertices = nodes_.template elements<P>()[e];
+    const ElementMap<D, D, P> map(nodes_.mesh(), vertices);
+    const auto rule = stiffness_rule<D, P>(law_.constant() && !map.curved());
+    size_ = rule.size();
+    for (std::size_t q = 0; q < size_; ++q) {
+      const auto& [barycentric, weight] = rule[q];
+      const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
+      measure_[q] = P == 1 ? flat.measure : weight * flat.measure;
+      gradient_[q] = basis_gradients<P>(flat.gradient, barycentric);
+      if (law_.constant()) continue;
+      material_[q] =
+          law_.at(P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t));
+    }
+    if constexpr (P == 1) {
+      measure_[0] *= mean_circumference<D>(model_.plane, nodes_.mesh(), vertices);
+      hoop_ = hoop_factor<D>(model_.plane, nodes_.mesh(), vertices) / (D + 1);
+    }
+  }
+
+  // Adds the block of the element's basis functions a, row, and b, column.
+  void add_block(std::size_t a, std::size_t b, double* entry) const {
+    for (std::size_t q = 0; q < size_; ++q)
+      signorini::add_block<D>(material_[q], measure_[q], gradient_[q][a], gradient_[q][b], entry);
+    if (P == 1 && hoop_ > 0) add_hoop<D>(material_[0], measure_[0], hoop_, gradient_[0][a], gradient_[0][b], entry);
+  }
+
+ private:
+  static constexpr std::size_t most = most_stiffness_points<D, P>;
+
+  const Nodes<D>& nodes_;
+  const Model<B>& model_;
+  const MaterialLaw<B> law_;
+  std::size_t size_ = 0;
+  double hoop_ = 0;  // of axisymmetric bodies, whose elements are linear
+  std::array<double, most> measure_;
+  std::array<std::array<Point<D>, element_nodes<D, P>>, most> gradient_;
+  std::array<Material<B>, most> material_;
+};
+
 // Adds the diagonal blocks and those above the diagonal.
-template <int D, int B>
+template <int D, int B, int P>
 void add_upper_half(const Nodes<D>& nodes, const Model<B>& model, Assembly<B>& out) {
-  const Mesh<D>& mesh = nodes.mesh();
-  const MaterialLaw<B> law(model);
-  Material<B> material = law.constant() ? law.at({}) : Material<B>{};
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    LinearElement<D> s = checked_element(mesh, mesh.elements[e], model.origin);
-    s.measure *= mean_circumference<D>(model.plane, mesh, mesh.elements[e]);
-    const double hoop = hoop_factor<D>(model.plane, mesh, mesh.elements[e]) / (D + 1);
-    const auto node = nodes.of_element(e);
-    if (!law.constant()) material = law.at(site_in(mesh, e, model.t));
-    const auto add = [&](int a, int b, double* entry) {
-      add_block<D>(material, s.measure, s.gradient[a], s.gradient[b], entry);
-      if (hoop > 0) add_hoop<D>(material, s.measure, hoop, s.gradient[a], s.gradient[b], entry);
-    };
-    for (int a = 0; a <= D; ++a) {
+  const auto& elements = nodes.template elements<P>();
+  ElementPoints<D, B, P> element(nodes, model);
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    element.move_to(e);
+    const auto node = nodes.of(elements[e]);
+    for (std::size_t a = 0; a < node.size(); ++a) {
       const Index p = node[a];
-      add(a, a, out.A.at(out.A.row[p]));
-      for (int b = a + 1; b <= D; ++b) {
+      element.add_block(a, a, out.A.at(out.A.row[p]));
+      for (std::size_t b = a + 1; b < node.size(); ++b) {
         const Index q = node[b];
         if (p < q)
-          add(a, b, out.entry(p, q));
+          element.add_block(a, b, out.entry(p, q));
         else
-          add(b, a, out.entry(q, p));
+          element.add_block(b, a, out.entry(q, p));
       }
     }
   }
@@ -146,10 +189,12 @@ BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model) {
   if constexpr (B == 1) {
     return scalar_stiffness(nodes, model);
   } else {
-    Assembly<B> out = pattern<D, B>(nodes);
-    add_upper_half(nodes, model, out);
-    mirror(out);
-    return std::move(out.A);
+    return with_order(nodes, [&](auto order) {
+      Assembly<B> out = pattern<D, B, order>(nodes);
+      add_upper_half<D, B, order>(nodes, model, out);
+      mirror(out);
+      return std::move(out.A);
+    });
   }
 }
 

@@ -3,6 +3,7 @@
 #include "core/fem/checked_element.hpp"
 #include "core/fem/local_stiffness.hpp"
 #include "core/fem/material.hpp"
+#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/fem/symmetric_rows.hpp"
 
@@ -17,10 +18,13 @@ class ScalarAssembler {
         mesh_(nodes.mesh()),
         model_(model),
         law_(model),
-        rows_(nodes.size(), static_cast<std::size_t>(nodes.size()) + 2 * estimated_edges(mesh_)) {}
+        rows_(nodes.size(), static_cast<std::size_t>(nodes.size()) + 2 * estimated_pairs(nodes)) {}
 
   BlockMatrix<1> assemble() {
-    if (mesh_.families.empty() || !mesh_.region.empty())
+    if (nodes_.order() == 2)
+      add(mesh_.families, node_pairs<element_nodes<D, 2>>(),
+          [this](const Family<D>& v, std::size_t e) { return quadratic(v, e); });
+    else if (mesh_.families.empty() || !mesh_.region.empty())
       add(mesh_.elements, simplex_edges<D>(), [this](const Simplex<D>& v, std::size_t e) {
         return element(v, mesh_.region.empty() ? -1 : mesh_.region[e]);
       });
@@ -45,6 +49,21 @@ class ScalarAssembler {
     where.region = region;
     const double around = mean_circumference<D>(model_.plane, mesh_, vertices);
     return element_stiffness(s, around * s.measure * law_.at(where).diffusion);
+  }
+
+  using QuadraticStiffness = LocalStiffness<element_nodes<D, 2>, node_pairs<element_nodes<D, 2>>().size()>;
+  QuadraticStiffness quadratic(const Family<D>& vertices, std::size_t e) const {
+    const ElementMap<D, D, 2> map(mesh_, vertices);
+    QuadraticStiffness out{};
+    for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(law_.constant() && !map.curved())) {
+      const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
+      Site where;
+      if (!law_.constant()) where = site_in<D>(nodes_, e, map(barycentric), model_.t);
+      add_stiffness(basis_gradients<2>(flat.gradient, barycentric), weight * flat.measure * law_.at(where).diffusion,
+                    out);
+    }
+    clear_vanishing(out, node_pairs<element_nodes<D, 2>>());
+    return out;
   }
 
   FamilyStiffness<D> family(const Family<D>& vertices) const {

@@ -24,40 +24,79 @@ Stress stress(const Material<D>& material, const Gradient<D, D>& g, double hoop,
   return s;
 }
 
+/// Of a linear element.
 template <int D>
 double hoop_strain(const Nodes<D>& nodes, const Model<D>& model, std::size_t e, const std::vector<double>& u) {
   double sum = 0;
-  for (const Index p : nodes.of_element(e)) sum += u[Offset{p} * D];
+  for (const Index p : nodes.of_simplex(e)) sum += u[Offset{p} * D];
   return sum / (D + 1) * hoop_factor<D>(model.plane, nodes.mesh(), nodes.mesh().elements[e]);
 }
+
+/// A finite element function's stress in one element after the other.
+template <int D, int P>
+class StressReader {
+ public:
+  using Barycentric = std::array<double, D + 1>;
+
+  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
+      : nodes_(nodes), model_(model), law_(model), u_(u) {}
+
+  /// At a point of an element, with the measure of the flat element that it is like there.
+  struct Read {
+    Stress stress;
+    double measure;
+  };
+  Read at(std::size_t e, const ElementMap<D, D, P>& map, const Barycentric& barycentric) const {
+    const LinearElement<D> flat = linear_element(map.flat(barycentric));
+    const auto node = nodes_.of(nodes_.template elements<P>()[e]);
+    const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
+    const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
+    const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
+    return {stress<D>(law_.at(where), g, hoop, model_.plane == Plane::stress), flat.measure};
+  }
+
+ private:
+  const Nodes<D>& nodes_;
+  const Model<D>& model_;
+  const MaterialLaw<D> law_;
+  const std::vector<double>& u_;
+};
 
 }  // namespace
 
 template <int D>
 std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
-  const Mesh<D>& mesh = nodes.mesh();
-  const MaterialLaw<D> law(model);
   std::vector<Stress> out;
-  out.reserve(mesh.elements.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const Gradient<D, D> g = gradient<D, D>(linear_element(mesh, mesh.elements[e]), nodes.of_element(e), u);
-    const Material<D> material = law.at(site_in(mesh, e, model.t));
-    out.push_back(stress<D>(material, g, hoop_strain(nodes, model, e, u), model.plane == Plane::stress));
-  }
+  with_order(nodes, [&](auto order) {
+    const auto& elements = nodes.template elements<order>();
+    const StressReader<D, order> reader(nodes, model, u);
+    std::array<double, D + 1> centroid;
+    centroid.fill(1.0 / (D + 1));
+    out.reserve(elements.size());
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      out.push_back(reader.at(e, ElementMap<D, D, order>(nodes.mesh(), elements[e]), centroid).stress);
+  });
   return out;
 }
 
 template <int D>
-std::vector<Stress> nodal_stress(const Mesh<D>& mesh, const std::vector<Stress>& element_stress) {
-  std::vector<Stress> out(mesh.points.size());
-  std::vector<double> weight(mesh.points.size());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const double measure = linear_element(mesh, mesh.elements[e]).measure;
-    for (const Index p : mesh.elements[e]) {
-      for (int k = 0; k < 6; ++k) out[p][k] += measure * element_stress[e][k];
-      weight[p] += measure;
+std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+  std::vector<Stress> out(nodes.mesh().points.size());
+  std::vector<double> weight(out.size());
+  with_order(nodes, [&](auto order) {
+    const auto& elements = nodes.template elements<order>();
+    const StressReader<D, order> reader(nodes, model, u);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      const ElementMap<D, D, order> map(nodes.mesh(), elements[e]);
+      typename StressReader<D, order>::Read here;
+      for (std::size_t a = 0; a < elements[e].size(); ++a) {
+        if (a == 0 || order > 1) here = reader.at(e, map, node_place<D>(a));
+        const Index p = elements[e][a];
+        for (int k = 0; k < 6; ++k) out[p][k] += here.measure * here.stress[k];
+        weight[p] += here.measure;
+      }
     }
-  }
+  });
   for (std::size_t p = 0; p < out.size(); ++p)
     if (weight[p] > 0)
       for (double& s : out[p]) s /= weight[p];
@@ -71,7 +110,7 @@ double von_mises(const Stress& s) {
 
 template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
 template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Mesh<2>&, const std::vector<Stress>&);
-template std::vector<Stress> nodal_stress(const Mesh<3>&, const std::vector<Stress>&);
+template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
+template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 
 }  // namespace signorini

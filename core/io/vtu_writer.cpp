@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/base/crew.hpp"
 #include "core/base/error.hpp"
@@ -113,17 +114,38 @@ std::vector<T> offsets(std::size_t elements, T vertices) {
   return ends;
 }
 
-template <int D>
-std::string describe_cells(Arrays& arrays, const Mesh<D>& mesh) {
-  constexpr std::uint8_t triangle = 5, tetrahedron = 10;
-  const std::size_t elements = mesh.elements.size(), vertices = elements * (D + 1);
+/// @param type of VTK
+template <std::size_t N>
+std::string describe_cells(Arrays& arrays, const std::vector<std::array<Index, N>>& cells, std::uint8_t type) {
+  const std::size_t vertices = cells.size() * N;
   const bool few = vertices <= std::numeric_limits<Index>::max();
-  const std::span connectivity(elements == 0 ? nullptr : mesh.elements.front().data(), vertices);
+  const std::span connectivity(cells.empty() ? nullptr : cells.front().data(), vertices);
   return arrays.add<Index>("Int32", "connectivity", 1, connectivity) +
-         (few ? arrays.add<Index>("Int32", "offsets", 1, offsets<Index>(elements, D + 1))
-              : arrays.add<Offset>("Int64", "offsets", 1, offsets<Offset>(elements, D + 1))) +
-         arrays.add<std::uint8_t>("UInt8", "types", 1,
-                                  std::vector<std::uint8_t>(elements, D == 2 ? triangle : tetrahedron));
+         (few ? arrays.add<Index>("Int32", "offsets", 1, offsets<Index>(cells.size(), N))
+              : arrays.add<Offset>("Int64", "offsets", 1, offsets<Offset>(cells.size(), N))) +
+         arrays.add<std::uint8_t>("UInt8", "types", 1, std::vector<std::uint8_t>(cells.size(), type));
+}
+
+/// VTK goes around each triangle, and then up to the last corner: edges 01 12 02 and 01 12 02 03 13 23.
+template <int D>
+std::vector<Family<D>> in_order_of_vtk(std::vector<Family<D>> cells) {
+  for (Family<D>& cell : cells) {
+    if constexpr (D == 2) {
+      std::swap(cell[4], cell[5]);  // 02 12
+    } else {
+      const Index e03 = cell[6];
+      cell[6] = std::exchange(cell[5], cell[7]);  // 02 03 12
+      cell[7] = e03;
+    }
+  }
+  return cells;
+}
+
+template <int D>
+std::string describe_cells(Arrays& arrays, const Mesh<D>& mesh, int order) {
+  constexpr std::uint8_t triangle = 5, tetrahedron = 10, quadratic_triangle = 22, quadratic_tetrahedron = 24;
+  if (order == 1) return describe_cells(arrays, mesh.elements, D == 2 ? triangle : tetrahedron);
+  return describe_cells(arrays, in_order_of_vtk<D>(mesh.families), D == 2 ? quadratic_triangle : quadratic_tetrahedron);
 }
 
 template <int D>
@@ -139,12 +161,13 @@ std::vector<double> coordinates(const Mesh<D>& mesh) {
 
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields, const VtuPacking& packing) {
+               const std::vector<VtuField>& cell_fields, const VtuPacking& packing, int order) {
+  const std::size_t count = order == 1 ? mesh.elements.size() : mesh.families.size();
   Arrays arrays(packing);
   const std::string points = arrays.add<double>("Float64", "Points", 3, coordinates(mesh));
-  const std::string cells = describe_cells(arrays, mesh);
+  const std::string cells = describe_cells(arrays, mesh, order);
   const std::string point_data = describe(arrays, point_fields, mesh.points.size());
-  const std::string cell_data = describe(arrays, cell_fields, mesh.elements.size());
+  const std::string cell_data = describe(arrays, cell_fields, count);
   write_file(path, [&](std::ostream& out) {
     out << fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
@@ -152,8 +175,8 @@ void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std
         "NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n"
         "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
-        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(),
-        mesh.elements.size(), point_data, cell_data, points, cells);
+        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(), count,
+        point_data, cell_data, points, cells);
     arrays.write(out);
     out << "\n</AppendedData>\n</VTKFile>\n";
   });
@@ -170,8 +193,8 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
 }
 
 template void write_vtu(const std::filesystem::path&, const Mesh<2>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, const VtuPacking&);
+                        const std::vector<VtuField>&, const VtuPacking&, int);
 template void write_vtu(const std::filesystem::path&, const Mesh<3>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, const VtuPacking&);
+                        const std::vector<VtuField>&, const VtuPacking&, int);
 
 }  // namespace signorini

@@ -21,11 +21,13 @@ struct VtuPacking {
   int threads = 1;
 };
 
-/// Writes a VTK unstructured grid with binary data (appended raw, packed by zlib). The file appears under its name when
-/// it is complete, and does not depend on the number of threads. Error(Exit::input) if it cannot be written.
+/// Writes a VTK unstructured grid with binary data (appended raw, packed by zlib). With order 2 the cells are quadratic
+/// triangles or tetrahedra, one for each family of the mesh (see Nodes), and cell fields are theirs. The file appears
+/// under its name when it is complete, and does not depend on the number of threads. Error(Exit::input) if it cannot be
+/// written.
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {});
+               const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {}, int order = 1);
 
 /// One entry of a collection: a file, relative to the folder of the collection, the time it belongs to, and its number
 /// among those of that time.

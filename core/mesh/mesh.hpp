@@ -41,10 +41,11 @@ struct Mesh {
   std::vector<Face<D>> boundary;                   ///< every boundary face, once
   std::vector<Part> parts;                         ///< named parts; all faces together always answer to "boundary"
   std::vector<Curve<D>> curves;
-  std::vector<Index> region;        ///< per element the material it is of, -1: the body's own; empty: all of them
-  std::vector<Family<D>> families;  ///< all elements once more, as children; none where they are not
-  std::vector<Index> layer;         ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
-  int refinements = 0;              ///< uniform ones that made it from the coarsest mesh
+  std::vector<Index> region;         ///< per element the material it is of, -1: the body's own; empty: all of them
+  std::vector<Family<D>> families;   ///< all elements once more, as children; none where they are not
+  std::vector<Index> family_region;  ///< per family, as `region`
+  std::vector<Index> layer;          ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
+  int refinements = 0;               ///< uniform ones that made it from the coarsest mesh
 
   Index vertices() const { return static_cast<Index>(points.size()); }
 };

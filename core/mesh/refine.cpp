@@ -141,6 +141,8 @@ class Refiner {
     for (Family<D>& family : fine_.families) family.fill(-1);
     first_child_.resize((span_ + 1) * fathers_.size());
     const auto [order, begin] = sort_fathers();
+    if (!coarse_.region.empty())
+      for (const Index father : order) fine_.family_region.push_back(coarse_.region[father]);
     const auto layers = static_cast<Index>(begin.size()) - 1;
     for (Index lowest = 0; lowest <= 2 * layers + span_; ++lowest)
       for (Index layer = std::max(0, (lowest - span_ + 1) / 2); layer < layers && 2 * layer <= lowest; ++layer)

@@ -116,6 +116,8 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
   body.order = reader.integer("order");
   body.plane = plane(reader.text("plane"));
+  if (body.order == 2 && body.plane == Plane::axisymmetric)
+    input_error(reader.origin("order"), "quadratic elements of an axisymmetric body are not available in this version");
   cut_at_axis(body);
   read_material(reader, body);
   read_size(reader, body);

@@ -21,7 +21,8 @@ constexpr KeySpec body[] = {
     {"plane", text, "strain", "strain | stress | axisymmetric", "",
      "what holds across the plane, 2D only; axisymmetric: x is the radius and y the axis, scalar bodies too"},
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
-    {"order", integer, "1", "1", "2", "1: linear elements, 2: quadratic ones"},
+    {"order", integer, "1", "[1, 2]", "",
+     "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };

@@ -34,7 +34,7 @@ inline constexpr int most_data = 8;
 struct SurfaceVertex {
   double position[3];
   double normal[3];  ///< averaged outer unit normal of the body's surface; zero inside it
-  /// Integral of the vertex's hat function over the faces that the obstacle acts on, over the body where it acts on all
+  /// Integral of the node's basis function over the faces that the obstacle acts on, over the body where it acts on all
   /// vertices of a scalar one. Zero where no functional asks for it.
   double measure = 0;
   long vertex = -1;  ///< its number in the mesh; -1: a node that is no vertex

@@ -99,9 +99,9 @@ using Scenes = SceneText (*)(const Frame<D>&);
 
 /// Solves the scene as it is and moved, and compares the displacements after moving back.
 template <int D>
-void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& motion, double modulus) {
+void expect_invariant(const Mesh<D>& mesh, Scenes<D> scene, const Motion<D>& motion, double modulus, int order = 1) {
   const TemporaryFolder folder;
-  const std::vector<std::string> settings{"solver.tolerance=1e-10"};
+  const std::vector<std::string> settings{"solver.tolerance=1e-10", fmt::format("body.0.order={}", order)};
   const auto here = run<D, D>(scene({folder.write("here.msh", msh(mesh)), {}}), settings);
   const auto there = run<D, D>(scene({folder.write("there.msh", msh(mesh, motion)), motion, modulus}), settings);
   EXPECT_NEAR(there.summary().iterations, here.summary().iterations, 1);
@@ -144,6 +144,16 @@ TEST(Invariance, RotationAndTranslation) {
     space.shift = {3, -2, 5};
     expect_invariant<3>(half_ball(), ball_on_sphere, space, 1);
   }
+}
+
+TEST(Invariance, OfQuadraticElements) {
+  Motion<2> plane = rotation2(0.7);
+  plane.shift = {3, -2};
+  Motion<3> space = rotation3(0.4, 1.1, -2.3);
+  space.shift = {3, -2, 5};
+  space.scale = 1e3;
+  expect_invariant<2>(square(), square_on_incline, plane, 1, 2);
+  expect_invariant<3>(half_ball(), ball_on_sphere, space, 2.1e11, 2);
 }
 
 Mesh<3> cube_on_floor() { return signorini::box({-1, -1, -1}, {1, 1, 1}, {3, 3, 3}); }

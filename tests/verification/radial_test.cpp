@@ -72,28 +72,37 @@ void expect_free_boundary_within_one_mesh_width(const Run<D, 1>& r, double width
 }
 
 template <int D>
-void expect_orders(int cells, int refinements) {
+void expect_orders(int cells, int refinements, int order) {
   Errors energy, maximum;
   for (int k = 0; k <= refinements; ++k) {
-    const auto r = run<D, 1>(radial<D>(cells), {uniform(k)});
-    energy.add(energy_error<D, 1>(r.mesh(), r.model, r.u(), slope<D>));
-    maximum.add(max_nodal_error<D, 1>(r.mesh(), r.u(), value<D>));
+    const auto r = run<D, 1>(radial<D>(cells), {uniform(k), fmt::format("body.0.order={}", order)});
+    energy.add(energy_error<D, 1>(r.nodes(), r.model, r.u(), slope<D>));
+    maximum.add(max_nodal_error<D, 1>(r.nodes(), r.u(), value<D>));
     const double cell = 4.0 / (cells << k);
     expect_free_boundary_within_one_mesh_width(r, cell * std::sqrt(D));  // the longest edge
-    show("{}D, {} cells: energy {:.4e} order {:.2f}, maximum {:.4e} order {:.2f}, {} cycles, rate {:.2f}\n", D,
-         cells << k, energy.value.back(), energy.last_order(), maximum.value.back(), maximum.last_order(),
+    show("{}D, order {}, {} cells: energy {:.4e} order {:.2f}, maximum {:.4e} order {:.2f}, {} cycles, rate {:.2f}\n",
+         D, order, cells << k, energy.value.back(), energy.last_order(), maximum.value.back(), maximum.last_order(),
          r.summary().iterations, r.summary().rate);
   }
   energy.expect_falling();
   maximum.expect_falling();
-  EXPECT_GE(energy.mean_order(), 0.9);
-  EXPECT_GE(energy.last_order(), 0.95);
-  EXPECT_GE(maximum.mean_order(), 1.7);
+  if (order == 1) {
+    EXPECT_GE(energy.mean_order(), 0.9);
+    EXPECT_GE(energy.last_order(), 0.95);
+    EXPECT_GE(maximum.mean_order(), 1.7);
+  } else {
+    // Second derivatives jump at the free boundary, which no mesh knows: order 3/2. Between two meshes it depends on
+    // where the boundary cuts elements, from 1.3 to 1.8.
+    EXPECT_GE(energy.mean_order(), 1.35);
+    EXPECT_GE(maximum.mean_order(), 1.5);
+  }
 }
 
 // The largest error sits at vertices beside the free boundary, and varies by a factor of two with their distance to it.
-TEST(Radial, Orders2D) { expect_orders<2>(16, 4); }
-TEST(Radial, Orders3D) { expect_orders<3>(7, 4); }
+TEST(Radial, Orders2D) { expect_orders<2>(16, 4, 1); }
+TEST(Radial, Orders3D) { expect_orders<3>(7, 4, 1); }
+TEST(Radial, OrdersOfQuadraticElements2D) { expect_orders<2>(16, 4, 2); }
+TEST(Radial, OrdersOfQuadraticElements3D) { expect_orders<3>(7, 3, 2); }
 
 /// The ball of radius 2 with zero boundary values, freely meshed and moved onto the sphere under refinement.
 TEST(Radial, OrderInABall) {

@@ -26,12 +26,13 @@ inline const std::filesystem::path shipped_scenes = std::filesystem::path(SIGNOR
 template <int D, int B>
 struct Run {
   MeshHierarchy<D> meshes;
+  int order;
   Model<B> model;
   Solution<B> solution;
   Results<D, B> results;
 
   const Mesh<D>& mesh() const { return meshes.finest(); }
-  Nodes<D> nodes() const { return Nodes<D>(mesh()); }
+  Nodes<D> nodes() const { return Nodes<D>(mesh(), order); }
   const Summary& summary() const { return solution.summary; }
   const std::vector<double>& u() const { return results.u; }
   const ContactSummary<B>& contact(int obstacle = 0) const { return results.contact.obstacles[obstacle]; }
@@ -44,8 +45,9 @@ Run<D, B> run(const Scene& scene) {
   load_plugins(scene, registry);
   const Progress quiet;
   Times times;
-  Run<D, B> out{build_hierarchy<D>(scene, B), build_model<B>(scene, D, registry, 1), {}, {}};
-  NestedSolver<D, B> solver(out.meshes, scene.solver, registry, quiet, times);
+  const int order = scene.bodies[0].order;
+  Run<D, B> out{build_hierarchy<D>(scene, B), order, build_model<B>(scene, D, registry, 1), {}, {}};
+  NestedSolver<D, B> solver(out.meshes, scene.solver, registry, quiet, times, nodes_of(out.meshes, order));
   out.solution = solver.solve(out.model);
   out.results = results<D, B>(out.nodes(), out.model, out.solution);
   EXPECT_TRUE(out.summary().converged()) << scene.title << ": " << out.summary().reason;

@@ -142,7 +142,7 @@ TEST(Nodes, AreTheVerticesUnlessToldOtherwise) {
   const Mesh<2> mesh = unit_mesh<2>(3);
   const Nodes nodes(mesh);
   EXPECT_EQ(nodes.size(), mesh.vertices());
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) EXPECT_EQ(nodes.of_element(e), mesh.elements[e]);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) EXPECT_EQ(nodes.of_simplex(e), mesh.elements[e]);
   for (Index v = 0; v < nodes.size(); ++v) {
     EXPECT_EQ(nodes.of_vertex(v), v);
     EXPECT_EQ(nodes.vertex(v), v);

@@ -13,6 +13,7 @@
 
 #include "core/io/mesh_file.hpp"
 #include "core/io/vtu_writer.hpp"
+#include "core/mesh/refine.hpp"
 #include "core/mesh/structured.hpp"
 #include "tests/core/mesh/mesh_checks.hpp"
 #include "tests/support/folder.hpp"
@@ -98,6 +99,45 @@ TEST_F(Vtk, OpensWhatIsWrittenIn3D) {
   if (skipped()) GTEST_SKIP() << "SIGNORINI_SKIP_VTK is set";
   const fs::path file = folder_ / "brick.vtu";
   exchange<3>(box({0, 0, 0}, {1, 2, 3}, {1, 2, 3}), file, [&] { return run("vtk_dump.py", file); });
+}
+
+/// The edges whose midpoints follow the corners, in the order of VTK's file formats.
+template <int D>
+void expect_midpoints_where_vtk_has_them(const Mesh<D>& coarse, const fs::path& file,
+                                         const std::function<std::string()>& dump) {
+  const std::vector<std::array<int, 2>> edges =
+      D == 2 ? std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 0}}
+             : std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  Mesh<D> mesh;
+  refine_uniformly(coarse, mesh);
+  write_vtu(file, mesh, {field("gap", 1, mesh.points.size())}, {field("region", 1, coarse.elements.size())}, {}, 2);
+  std::istringstream seen(dump());
+  std::size_t cells = 0;
+  for (std::string line; std::getline(seen, line);) {
+    std::istringstream words(line);
+    std::string word;
+    int type = 0;
+    if (!(words >> word >> type) || word != "cell") continue;
+    ++cells;
+    EXPECT_EQ(type, D == 2 ? 22 : 24);
+    std::vector<std::size_t> node;
+    for (std::size_t p; words >> p;) node.push_back(p);
+    ASSERT_EQ(node.size(), D + 1 + edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      for (int i = 0; i < D; ++i)
+        EXPECT_DOUBLE_EQ(mesh.points[node[D + 1 + k]][i],
+                         (mesh.points[node[edges[k][0]]][i] + mesh.points[node[edges[k][1]]][i]) / 2);
+  }
+  EXPECT_EQ(cells, coarse.elements.size());
+}
+
+TEST_F(Vtk, SeesQuadraticCells) {
+  if (skipped()) GTEST_SKIP() << "SIGNORINI_SKIP_VTK is set";
+  const fs::path plate = folder_ / "plate.vtu", brick = folder_ / "brick.vtu";
+  expect_midpoints_where_vtk_has_them<2>(rectangle({0, 0}, {3, 2}, {3, 2}), plate,
+                                         [&] { return run("vtk_dump.py", plate); });
+  expect_midpoints_where_vtk_has_them<3>(box({0, 0, 0}, {1, 2, 3}, {1, 2, 3}), brick,
+                                         [&] { return run("vtk_dump.py", brick); });
 }
 
 TEST_F(Vtk, WritesNothingWeCannotRead) {

@@ -1,0 +1,165 @@
+// Quadratic elements: orders of convergence on smooth problems, and the cycles that they take beside linear ones.
+#include "core/fem/error_norm.hpp"
+#include "run.hpp"
+#include "scene_text.hpp"
+
+namespace signorini::test {
+namespace {
+
+constexpr const char* block2 = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [{0}, {0}]\norder = {1}\n";
+constexpr const char* block3 =
+    "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [{0}, {0}, {0}]\norder = {1}\n";
+
+template <int D>
+std::string block(int cells, int order) {
+  return fmt::format(fmt::runtime(D == 2 ? block2 : block3), cells, order);
+}
+
+/// A smooth solution, with what it needs as text.
+template <int D, int B>
+struct Smooth;
+
+template <int D>
+struct Smooth<D, 1> {
+  static constexpr const char* material = "equation = \"diffusion\"\ndiffusion = 2\n";
+  // u = sin(2 x + y) (+ cos(3 z - x))
+  static std::vector<std::string> value() { return {D == 2 ? "sin(2*x+y)" : "sin(2*x+y)+cos(3*z-x)"}; }
+  static std::vector<std::string> source() { return {D == 2 ? "10*sin(2*x+y)" : "10*sin(2*x+y)+20*cos(3*z-x)"}; }
+  static std::array<double, 1> at(const Point<D>& x) {
+    return {std::sin(2 * x[0] + x[1]) + (D == 3 ? std::cos(3 * x[D - 1] - x[0]) : 0)};
+  }
+  static Gradient<D, 1> slope(const Point<D>& x) {
+    const double c = std::cos(2 * x[0] + x[1]), s = D == 3 ? std::sin(3 * x[D - 1] - x[0]) : 0;
+    Gradient<D, 1> g{};
+    g[0][0] = 2 * c + s;
+    g[0][1] = c;
+    if (D == 3) g[0][D - 1] = -3 * s;
+    return g;
+  }
+};
+
+// lambda = mu = 1; f = -(mu Laplace u + (lambda + mu) grad div u)
+template <>
+struct Smooth<2, 2> {
+  static constexpr const char* material = "young = 2.5\npoisson = 0.25\n";
+  static std::vector<std::string> value() { return {"sin(x+2*y)", "cos(2*x-y)"}; }
+  static std::vector<std::string> source() {
+    return {"5*sin(x+2*y) - 2*(-sin(x+2*y)+2*cos(2*x-y))", "5*cos(2*x-y) - 2*(-2*sin(x+2*y)-cos(2*x-y))"};
+  }
+  static std::array<double, 2> at(const Point<2>& x) { return {std::sin(x[0] + 2 * x[1]), std::cos(2 * x[0] - x[1])}; }
+  static Gradient<2, 2> slope(const Point<2>& x) {
+    const double c = std::cos(x[0] + 2 * x[1]), s = std::sin(2 * x[0] - x[1]);
+    return {{{c, 2 * c}, {-2 * s, s}}};
+  }
+};
+
+template <>
+struct Smooth<3, 3> {
+  static constexpr const char* material = "young = 2.5\npoisson = 0.25\n";
+  static std::vector<std::string> value() { return {"sin(x+2*y)", "cos(2*y-z)", "sin(z+x)"}; }
+  static std::vector<std::string> source() {
+    return {"5*sin(x+2*y) - 2*(-sin(x+2*y)-sin(z+x))", "5*cos(2*y-z) - 2*(-2*sin(x+2*y)-4*cos(2*y-z))",
+            "2*sin(z+x) - 2*(2*cos(2*y-z)-sin(z+x))"};
+  }
+  static std::array<double, 3> at(const Point<3>& x) {
+    return {std::sin(x[0] + 2 * x[1]), std::cos(2 * x[1] - x[2]), std::sin(x[2] + x[0])};
+  }
+  static Gradient<3, 3> slope(const Point<3>& x) {
+    const double a = std::cos(x[0] + 2 * x[1]), b = std::sin(2 * x[1] - x[2]), c = std::cos(x[2] + x[0]);
+    return {{{a, 2 * a, 0}, {0, -2 * b, b}, {c, 0, c}}};
+  }
+};
+
+std::string list(const std::vector<std::string>& values) {
+  std::string out;
+  for (const std::string& value : values) out += (out.empty() ? "['" : ", '") + value + "'";
+  return out + "]";
+}
+
+/// That solution as boundary values and source, in a scene without any obstacle.
+template <int D, int B>
+std::string smooth(int cells, int order) {
+  using P = Smooth<D, B>;
+  return fmt::format(
+      "[[body]]\nname = \"b\"\n{}{}[[fix]]\nbody = \"b\"\non = \"boundary\"\nvalue = {}\n"
+      "[[load]]\nbody = \"b\"\nvalue = {}\n[solver]\ntolerance = 1e-9\n",
+      block<D>(cells, order), P::material, list(P::value()), list(P::source()));
+}
+
+template <int D, int B>
+void expect_orders_on_smooth_problems(int cells, int refinements) {
+  using P = Smooth<D, B>;
+  for (const int order : {1, 2}) {
+    Errors energy, l2;
+    for (int k = 0; k <= refinements; ++k) {
+      const auto r = run<D, B>(smooth<D, B>(cells, order), {uniform(k)});
+      energy.add(energy_error<D, B>(r.nodes(), r.model, r.u(), P::slope));
+      l2.add(l2_error<D, B>(r.nodes(), r.u(), P::at));
+      show(
+          "{}D, {} unknowns per node, order {}: {} nodes, energy {:.3e} order {:.2f}, L2 {:.3e} order {:.2f}, {} "
+          "cycles\n",
+          D, B, order, r.nodes().size(), energy.value.back(), energy.last_order(), l2.value.back(), l2.last_order(),
+          r.summary().iterations);
+    }
+    EXPECT_NEAR(energy.last_order(), order, 0.1);
+    EXPECT_NEAR(l2.last_order(), order + 1, 0.15);
+  }
+}
+
+TEST(Quadratic, OrdersOnSmoothProblems) {
+  expect_orders_on_smooth_problems<2, 1>(4, 3);
+  expect_orders_on_smooth_problems<3, 1>(3, 2);
+  expect_orders_on_smooth_problems<2, 2>(4, 3);
+  expect_orders_on_smooth_problems<3, 3>(2, 2);
+}
+
+/// A block pressed on a parabola by its top.
+template <int D>
+SceneText pressed(int cells, int order) {
+  const bool plane = D == 2;
+  return {.body = block<D>(cells, order) + "young = 1\npoisson = 0.3",
+          .fixes = {plane ? "on = \"top\"\nvalue = [0, -0.05]" : "on = \"top\"\nvalue = [0, 0, -0.05]"},
+          .obstacle = fmt::format("type = \"contact\"\non = \"bottom\"\nshape = \"expression\"\ndistance = '{}'\n"
+                                  "normal = [0, {}1]",
+                                  plane ? "y + 0.2*(x-0.4)^2" : "z + 0.2*((x-0.4)^2 + (y-0.4)^2)", plane ? "" : "0, ")};
+}
+
+template <int D>
+SceneText membrane(int cells, int order) {
+  return {.body = block<D>(cells, order) + "equation = \"diffusion\"",
+          .fixes = {"on = \"boundary\"\nvalue = [0]"},
+          .loads = {"value = [-8]"},
+          .obstacle = "type = \"scalar\"\nlower = '-0.1 - 0.1*x'"};
+}
+
+/// Cycles beside those of linear elements with the same nodes.
+template <int D, int B, class Scene>
+void expect_few_cycles(const Scene& scene, int cells, int refinements) {
+  std::vector<int> found;
+  for (int k = 0; k <= refinements; ++k) {
+    const auto linear = run<D, B>(scene(cells, 1), {uniform(k + 1)});
+    const auto quadratic = run<D, B>(scene(cells, 2), {uniform(k)});
+    ASSERT_EQ(quadratic.nodes().size(), linear.nodes().size());
+    EXPECT_GT(quadratic.contact().nodes, 2);
+    show(
+        "{}D, {} unknowns per node: {} nodes, linear {} cycles, quadratic {}; rates {:.2f}, {:.2f}; contact {} and {}, "
+        "force {:.5f} and {:.5f}, pressure {:.5f} and {:.5f}, area {:.5f} and {:.5f}\n",
+        D, B, linear.nodes().size(), linear.summary().iterations, quadratic.summary().iterations, linear.summary().rate,
+        quadratic.summary().rate, linear.contact().nodes, quadratic.contact().nodes, linear.contact().force[B - 1],
+        quadratic.contact().force[B - 1], linear.contact().max_pressure, quadratic.contact().max_pressure,
+        linear.contact().area, quadratic.contact().area);
+    EXPECT_LE(quadratic.summary().iterations, 1.5 * linear.summary().iterations + 1);
+    found.push_back(quadratic.summary().iterations);
+  }
+  EXPECT_LE(found.back(), found[1] + 3);  // the coarsest one has two levels
+}
+
+TEST(Quadratic, CyclesAreFewAndDoNotGrow) {
+  expect_few_cycles<2, 1>(membrane<2>, 4, 4);
+  expect_few_cycles<3, 1>(membrane<3>, 3, 2);
+  expect_few_cycles<2, 2>(pressed<2>, 4, 4);
+  expect_few_cycles<3, 3>(pressed<3>, 3, 2);
+}
+
+}  // namespace
+}  // namespace signorini::test
