@@ -54,6 +54,7 @@ class ExtendedSets {
         b_(b),
         tolerance_(tolerance),
         most_operations_(most_operations),
+        regular_(regular),
         no_pivot_(regular ? rounding_of_pivots : no_pivot),
         x_(b.size()),
         r_(b.size()),
@@ -114,6 +115,8 @@ class ExtendedSets {
     return true;
   }
 
+  /// Whether the matrix has no motion, but a direction of so little energy that rounding hides it.
+  bool hidden() const { return hidden_; }
   int sets() const { return sets_; }
   int solves() const { return solves_; }
 
@@ -173,8 +176,9 @@ class ExtendedSets {
     for (std::size_t i = 0; i < active_.size(); ++i)
       if (active_[i] != 0) mask[i / B] |= static_cast<Flags>(1u << (i % B));
     ++sets_;
-    return factor_.factorise(scaled_exactly(problem_.A, mask, scale_), most_operations_, no_pivot_) &&
-           factor_.falling_direction().size() == 0;
+    if (!factor_.factorise(scaled_exactly(problem_.A, mask, scale_), most_operations_, no_pivot_)) return false;
+    hidden_ = regular_ && !factor_.held().empty();
+    return !hidden_ && factor_.falling_direction().size() == 0;
   }
 
   bool solve_free() {
@@ -212,7 +216,9 @@ class ExtendedSets {
   const HeldRows<B>& held_;
   std::span<const double> b_;
   const double tolerance_, most_operations_;
+  const bool regular_;
   const Real no_pivot_;
+  bool hidden_ = false;
   std::vector<TwoDoubles> x_;
   Vector r_;
   Set active_;
@@ -327,7 +333,10 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
   if (most == 0) return;
   const double begin = seconds();
   ExtendedSets<B> sets(problem, held, b, options.tolerance, most, motions.regular());
-  if (!sets.solve(x)) return;
+  if (!sets.solve(x)) {
+    if (sets.hidden()) doubt(summary, 1, options.tolerance);
+    return;
+  }
   const auto size = static_cast<double>(sets.size());
   const auto relative = [&](double error) { return error == 0 ? 0 : size > 0 ? error / size : 1; };
   const double before = relative(sets.error(x));

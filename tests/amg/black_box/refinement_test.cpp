@@ -234,6 +234,25 @@ TEST(Refinement, SupportsThatRoundingHidesAreNoClaim) {
     }
 }
 
+// The support is 2^-43 of the spring beside it, and 2^-62 of the stiffest one: its row shows it, solutions do not.
+TEST(Refinement, SupportsThatNoFactorisationSeesAreNoClaim) {
+  Matrix A(4, 4);
+  const std::vector<Eigen::Triplet<double>> entries{{0, 0, 0.25 + std::ldexp(1, -45)},
+                                                    {0, 1, -0.25},
+                                                    {1, 0, -0.25},
+                                                    {1, 1, 131072.25},
+                                                    {1, 2, -131072},
+                                                    {2, 1, -131072},
+                                                    {2, 2, 132096},
+                                                    {2, 3, -1024},
+                                                    {3, 2, -1024},
+                                                    {3, 3, 1024}};
+  A.setFromTriplets(entries.begin(), entries.end());
+  const Summary s = BlackBox(A, 1).solve(std::vector<double>{-0.3, 1.1, 0.4, -0.7}).summary;
+  EXPECT_FALSE(s.converged()) << s.reason;
+  EXPECT_NE(s.outcome, Outcome::unbounded) << s.reason;
+}
+
 TEST(Refinement, NoMethodClaimsMoreThanItReached) {
   Random random(112);
   for (const char* method : {"monotone", "tnnmg", "pgs", "pdas"}) {
