@@ -18,6 +18,7 @@ inline double circumference(Plane plane, const Point<D>& x) {
 /// Its mean over a simplex: times the simplex's measure that of what it stands for.
 template <int D, std::size_t N>
 inline double mean_circumference(Plane plane, const Mesh<D>& mesh, const std::array<Index, N>& vertices) {
+  if (plane != Plane::axisymmetric) return 1;
   double sum = 0;
   for (const Index v : vertices) sum += circumference<D>(plane, mesh.points[v]);
   return sum / N;
