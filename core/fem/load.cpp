@@ -28,8 +28,8 @@ struct Loaded {
   std::array<double, B> total{};
 };
 
-/// On a simplex of dimension K; `simple`: a constant load on straight edges. The circumference of an axisymmetric body is
-/// one degree more.
+/// On a simplex of dimension K; `simple`: a constant load on straight edges. The circumference of an axisymmetric body
+/// is one degree more.
 template <int D, int K, int P>
 std::span<const QuadraturePoint<K>> rule_for(bool simple, bool axisymmetric) {
   if (axisymmetric) return simple ? quadrature2<K>() : quadrature5<K>();

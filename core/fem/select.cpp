@@ -155,10 +155,9 @@ template <int D>
 Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
   const auto all = nodes.of_face(face);
   const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
-  const Point<D> out = nodes.order() == 1
-                           ? middle<D, 1>(nodes, face, at, plane)
-                           : middle<D, 2>(nodes, face - face % nodes.faces_per_element(),
-                                          place_on_element(nodes, face, at), plane);
+  const Point<D> out = nodes.order() == 1 ? middle<D, 1>(nodes, face, at, plane)
+                                          : middle<D, 2>(nodes, face - face % nodes.faces_per_element(),
+                                                         place_on_element(nodes, face, at), plane);
   return std::isfinite(out[0]) ? out : nodes.at(node);  // on the axis it stands for nothing
 }
 

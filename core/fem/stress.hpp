@@ -9,8 +9,8 @@ namespace signorini {
 /// A symmetric stress tensor in the order of VTK: xx, yy, zz, xy, yz, xz.
 using Stress = std::array<double, 6>;
 
-/// The stress at the centroid of every element; in plane strain zz is what holds the body flat. Of an axisymmetric body xx
-/// is the radial, yy the axial and zz the hoop stress.
+/// The stress at the centroid of every element; in plane strain zz is what holds the body flat. Of an axisymmetric body
+/// xx is the radial, yy the axial and zz the hoop stress.
 /// @param u displacements in global coordinates, D per node
 template <int D>
 std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);

@@ -223,14 +223,10 @@ struct Later {
   const char* assignment;
 };
 
-const std::vector<Later> later = {{ball, "obstacle.0.other=ball"},
-                                  {ball, "obstacle.0.other_on=boundary"},
-                                  {ball, "obstacle.0.other_where=z>0"},
-                                  {membrane, "refine.adaptive=true"},
-                                  {membrane, "refine.tolerance=0.1"},
-                                  {membrane, "refine.max_unknowns=1000"},
-                                  {membrane, "refine.max_steps=3"},
-                                  {membrane, "refine.estimator=hierarchical"}};
+const std::vector<Later> later = {{ball, "obstacle.0.other=ball"},      {ball, "obstacle.0.other_on=boundary"},
+                                  {ball, "obstacle.0.other_where=z>0"}, {membrane, "refine.adaptive=true"},
+                                  {membrane, "refine.tolerance=0.1"},   {membrane, "refine.max_unknowns=1000"},
+                                  {membrane, "refine.max_steps=3"},     {membrane, "refine.estimator=hierarchical"}};
 
 TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
   for (const Later& l : later) {
