@@ -164,7 +164,9 @@ TEST(Contact, WhatPressesAtHeldVerticesIsTheObstaclesAndIsSaidToBeUndetermined) 
     EXPECT_EQ(contact.nodes, p > 0 ? 5 : 0);
     EXPECT_NEAR(contact.area, p > 0 ? 1 : 0, 1e-12);
     for (const auto& node : state.nodes)
-      if (node.contact) EXPECT_NEAR(node.pressure, p, 1e-11);
+      if (node.contact) {
+        EXPECT_NEAR(node.pressure, p, 1e-11);
+      }
   }
 }
 
