@@ -58,10 +58,6 @@ std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
   return total;
 }
 
-}  // namespace
-
-namespace {
-
 template <int D>
 Index on_axis(const Nodes<D>& nodes) {
   Index count = 0;

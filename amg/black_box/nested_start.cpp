@@ -87,7 +87,7 @@ bool scale_functionals(const std::vector<double>& ratio, const std::vector<Segme
   return true;
 }
 
-/// Obstacles as if they were assembled on the coarser level. Without them, and then without functionals, bounds stay.
+/// Obstacles as if they were assembled on the coarser level. Where a functional does not scale, bounds alone are there.
 template <int B>
 void inherit_obstacles(const DiscreteProblem<B>& fine, const Prolongation& P, const std::vector<Index>& twin,
                        DiscreteProblem<B>& coarse) {

@@ -186,62 +186,75 @@ void fetch_memory() {
   for (std::size_t k = 0; k < size; k += page) memory[k] = 0;
 }
 
+/// What a flag asks for in place of all the rest.
+struct Table {
+  const char* flag;
+  const char* help;
+  void (*print)(bool quick, const std::string& only);
+};
+
+template <void (*print)(bool)>
+void sized(bool quick, const std::string&) {
+  print(quick);
+}
+
+constexpr const char* of_chosen = "--choice";
+constexpr const char* of_kept_aside = "--kept-aside";
+
+const Table tables[] = {
+    {"--algebraic", "only the table of matrices without meshes", sized<print_algebraic>},
+    {"--boundary", "only the cost of the plugin boundary", sized<print_boundary>},
+    {"--warm", "only the cycles from a solution before, for matrices without meshes", sized<print_warm>},
+    {"--again", "only the cost of a second solve with other bounds", sized<print_again>},
+    {"--steps", "only the cost of steps beside their cycles", sized<print_steps>},
+    {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/friction.md",
+     sized<print_partial_slip>},
+    {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
+    {"--friction-coefficients", "only what becomes of coefficients of friction from 0 to 5",
+     sized<print_friction_coefficients>},
+    {"--friction-costs", "only cycles and time of steps with friction beside those without",
+     sized<print_friction_costs>},
+    {"--friction-renewal", "only when the bounds of friction are best renewed", sized<print_friction_renewal>},
+    {"--friction-direct", "only friction by cycles beside Newton's method with a direct solver",
+     sized<print_friction_direct>},
+    {"--calculix", "only friction beside CalculiX, whose program ccx has to be there", sized<print_calculix>},
+    {"--memory", "only the peak memory of a solve", sized<print_memory>},
+    {"--variants", "only the tables of docs/variants.md",
+     [](bool, const std::string&) { print_variants(), print_aggregates(); }},
+    {"--aggregates", "of these, only the table of aggregates", [](bool, const std::string&) { print_aggregates(); }},
+    {of_chosen, "only the default settings over the best picked by hand",
+     [](bool, const std::string& only) { print_choice(only); }},
+    {of_kept_aside, "only the same on problems on which nothing was chosen",
+     [](bool, const std::string& only) { print_kept_aside_scenes(only), print_kept_aside_matrices(only); }}};
+
+void print(const CLI::App& app, bool quick, const std::string& only) {
+  bool all = true;
+  for (const Table& table : tables)
+    if (app.count(table.flag) > 0) table.print(quick, only), all = false;
+  if (all) run(quick);
+}
+
 }  // namespace
 }  // namespace signorini::bench
 
 int main(int argc, char** argv) {
+  using namespace signorini;
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
-  bool quick = false, algebraic = false, boundary = false, memory = false, variants = false, choice = false,
-       aggregates = false, warm = false, again = false, steps = false, aside = false, partial_slip = false,
-       coefficients = false, friction = false, renewal = false, direct = false, ccx = false, pressures = false;
+  bool quick = false;
   std::string only;
   app.add_flag("--quick", quick, "leave out the largest sizes");
-  app.add_flag("--algebraic", algebraic, "only the table of matrices without meshes");
-  app.add_flag("--boundary", boundary, "only the cost of the plugin boundary");
-  app.add_flag("--warm", warm, "only the cycles from a solution before, for matrices without meshes");
-  app.add_flag("--again", again, "only the cost of a second solve with other bounds");
-  app.add_flag("--steps", steps, "only the cost of steps beside their cycles");
-  app.add_flag("--partial-slip", partial_slip,
-               "only friction against Cattaneo and Mindlin, the tables of docs/friction.md");
-  app.add_flag("--pressures", pressures, "only contact pressures against Hertz, the tables of docs/pressures.md");
-  app.add_flag("--friction-coefficients", coefficients, "only what becomes of coefficients of friction from 0 to 5");
-  app.add_flag("--friction-costs", friction, "only cycles and time of steps with friction beside those without");
-  app.add_flag("--friction-renewal", renewal, "only when the bounds of friction are best renewed");
-  app.add_flag("--friction-direct", direct, "only friction by cycles beside Newton's method with a direct solver");
-  app.add_flag("--calculix", ccx, "only friction beside CalculiX, whose program ccx has to be there");
-  app.add_flag("--memory", memory, "only the peak memory of a solve");
-  app.add_flag("--variants", variants, "only the tables of docs/variants.md");
-  app.add_flag("--aggregates", aggregates, "of these, only the table of aggregates");
-  CLI::Option* compared = app.add_flag("--choice", choice, "only the default settings over the best picked by hand");
-  CLI::Option* kept = app.add_flag("--kept-aside", aside, "only the same on problems on which nothing was chosen");
+  for (const bench::Table& table : bench::tables) app.add_flag(table.flag, table.help);
   app.add_option("--only", only, "of these two, problems with this text in their names")
-      ->check([=](const std::string&) { return *compared || *kept ? "" : "needs --choice or --kept-aside"; });
+      ->check([&](const std::string&) {
+        return app.count(bench::of_chosen) + app.count(bench::of_kept_aside) > 0 ? ""
+                                                                                 : "needs --choice or --kept-aside";
+      });
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
-    signorini::keep_freed_memory();
-    signorini::bench::fetch_memory();
-    if (algebraic) signorini::bench::print_algebraic(quick);
-    if (boundary) signorini::bench::print_boundary(quick);
-    if (warm) signorini::bench::print_warm(quick);
-    if (again) signorini::bench::print_again(quick);
-    if (steps) signorini::bench::print_steps(quick);
-    if (partial_slip) signorini::bench::print_partial_slip(quick);
-    if (pressures) signorini::bench::print_pressures(quick);
-    if (coefficients) signorini::bench::print_friction_coefficients(quick);
-    if (friction) signorini::bench::print_friction_costs(quick);
-    if (renewal) signorini::bench::print_friction_renewal(quick);
-    if (direct) signorini::bench::print_friction_direct(quick);
-    if (ccx) signorini::bench::print_calculix(quick);
-    if (memory) signorini::bench::print_memory(quick);
-    if (variants) signorini::bench::print_variants();
-    if (variants || aggregates) signorini::bench::print_aggregates();
-    if (choice) signorini::bench::print_choice(only);
-    if (aside) signorini::bench::print_kept_aside_scenes(only);
-    if (aside) signorini::bench::print_kept_aside_matrices(only);
-    if (!algebraic && !boundary && !memory && !variants && !choice && !aggregates && !warm && !again && !steps &&
-        !aside && !partial_slip && !coefficients && !friction && !renewal && !direct && !ccx && !pressures)
-      signorini::bench::run(quick);
+    keep_freed_memory();
+    bench::fetch_memory();
+    bench::print(app, quick, only);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

@@ -21,7 +21,8 @@ constexpr double of_products = 32;  // rounding of a row of a product, in units 
 constexpr double risen = 1e-4;      // error of the size that rounding may have without it having carried x away
 constexpr double negligible = 0.3;  // of the tolerance: bounds of rounding that need no closer look
 constexpr double attained = 10;     // errors up to so many times what rounding does are as small as it lets them be
-constexpr double far_off = 100;  // residuals over the tolerance that rounding leaves, no more, where there is friction
+constexpr double far_off =
+    100;  // residual over the tolerance up to which rounding may be what is left beside functionals
 constexpr double small_residual = 1e-3;  // that rounding may leave
 
 }  // namespace

@@ -153,6 +153,7 @@ TEST(Invariance, OfQuadraticElements) {
   space.shift = {3, -2, 5};
   space.scale = 1e3;
   expect_invariant<2>(square(), square_on_incline, plane, 1, 2);
+  expect_invariant<2>(square(), block_with_friction<2>, plane, 1, 2);
   expect_invariant<3>(half_ball(), ball_on_sphere, space, 2.1e11, 2);
 }
 

@@ -1,4 +1,5 @@
 // Small functionals, each with one thing that the kernel has to get right. They use the SDK alone.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -8,6 +9,14 @@
 
 namespace signorini::test {
 namespace {
+
+/// A functional acts along these directions, and nothing bounds them.
+template <int B>
+void unbounded(LocalConstraint<B>& c, int directions) {
+  c.directions = directions;
+  std::fill_n(c.lower, directions, -infinity);
+  std::fill_n(c.upper, directions, infinity);
+}
 
 /// g |v| at every vertex, without any number of its own.
 struct Cost {
@@ -39,10 +48,8 @@ class CostObstacle final : public FunctionalObstacle<1, Cost> {
   void assemble(const SurfaceVertex*, std::size_t count, LocalConstraint<1>* constraints,
                 Status&) const noexcept override {
     for (std::size_t k = 0; k < count; ++k) {
-      constraints[k].directions = 1;
+      unbounded(constraints[k], 1);
       constraints[k].direction[0][0] = 1;
-      constraints[k].lower[0] = -infinity;
-      constraints[k].upper[0] = infinity;
     }
   }
 };
@@ -72,10 +79,8 @@ class HardeningObstacle final : public FunctionalObstacle<1, Hardening> {
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
                 Status&) const noexcept override {
     for (std::size_t k = 0; k < count; ++k) {
-      constraints[k].directions = 1;
+      unbounded(constraints[k], 1);
       constraints[k].direction[0][0] = 1;
-      constraints[k].lower[0] = -infinity;
-      constraints[k].upper[0] = infinity;
       constraints[k].data[1] = 50 * vertices[k].measure;
     }
   }
@@ -124,10 +129,8 @@ class SpringObstacle final : public FunctionalObstacle<2, Spring> {
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<2>* constraints,
                 Status&) const noexcept override {
     for (std::size_t k = 0; k < count; ++k) {
-      constraints[k].directions = 1;
+      unbounded(constraints[k], 1);
       constraints[k].direction[0][1] = 1;
-      constraints[k].lower[0] = -infinity;
-      constraints[k].upper[0] = infinity;
       constraints[k].data[0] = 20 * vertices[k].measure;
     }
   }
@@ -175,11 +178,10 @@ class RailObstacle final : public FunctionalObstacle<3, Rail> {
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<3>* constraints,
                 Status&) const noexcept override {
     for (std::size_t k = 0; k < count; ++k) {
-      constraints[k].directions = 2;
+      unbounded(constraints[k], 2);
       constraints[k].direction[0][2] = 1;
       constraints[k].direction[1][0] = std::cos(0.5);
       constraints[k].direction[1][1] = std::sin(0.5);
-      for (int d = 0; d < 2; ++d) constraints[k].lower[d] = -infinity, constraints[k].upper[d] = infinity;
       constraints[k].data[0] = 1000 * vertices[k].measure;
     }
   }

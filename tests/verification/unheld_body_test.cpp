@@ -1,0 +1,136 @@
+// Bodies that nothing holds against their loads are refused, with the motion that nothing stops.
+#include <functional>
+
+#include "core/base/error.hpp"
+#include "run.hpp"
+
+namespace signorini::test {
+namespace {
+
+std::string refusal(const std::function<void()>& solve) {
+  try {
+    solve();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::no_solution) << error.what();
+    return error.what();
+  }
+  return "solved";
+}
+
+// A load to the side: nothing is behind the block but the round, which it slides off.
+TEST(UnheldBody, SlidesOffARound) {
+  for (const double aside : {1e-6, 1e-3})
+    for (const int refinement : {0, 1, 2, 3}) {
+      const auto scene = fmt::format(R"(
+[[body]]
+name = "b"
+shape = "rectangle"
+from = [0, 0]
+to = [2, 1]
+cells = [4, 4]
+young = 1
+poisson = 0.3
+[[fix]]
+body = "b"
+on = "top"
+value = ["free", 0]
+[[load]]
+body = "b"
+value = [{}, 0.01]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "sphere"
+center = [-1, 1]
+radius = 1.3
+)",
+                                     aside);
+      const std::string message = refusal([&] { run<2, 2>(scene, {uniform(refinement)}); });
+      EXPECT_NE(message.find("body.0"), std::string::npos) << message;
+      EXPECT_NE(message.find("translation along (1, 0)"), std::string::npos) << message;
+    }
+}
+
+// Nearly all of the load presses the block onto the plane.
+TEST(UnheldBody, LittleLoadsToTheSideAreNamedToo) {
+  for (const double aside : {1e-9, 1e-10, 1e-11})
+    for (const int refinement : {0, 1}) {
+      const auto upright = fmt::format(R"(
+[[body]]
+name = "b"
+shape = "box"
+from = [-1, -1, 0]
+to = [1, 1, 1]
+cells = [4, 4, 2]
+young = 1
+poisson = 0.3
+[[load]]
+body = "b"
+value = [{}, 0, -0.01]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "bottom"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+)",
+                                       aside);
+      const auto r = refusal([&] { run<3, 3>(upright, {uniform(refinement)}); });
+      EXPECT_NE(r.find("translation along (1, 0, 0)"), std::string::npos) << aside << ": " << r;
+      const auto turned = fmt::format(R"(
+[[body]]
+name = "b"
+shape = "polygon"
+points = [[100, 200], [100.8, 200.6], [100.5, 201], [99.7, 200.4]]
+size = 0.25
+young = 1
+poisson = 0.3
+[[load]]
+body = "b"
+value = ["0.8*{0} + 0.6*0.01", "0.6*{0} - 0.8*0.01"]
+[[obstacle]]
+type = "contact"
+body = "b"
+where = "0.8*(y - 200) - 0.6*(x - 100) < 1e-9"
+shape = "plane"
+point = [100, 200]
+normal = [-0.6, 0.8]
+)",
+                                      aside);
+      const auto t = refusal([&] { run<2, 2>(turned, {uniform(refinement)}); });
+      EXPECT_NE(t.find("translation along (0.8, 0.6)"), std::string::npos) << aside << ": " << t;
+    }
+}
+
+TEST(UnheldBody, TurnsInABowl) {
+  // All normals point to the centre of the bowl.
+  const auto r = refusal([] {
+    run<2, 2>(R"(
+[[body]]
+name = "b"
+shape = "rectangle"
+from = [0, 0]
+to = [1, 1]
+cells = [4, 4]
+young = 1
+poisson = 0.3
+[[load]]
+body = "b"
+value = ['-(y - 0.5)', 'x - 0.5']
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "boundary"
+shape = "sphere"
+center = [0.5, 0.5]
+radius = 3
+inside = true
+)");
+  });
+  EXPECT_NE(r.find("rotation about (0.5, 0.5)"), std::string::npos) << r;
+}
+
+}  // namespace
+}  // namespace signorini::test
