@@ -82,10 +82,10 @@ class Recoveries {
             difference<D>(surface_.middle(node), nodes_.at(node_[static_cast<std::size_t>(k)]->vertex));
         Sample<D - 1>& sample = samples.emplace_back();
         std::copy_n(from.begin(), D - 1, sample.x.begin());
-        sample.value = node.pressure;
+        sample.value = {node.pressure};
       }
       if (samples.size() <= D) continue;
-      if (const auto value = polynomial_value<D - 1, D>(samples)) out[k] = *value;
+      if (const auto values = polynomial_values<1>(samples)) out[k] = values->front();
     }
     return out;
   }

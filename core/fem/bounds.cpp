@@ -308,7 +308,8 @@ template <int D, int B>
 bool BoundCombiner<D, B>::mixes_types() const {
   const auto type = [this](Index k) { return model_.obstacles[k].obstacle->descriptor(); };
   return std::any_of(reduced_.begin(), reduced_.end(), [&](const Reduced& bound) {
-    return !type(bound.from->obstacle).same_type(type(reduced_.front().from->obstacle));
+    const Index first = reduced_.front().from->obstacle, other = bound.from->obstacle;
+    return other != first && !type(other).same_type(type(first));
   });
 }
 

@@ -153,7 +153,7 @@ class Recovery {
       const Point<D> from = difference<D>(at, origin);
       Sample<D - 1>& sample = out.emplace_back();
       for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
-      sample.value = pressure * pressure;
+      sample.value = {pressure * pressure};
     };
     for (const Index s : some) {
       Point<D> at = middle_[s];

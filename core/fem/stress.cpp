@@ -2,68 +2,9 @@
 
 #include <cmath>
 
-#include "core/fem/gradient.hpp"
-#include "core/fem/material.hpp"
-#include "core/fem/revolution.hpp"
+#include "core/fem/stress_reader.hpp"
 
 namespace signorini {
-namespace {
-
-template <int D>
-Stress stress(const Material<D>& material, const Gradient<D, D>& g, double hoop, bool plane_stress) {
-  double trace = hoop;
-  for (int i = 0; i < D; ++i) trace += g[i][i];
-  Stress s{};
-  for (int i = 0; i < D; ++i) s[i] = material.lambda * trace + 2 * material.mu * g[i][i];
-  if (D == 2 && !plane_stress) s[2] = material.lambda * trace + 2 * material.mu * hoop;
-  s[3] = material.mu * (g[0][1] + g[1][0]);
-  if constexpr (D == 3) {
-    s[4] = material.mu * (g[1][2] + g[2][1]);
-    s[5] = material.mu * (g[0][2] + g[2][0]);
-  }
-  return s;
-}
-
-/// Of a linear element.
-template <int D>
-double hoop_strain(const Nodes<D>& nodes, const Model<D>& model, std::size_t e, const std::vector<double>& u) {
-  double sum = 0;
-  for (const Index p : nodes.of_simplex(e)) sum += u[Offset{p} * D];
-  return sum / (D + 1) * hoop_factor<D>(model.plane, nodes.mesh(), nodes.mesh().elements[e]);
-}
-
-/// A finite element function's stress in one element after the other.
-template <int D, int P>
-class StressReader {
- public:
-  using Barycentric = std::array<double, D + 1>;
-
-  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
-      : nodes_(nodes), model_(model), law_(model), u_(u) {}
-
-  /// At a point of an element, with the measure of the flat element that it is like there.
-  struct Read {
-    Stress stress;
-    double measure;
-  };
-  Read at(std::size_t e, const ElementMap<D, D, P>& map, const Barycentric& barycentric) const {
-    const LinearElement<D> flat = linear_element(map.flat(barycentric));
-    const auto node = nodes_.of(nodes_.template elements<P>()[e]);
-    const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
-    const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
-    const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
-    return {stress<D>(law_.at(where), g, hoop, model_.plane == Plane::stress), flat.measure};
-  }
-
- private:
-  const Nodes<D>& nodes_;
-  const Model<D>& model_;
-  const MaterialLaw<D> law_;
-  const std::vector<double>& u_;
-};
-
-}  // namespace
-
 template <int D>
 std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
   std::vector<Stress> out;
@@ -79,30 +20,6 @@ std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model,
   return out;
 }
 
-template <int D>
-std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
-  std::vector<Stress> out(nodes.mesh().points.size());
-  std::vector<double> weight(out.size());
-  with_order(nodes, [&](auto order) {
-    const auto& elements = nodes.template elements<order>();
-    const StressReader<D, order> reader(nodes, model, u);
-    for (std::size_t e = 0; e < elements.size(); ++e) {
-      const ElementMap<D, D, order> map(nodes.mesh(), elements[e]);
-      typename StressReader<D, order>::Read here;
-      for (std::size_t a = 0; a < elements[e].size(); ++a) {
-        if (a == 0 || order > 1) here = reader.at(e, map, node_place<D>(a));
-        const Index p = elements[e][a];
-        for (int k = 0; k < 6; ++k) out[p][k] += here.measure * here.stress[k];
-        weight[p] += here.measure;
-      }
-    }
-  });
-  for (std::size_t p = 0; p < out.size(); ++p)
-    if (weight[p] > 0)
-      for (double& s : out[p]) s /= weight[p];
-  return out;
-}
-
 double von_mises(const Stress& s) {
   const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
@@ -110,7 +27,5 @@ double von_mises(const Stress& s) {
 
 template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
 template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 
 }  // namespace signorini

@@ -113,6 +113,48 @@ TEST(Quadratic, OrdersOnSmoothProblems) {
   expect_orders_on_smooth_problems<3, 3>(2, 2);
 }
 
+/// The largest error of stresses at nodes, and that at those on the boundary. Material of the smooth problem.
+template <int D>
+std::array<double, 2> stress_errors(const Run<D, D>& r) {
+  std::vector<char> outermost(r.mesh().points.size());
+  for (const Face<D>& face : r.mesh().boundary)
+    for (const Index v : face.vertices) outermost[v] = true;
+  const auto stress = nodal_stress(r.nodes(), r.model, r.u());
+  std::array<double, 2> largest{};
+  for (Index v = 0; v < r.mesh().vertices(); ++v) {
+    const Gradient<D, D> g = Smooth<D, D>::slope(r.mesh().points[v]);
+    double trace = 0, error = 0;
+    for (int i = 0; i < D; ++i) trace += g[i][i];
+    constexpr int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        error = std::max(error, std::abs(g[i][j] + g[j][i] + (i == j ? trace : 0) - stress[v][place[i][j]]));
+    largest[outermost[v]] = std::max(largest[outermost[v]], error);
+  }
+  return largest;
+}
+
+template <int D>
+void expect_orders_of_stresses(int cells, int refinements) {
+  for (const int order : {1, 2}) {
+    Errors inside, outside;
+    for (int k = 0; k <= refinements; ++k) {
+      const auto [in, out] = stress_errors<D>(run<D, D>(smooth<D, D>(cells, order), {uniform(k)}));
+      inside.add(in);
+      outside.add(out);
+      show("{}D, order {}: stress inside {:.3e} order {:.2f}, at the boundary {:.3e} order {:.2f}\n", D, order, in,
+           inside.last_order(), out, outside.last_order());
+    }
+    EXPECT_GE(inside.last_order(), 1.8);
+    EXPECT_GE(outside.last_order(), 1.9);
+  }
+}
+
+TEST(Quadratic, OrdersOfStressesAtNodes) {
+  expect_orders_of_stresses<2>(4, 4);
+  expect_orders_of_stresses<3>(3, 2);
+}
+
 /// A block pressed on a parabola by its top.
 template <int D>
 SceneText pressed(int cells, int order) {

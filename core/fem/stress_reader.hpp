@@ -1,0 +1,63 @@
+#pragma once
+#include "core/fem/element.hpp"
+#include "core/fem/gradient.hpp"
+#include "core/fem/material.hpp"
+#include "core/fem/revolution.hpp"
+#include "core/fem/stress.hpp"
+
+namespace signorini {
+
+template <int D>
+inline Stress stress(const Material<D>& material, const Gradient<D, D>& g, double hoop, bool plane_stress) {
+  double trace = hoop;
+  for (int i = 0; i < D; ++i) trace += g[i][i];
+  Stress s{};
+  for (int i = 0; i < D; ++i) s[i] = material.lambda * trace + 2 * material.mu * g[i][i];
+  if (D == 2 && !plane_stress) s[2] = material.lambda * trace + 2 * material.mu * hoop;
+  s[3] = material.mu * (g[0][1] + g[1][0]);
+  if constexpr (D == 3) {
+    s[4] = material.mu * (g[1][2] + g[2][1]);
+    s[5] = material.mu * (g[0][2] + g[2][0]);
+  }
+  return s;
+}
+
+/// Of a linear element.
+template <int D>
+double hoop_strain(const Nodes<D>& nodes, const Model<D>& model, std::size_t e, const std::vector<double>& u) {
+  double sum = 0;
+  for (const Index p : nodes.of_simplex(e)) sum += u[Offset{p} * D];
+  return sum / (D + 1) * hoop_factor<D>(model.plane, nodes.mesh(), nodes.mesh().elements[e]);
+}
+
+/// A finite element function's stress in one element after the other.
+template <int D, int P>
+class StressReader {
+ public:
+  using Barycentric = std::array<double, D + 1>;
+
+  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
+      : nodes_(nodes), model_(model), law_(model), u_(u) {}
+
+  /// At a point of an element, with the measure of the flat element that it is like there.
+  struct Read {
+    Stress stress;
+    double measure;
+  };
+  Read at(std::size_t e, const ElementMap<D, D, P>& map, const Barycentric& barycentric) const {
+    const LinearElement<D> flat = linear_element(map.flat(barycentric));
+    const auto node = nodes_.of(nodes_.template elements<P>()[e]);
+    const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
+    const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
+    const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
+    return {stress<D>(law_.at(where), g, hoop, model_.plane == Plane::stress), flat.measure};
+  }
+
+ private:
+  const Nodes<D>& nodes_;
+  const Model<D>& model_;
+  const MaterialLaw<D> law_;
+  const std::vector<double>& u_;
+};
+
+}  // namespace signorini

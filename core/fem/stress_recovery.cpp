@@ -1,0 +1,195 @@
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/fem/polynomial_fit.hpp"
+#include "core/fem/quadrature.hpp"
+#include "core/fem/stress_reader.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr int most_layers = 5;        // of elements around a node
+constexpr double most_amplified = 5;  // errors of samples
+
+/// The elements around each node.
+template <int D, int P>
+class ElementsAround {
+ public:
+  explicit ElementsAround(const Nodes<D>& nodes) : nodes_(nodes), first_(nodes.size() + std::size_t{1}) {
+    const auto& elements = nodes.template elements<P>();
+    for (const auto& vertices : elements)
+      for (const Index p : nodes.of(vertices)) ++first_[p + std::size_t{1}];
+    for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
+    element_.resize(static_cast<std::size_t>(first_.back()));
+    std::vector<Offset> next(first_.begin(), first_.end() - 1);
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      for (const Index p : nodes.of(elements[e])) element_[next[p]++] = static_cast<Index>(e);
+  }
+
+  std::span<const Index> at(Index p) const {
+    return std::span(element_).subspan(first_[p], first_[p + std::size_t{1}] - first_[p]);
+  }
+
+ private:
+  const Nodes<D>& nodes_;
+  std::vector<Offset> first_;
+  std::vector<Index> element_;
+};
+
+/// Numbers of which each is added once.
+class Collection {
+ public:
+  explicit Collection(std::size_t most) : added_(most) {}
+  void clear() {
+    for (const Index k : numbers_) added_[k] = false;
+    numbers_.clear();
+  }
+  void add(Index k) {
+    if (!std::exchange(added_[k], true)) numbers_.push_back(k);
+  }
+  Index operator[](std::size_t k) const { return numbers_[k]; }
+  std::size_t size() const { return numbers_.size(); }
+  auto begin() const { return numbers_.begin(); }
+  auto end() const { return numbers_.end(); }
+
+ private:
+  std::vector<char> added_;
+  std::vector<Index> numbers_;
+};
+
+template <int D, int P>
+class StressRecovery {
+ public:
+  StressRecovery(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
+      : nodes_(nodes),
+        elements_(nodes.template elements<P>()),
+        around_(nodes),
+        boundary_(nodes.size()),
+        patch_(elements_.size()),
+        near_nodes_(nodes.size()) {
+    const StressReader<D, P> reader(nodes, model, u);
+    samples_.reserve(elements_.size() * points().size());
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const ElementMap<D, D, P> map(nodes.mesh(), elements_[e]);
+      for (const auto& q : points()) samples_.push_back({map(q.barycentric), reader.at(e, map, q.barycentric).stress});
+    }
+    for (const Face<D>& face : nodes.mesh().boundary)
+      for (const Index p : nodes.of(face.vertices)) boundary_[p] = true;
+    for (Index p = 0; p < nodes.size(); ++p)
+      for (const Index e : around_.at(p))
+        if (nodes.region(e) != nodes.region(around_.at(p).front())) boundary_[p] = true;
+  }
+
+  /// Per node. Those inside come first: linear elements have no points where stresses are better than elsewhere, but
+  /// what makes them worse cancels around a node inside, and the fits of the others start from there.
+  std::vector<Stress> run() {
+    recovered_.resize(nodes_.size());
+    for (const bool outermost : {false, true})
+      for (Index p = 0; p < nodes_.size(); ++p)
+        if (boundary_[p] == outermost) recovered_[p] = at(p);
+    return std::move(recovered_);
+  }
+
+ private:
+  static std::span<const QuadraturePoint<D>> points() { return stiffness_rule<D, P>(true); }
+
+  Stress at(Index p) {
+    const auto elements = around_.at(p);
+    if (elements.empty()) return {};
+    Stress sum{};
+    int materials = 0;
+    for (auto first = elements.begin(); first != elements.end(); ++first) {
+      const auto same = [&](Index e) { return nodes_.region(e) == nodes_.region(*first); };
+      if (std::any_of(elements.begin(), first, same)) continue;
+      patch_.clear();
+      for (const Index e : elements)
+        if (same(e)) patch_.add(e);
+      const Stress s = of_patch(p);
+      for (int k = 0; k < 6; ++k) sum[k] += s[k];
+      ++materials;
+    }
+    for (double& s : sum) s /= materials;
+    return sum;
+  }
+
+  Stress of_patch(Index p) {
+    const bool outermost = boundary_[p];
+    grown_ = 0;
+    if (outermost) add_layer();
+    for (int layer = outermost ? 2 : 1; layer <= most_layers; ++layer, add_layer()) {
+      near_.clear();
+      outermost&& P == 1 ? add_nodes() : add_elements();
+      if (const auto found = outermost ? fitted<2>(p) : fitted<P>(p)) return *found;
+    }
+    near_.clear();
+    add_elements();
+    return fitted<1>(p).value_or(mean());
+  }
+
+  /// Of elements of the same material.
+  void add_layer() {
+    for (const std::size_t last = patch_.size(); grown_ < last; ++grown_)
+      for (const Index p : nodes_.of(elements_[patch_[grown_]]))
+        for (const Index e : around_.at(p))
+          if (nodes_.region(e) == nodes_.region(patch_[0])) patch_.add(e);
+  }
+
+  void add_elements() {
+    const std::size_t count = points().size();
+    for (const Index e : patch_) {
+      const auto first = samples_.begin() + static_cast<Offset>(e * count);
+      near_.insert(near_.end(), first, first + static_cast<Offset>(count));
+    }
+  }
+
+  void add_nodes() {
+    near_nodes_.clear();
+    for (const Index e : patch_)
+      for (const Index p : nodes_.of(elements_[e]))
+        if (!boundary_[p]) near_nodes_.add(p);
+    for (const Index p : near_nodes_) near_.push_back({nodes_.at(p), recovered_[p]});
+  }
+
+  template <int Degree>
+  std::optional<Stress> fitted(Index p) {
+    if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
+    for (auto& sample : near_)
+      for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];
+    return polynomial_values<Degree>(near_, most_amplified);
+  }
+
+  Stress mean() const {
+    Stress sum{};
+    for (const auto& sample : near_)
+      for (int k = 0; k < 6; ++k) sum[k] += sample.value[k] / static_cast<double>(near_.size());
+    return sum;
+  }
+
+  const Nodes<D>& nodes_;
+  const std::vector<std::array<Index, element_nodes<D, P>>>& elements_;
+  const ElementsAround<D, P> around_;
+  std::vector<Sample<D, 6>> samples_;  // of all elements
+  std::vector<char> boundary_;         // per node: on the boundary, or between materials
+  std::vector<Stress> recovered_;      // per node
+  Collection patch_, near_nodes_;      // elements around a node, and nodes of these
+  std::size_t grown_ = 0;              // elements of the patch with all those around them
+  std::vector<Sample<D, 6>> near_;
+};
+
+}  // namespace
+
+template <int D>
+std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+  std::vector<Stress> out(nodes.mesh().points.size());
+  with_order(nodes, [&](auto order) {
+    const std::vector<Stress> recovered = StressRecovery<D, order>(nodes, model, u).run();
+    for (Index v = 0; v < nodes.mesh().vertices(); ++v) out[v] = recovered[nodes.of_vertex(v)];
+  });
+  return out;
+}
+
+template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
+template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
+
+}  // namespace signorini
