@@ -93,6 +93,7 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
   std::vector<ContactReport> reports;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ContactReport& report = reports.emplace_back(totals(results.contact.obstacles[k], results.deformed[k]));
+    report.penetration_between_nodes = results.between_nodes[k];
     report.obstacle = numbers[k];
     report.body = scene.bodies[body].name;
     if (B == 1) continue;

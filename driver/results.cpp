@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fem/between_nodes.hpp"
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
@@ -20,10 +21,13 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(nodes, model, solution.discretization, solution.x),
                     {},
+                    {},
                     {}};
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
-  for (std::size_t k = 0; k < model.obstacles.size(); ++k)
-    out.deformed.push_back(deformed_contact(nodes, model, static_cast<Index>(k), out.contact, out.u));
+  for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+    out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
+    out.between_nodes.push_back(violation_between_nodes(nodes, model, k, out.contact, out.u));
+  }
   return out;
 }
 

@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/os.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
+#include "apps/bench/calculix_program.hpp"
 #include "apps/bench/friction_scenes.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "core/base/error.hpp"
@@ -94,39 +90,13 @@ void write_deck(const fs::path& file, const Mesh<3>& mesh, double penalty) {
   out.print("*NODE PRINT, NSET=PLANE, TOTALS=ONLY\nRF\n*END STEP\n");
 }
 
-double seconds_of_children() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  const auto of = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return of(usage.ru_utime) + of(usage.ru_stime);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream out;
-  out << std::ifstream(file).rdbuf();
-  return out.str();
-}
-
 /// None where CalculiX ends without a result, or takes more than `limit` seconds.
 std::optional<Solve> calculix(const fs::path& folder, const Mesh<3>& mesh, double penalty, double limit) {
   write_deck(folder / "block.inp", mesh, penalty);
-  fs::remove(folder / "block.dat");
-  Solve out;
-  const double before = seconds_of_children();
-  const int status = std::system(
-      fmt::format("cd '{}' && OMP_NUM_THREADS=1 timeout {} ccx -i block > log 2>&1", folder.string(), limit).c_str());
-  out.seconds = seconds_of_children() - before;
-  const std::string result = text_of(folder / "block.dat"), log = text_of(folder / "log");
-  const std::size_t total = result.rfind("total force");
-  if (status != 0 || total == std::string::npos) return {};
-  double f[3] = {};
-  std::istringstream(result.substr(result.find('\n', total))) >> f[0] >> f[1] >> f[2];
-  out.forces = {f[2], {f[0], f[1]}};  // what holds the plane holds the block through it
-  for (std::size_t at = log.find("iteration "); at != std::string::npos; at = log.find("iteration ", at + 1))
-    ++out.iterations;
-  return out;
+  const auto run = run_calculix(folder, "block", limit);
+  if (!run) return {};
+  const auto& f = run->force;  // what holds the plane holds the block through it
+  return Solve{{f[2], {f[0], f[1]}}, run->seconds, run->iterations, 0};
 }
 
 void row(const char* solver, const Solve& s, double first, const Forces& exact) {
@@ -166,11 +136,7 @@ void compare(const fs::path& folder, int refinements, bool direct, double limit)
 }  // namespace
 
 void print_calculix(bool quick) {
-  if (std::system("command -v ccx > /dev/null") != 0)
-    throw Error(Exit::input,
-                "there is no program 'ccx': install Debian's package calculix-ccx, as ./dev setup peers does");
-  const fs::path folder = fs::temp_directory_path() / fmt::format("signorini_calculix_{}", getpid());
-  fs::create_directories(folder);
+  const fs::path folder = calculix_folder();
   fmt::print(
       "\n## Block with friction 0.3 on a plane, on the same meshes\n\n| unknowns | solver | seconds | ratio | "
       "iterations | error of the normal force | of the tangential force |\n| --- | --- | --- | --- | --- | --- | --- "

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/bench/accuracy.hpp"
 #include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
@@ -209,6 +210,7 @@ const Table tables[] = {
     {"--steps", "only the cost of steps beside their cycles", sized<print_steps>},
     {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/friction.md",
      sized<print_partial_slip>},
+    {"--accuracy", "only errors beside seconds, the tables of docs/accuracy.md", sized<print_accuracy>},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
     {"--friction-coefficients", "only what becomes of coefficients of friction from 0 to 5",
      sized<print_friction_coefficients>},

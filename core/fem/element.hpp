@@ -46,11 +46,15 @@ inline LinearElement<3> linear_element(const std::array<Point<3>, 4>& corner) {
   return out;
 }
 
+template <class Point, std::size_t N>
+inline std::array<Point, N> points_of(const std::vector<Point>& all, const std::array<Index, N>& vertices) {
+  std::array<Point, N> points;
+  for (std::size_t a = 0; a < N; ++a) points[a] = all[vertices[a]];
+  return points;
+}
 template <int D, std::size_t N>
 inline std::array<Point<D>, N> points_of(const Mesh<D>& mesh, const std::array<Index, N>& vertices) {
-  std::array<Point<D>, N> points;
-  for (std::size_t a = 0; a < N; ++a) points[a] = mesh.points[vertices[a]];
-  return points;
+  return points_of(mesh.points, vertices);
 }
 
 template <int D>
@@ -163,7 +167,9 @@ class ElementMap {
  public:
   static constexpr std::size_t nodes = element_nodes<K, P>;
 
-  ElementMap(const Mesh<D>& mesh, const std::array<Index, nodes>& vertices) : control_(points_of(mesh, vertices)) {
+  ElementMap(const Mesh<D>& mesh, const std::array<Index, nodes>& vertices) : ElementMap(mesh.points, vertices) {}
+  ElementMap(const std::vector<Point<D>>& points, const std::array<Index, nodes>& vertices)
+      : control_(points_of(points, vertices)) {
     if constexpr (P > 1) {
       constexpr auto ends = simplex_edges<K>();
       for (std::size_t k = 0; k < ends.size(); ++k) {

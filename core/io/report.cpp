@@ -53,6 +53,7 @@ Json contact(const ContactReport& contact) {
           {"undetermined_nodes", contact.undetermined_nodes},
           {"undetermined_force", contact.undetermined_force},
           {"largest_penetration", contact.largest_penetration},
+          {"largest_penetration_between_nodes", contact.penetration_between_nodes},
           {"largest_opening", contact.largest_opening}};
 }
 

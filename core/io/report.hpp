@@ -31,6 +31,7 @@ struct ContactReport {
   /// Of the deformed boundary against the true obstacle: the deepest vertex inside it, the farthest one off it where
   /// contact is claimed, and the largest displacement at these; NaN where the obstacle could not tell.
   double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
+  double penetration_between_nodes = 0;  ///< see violation_between_nodes(); NaN where it is not measured
 };
 
 /// A total force on the body it acts on, one entry per unknown of a vertex.

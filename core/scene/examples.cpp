@@ -64,6 +64,7 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 | key of the report | says |
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
+| `largest_penetration_between_nodes` | the same of points between nodes, on faces that touch: conditions hold at nodes alone |
 | `largest_opening` | how far one is off it though contact is claimed |
 
 A warning is given where one of them is over 1 % of the displacements there.

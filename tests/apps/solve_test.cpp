@@ -231,6 +231,7 @@ TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
   ASSERT_EQ(signorini({"solve", "block.toml", "--out", "o"}).status, 0);
   const auto flat = report("o").at("contact").at(0);
   EXPECT_LE(flat.at("largest_penetration"), 1e-12);
+  EXPECT_LE(flat.at("largest_penetration_between_nodes"), 1e-12);
   EXPECT_LE(flat.at("largest_opening"), 1e-12);
   EXPECT_EQ(flat.at("undetermined_nodes"), 0);
   // A small ball that the block is pressed far onto.

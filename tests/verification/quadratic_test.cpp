@@ -203,5 +203,28 @@ TEST(Quadratic, CyclesAreFewAndDoNotGrow) {
   expect_few_cycles<3, 3>(pressed<3>, 3, 2);
 }
 
+/// Between nodes on the parabola the chord of a linear element is 0.05 h^2 inside of it. Quadratic elements follow it,
+/// but for the edge of the contact. All is a million times flatter, so that contact is linear.
+TEST(Quadratic, PenetrationBetweenNodesFalls) {
+  for (const int order : {1, 2}) {
+    Errors between;
+    for (int k = 0; k <= 4; ++k) {
+      SceneText scene = pressed<2>(4, order);
+      scene.fixes = {"on = \"top\"\nvalue = [0, -5e-8]"};
+      scene.obstacle.replace(scene.obstacle.find("0.2"), 3, "2e-7");
+      const auto r = run<2, 2>(scene, {uniform(k)});
+      between.add(1e6 * r.results.between_nodes.at(0));
+      const double h = 0.25 / std::pow(2, k);
+      show("order {}: {:.3e} = {:.4f} h^2\n", order, between.value.back(), between.value.back() / (h * h));
+      if (order == 1) {
+        EXPECT_NEAR(between.value.back(), 0.05 * h * h, 0.001 * h * h);
+      } else {
+        EXPECT_LT(between.value.back(), 0.025 * h * h);
+      }
+    }
+    EXPECT_GT(between.mean_order(), 1.9);
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

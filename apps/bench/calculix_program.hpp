@@ -1,0 +1,22 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+
+namespace signorini::bench {
+
+/// One run of CalculiX, Debian's program ccx.
+struct CalculixRun {
+  double seconds = 0;  ///< of processor time, one thread
+  int iterations = 0;
+  std::array<double, 3> force{};  ///< the last total that the deck prints
+  double max_pressure = 0;        ///< the largest contact pressure that it prints, if any
+};
+
+/// Runs a deck `folder/name.inp`. Nothing where it ends without a result, or takes more than `limit` seconds.
+std::optional<CalculixRun> run_calculix(const std::filesystem::path& folder, const std::string& name, double limit);
+
+/// A new folder for decks. Error(Exit::input) without the program.
+std::filesystem::path calculix_folder();
+
+}  // namespace signorini::bench
