@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "apps/bench/calculix_program.hpp"
+#include "apps/bench/problems.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
@@ -25,10 +26,14 @@ struct Answer {
   int cycles = 0;
 };
 
-Driver solved(const std::string& file, int order, int refinements, Answer& out) {
+/// @param look at the driver afterwards
+template <class Look>
+Answer solve(const std::string& file, int order, int refinements, const Look& look) {
+  Answer out;
   const ProcessorTime time;
-  Driver driver(read_scene(fs::path(SIGNORINI_SCENES) / file,
-                           {fmt::format("refine.uniform={}", refinements), fmt::format("body.0.order={}", order)}));
+  const std::vector<std::string> overrides{fmt::format("refine.uniform={}", refinements),
+                                           fmt::format("body.0.order={}", order)};
+  Driver driver(read_scene(scene_file(file), overrides));
   const StepReport& step = driver.solve([] {}).last();
   out.seconds = time.elapsed();
   if (!step.summary.converged()) throw Error(Exit::not_converged, step.summary.reason);
@@ -38,13 +43,12 @@ Driver solved(const std::string& file, int order, int refinements, Answer& out) 
   out.peak = contact.max_pressure;
   out.radius = contact.radius;
   out.cycles = step.summary.iterations;
-  return driver;
+  look(driver);
+  return out;
 }
 
 Answer solve(const std::string& file, int order, int refinements) {
-  Answer out;
-  solved(file, order, refinements, out);
-  return out;
+  return solve(file, order, refinements, [](Driver&) {});
 }
 
 /// Hertz (1882) for a given force on a ball or cylinder of radius 1; see Johnson, Contact Mechanics, ch. 4.
@@ -128,11 +132,11 @@ void write_ball(const fs::path& file, const Mesh<3>& mesh, double penalty) {
 
 void print_calculix_ball(int refinements, double penalty, double limit, const Answer& exact) {
   const fs::path folder = calculix_folder();
-  Answer answer;
-  Driver driver = solved("ball_on_plane.toml", 2, refinements, answer);
-  driver.visit(0, [&](const auto& body) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(body)>, BodyRun<3, 3>>)
-      write_ball(folder / "ball.inp", body.mesh(), penalty);
+  const Answer answer = solve("ball_on_plane.toml", 2, refinements, [&](Driver& driver) {
+    driver.visit(0, [&](const auto& body) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(body)>, BodyRun<3, 3>>)
+        write_ball(folder / "ball.inp", body.mesh(), penalty);
+    });
   });
   const std::string name = fmt::format("CalculiX, C3D10, penalty {:g}", penalty);
   if (const auto run = run_calculix(folder, "ball", limit)) {
