@@ -126,7 +126,7 @@ void write_ball(const fs::path& file, const Mesh<3>& mesh, double penalty) {
   out.print(
       "*CONTACT PAIR, INTERACTION=HARD, TYPE=SURFACE TO SURFACE\nLOWER, UPPER\n*SURFACE INTERACTION, NAME=HARD\n"
       "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}\n*STEP, INC=1000\n*STATIC\n1., 1.\n*BOUNDARY\nPLANE, 1, 3\n"
-      "FLAT, 1, 2\nFLAT, 3, 3, -0.011\n*NODE PRINT, NSET=PLANE, TOTALS=ONLY\nRF\n*CONTACT PRINT\nCSTR\n*END STEP\n",
+      "FLAT, 1, 2\nFLAT, 3, 3, -0.011\n*NODE PRINT, NSET=PLANE, TOTALS=ONLY\nRF\n*END STEP\n",
       penalty);
 }
 
@@ -140,7 +140,7 @@ void print_calculix_ball(int refinements, double penalty, double limit, const An
   });
   const std::string name = fmt::format("CalculiX, C3D10, penalty {:g}", penalty);
   if (const auto run = run_calculix(folder, "ball", limit)) {
-    row(name, {answer.unknowns, std::abs(run->force[2]), run->max_pressure, 0, run->seconds, run->iterations}, exact);
+    row(name, {answer.unknowns, std::abs(run->force[2]), 0, 0, run->seconds, run->iterations}, exact);
   } else {
     fmt::print("| {} | {:.0f} | none in {} | | | | |\n", name, answer.unknowns, limit);
   }

@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -31,24 +30,6 @@ std::string text_of(const fs::path& file) {
   return out.str();
 }
 
-/// Of lines with an element, a face, a node and the normal and tangential stresses there.
-double largest_pressure(const std::string& result) {
-  const std::size_t title = result.rfind("contact stress");
-  if (title == std::string::npos) return 0;
-  std::istringstream lines(result.substr(result.find('\n', title) + 1));
-  double largest = 0;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    long element = 0, face = 0, node = 0;
-    double pressure = 0;
-    if (words >> element >> face >> node >> pressure)
-      largest = std::max(largest, pressure);
-    else if (line.find("for set") != std::string::npos)
-      break;
-  }
-  return largest;
-}
-
 }  // namespace
 
 std::optional<CalculixRun> run_calculix(const fs::path& folder, const std::string& name, double limit) {
@@ -65,7 +46,6 @@ std::optional<CalculixRun> run_calculix(const fs::path& folder, const std::strin
   std::istringstream(result.substr(result.find('\n', total))) >> out.force[0] >> out.force[1] >> out.force[2];
   for (std::size_t at = log.find("iteration "); at != std::string::npos; at = log.find("iteration ", at + 1))
     ++out.iterations;
-  out.max_pressure = largest_pressure(result);
   return out;
 }
 

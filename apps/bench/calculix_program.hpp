@@ -10,7 +10,6 @@ struct CalculixRun {
   double seconds = 0;  ///< of processor time, one thread
   int iterations = 0;
   std::array<double, 3> force{};  ///< the last total that the deck prints
-  double max_pressure = 0;        ///< the largest contact pressure that it prints, if any
 };
 
 /// Runs a deck `folder/name.inp`. Nothing where it ends without a result, or takes more than `limit` seconds.
