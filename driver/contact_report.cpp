@@ -73,13 +73,16 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
 template <int D, int B>
 void add_reachable(const Results<D, B>& results, std::vector<ContactReport>& reports) {
   std::vector<double> area(reports.size());
+  std::vector<Index> last(reports.size(), -1), count(reports.size());  // a node has an entry for each direction
   for (ContactReport& report : reports) report.displacement.resize(B);
   for (const ContactNode<B>& node : results.contact.nodes) {
     ContactReport& report = reports[node.obstacle];
-    report.open_nodes += !node.contact;
+    count[node.obstacle] += last[node.obstacle] != node.vertex;
+    last[node.obstacle] = node.vertex;
     area[node.obstacle] += node.area;
     for (int i = 0; i < B; ++i) report.displacement[i] += node.area * results.u[std::size_t(node.vertex) * B + i];
   }
+  for (std::size_t k = 0; k < reports.size(); ++k) reports[k].open_nodes = count[k] - reports[k].nodes;
   for (std::size_t k = 0; k < reports.size(); ++k)
     for (double& u : reports[k].displacement) u = area[k] > 0 ? u / area[k] : 0;
 }

@@ -124,6 +124,13 @@ std::string cut_warning(const CutSelection& cut, int dimension) {
   return text + "; a smaller 'size' or more 'cells' follow it more closely";
 }
 
+/// An expression of t says where an obstacle is, and not how it moves along its own surface.
+bool drags_unknown(const Scene::Obstacle& obstacle) {
+  const auto* shape = obstacle.shape ? std::get_if<Scene::ExpressionShape>(&*obstacle.shape) : nullptr;
+  if (!shape) return false;
+  return shape->distance.uses_t() || std::ranges::any_of(shape->normal, [](const Field& n) { return n.uses_t(); });
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -137,6 +144,15 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
                                    scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
                                    conflict.vertices == 1 ? "vertex" : "vertices"));
   for (const CutSelection& cut : cut_selections(nodes.mesh(), model)) warnings.push_back(cut_warning(cut, D));
+  const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];
+    if (!model.obstacles[k].obstacle->nonlinearity() || !drags_unknown(obstacle)) continue;
+    warnings.push_back(fmt::format(
+        "{}: 'distance' depends on t and tells how the obstacle moves across its surface, not along it: friction takes "
+        "it to be at rest along it; a plane, sphere or cylinder that moves drags the body with it",
+        obstacle.source.of("distance")));
+  }
   return warnings;
 }
 

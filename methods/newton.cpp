@@ -25,12 +25,28 @@ NewtonIteration<B>::NewtonIteration(const DiscreteProblem<B>& problem, std::vect
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
       linear_(registry.create<UnsymmetricSolver>("unsymmetric", "umfpack")) {
-  if (!problem.constraints.facet.empty())
+  check(problem);
+  read_laws();
+  analyse();
+}
+
+template <int B>
+void NewtonIteration<B>::check(const DiscreteProblem<B>& problem) {
+  const Constraints<B>& c = problem.constraints;
+  if (!c.facet.empty())
     input_error("solver.method",
                 "'newton' treats one direction of contact at a vertex, and obstacles hold some along "
                 "several; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
-  read_laws();
-  analyse();
+  for (const Segment<B>& s : problem.segments) {
+    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    const auto [from, to] = slots_between(c, s.first, s.last);
+    FrictionLaw law;
+    for (Index slot = from; phi && slot < to; ++slot)
+      if (!phi->friction(c.data.data() + Offset{slot} * c.width, law))
+        input_error("solver.method",
+                    "'newton' treats bounds and friction, and an obstacle adds something else to the "
+                    "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+  }
 }
 
 template <int B>
@@ -44,10 +60,7 @@ void NewtonIteration<B>::read_laws() {
     const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
     const auto [from, to] = slots_between(c, s.first, s.last);
     for (Index slot = from; phi && slot < to; ++slot) {
-      if (!phi->friction(c.data.data() + Offset{slot} * c.width, laws_[slot]))
-        input_error("solver.method",
-                    "'newton' treats bounds and friction, and an obstacle adds something else to the "
-                    "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
+      phi->friction(c.data.data() + Offset{slot} * c.width, laws_[slot]);
       tangential_[slot] = c.tangential[slot];
     }
   }

@@ -18,6 +18,8 @@ template <int B>
 class NewtonIteration final : public Iteration<B> {
  public:
   /// Error(Exit::input) where an obstacle adds anything but friction to the energy, or there are facets.
+  static void check(const DiscreteProblem<B>& problem);
+  /// Errors as of check().
   NewtonIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
                   const Registry& registry);
 

@@ -182,13 +182,8 @@ template <int B>
 std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>& problem,
                                         std::span<const Prolongation> prolongations, std::vector<double>& x,
                                         const SolverOptions& options, const Registry& registry) {
-  if (method == Method::pdas) {
-    if (has_functional(problem.segments))
-      input_error("solver.method",
-                  "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
-                  "expected 'auto', 'monotone', 'tnnmg' or 'pgs', or 'newton' for friction");
-    return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
-  }
+  check_method(problem, options);
+  if (method == Method::pdas) return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
   if (method == Method::newton) return std::make_unique<NewtonIteration<B>>(problem, x, options, registry);
   SolverOptions own = options;
   if (method == Method::pgs) {  // what is left without coarser levels
@@ -199,6 +194,20 @@ std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>&
 }
 
 }  // namespace
+
+template <int B>
+void check_method(const DiscreteProblem<B>& problem, const SolverOptions& options) {
+  const Method method = check_options(options);
+  if (method == Method::pdas && has_functional(problem.segments))
+    input_error("solver.method",
+                "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
+                "expected 'auto', 'monotone', 'tnnmg' or 'pgs', or 'newton' for friction");
+  if (method == Method::newton) NewtonIteration<B>::check(problem);
+}
+
+template void check_method(const DiscreteProblem<1>&, const SolverOptions&);
+template void check_method(const DiscreteProblem<2>&, const SolverOptions&);
+template void check_method(const DiscreteProblem<3>&, const SolverOptions&);
 
 template <int B>
 Summary solve(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations, std::vector<double>& x,

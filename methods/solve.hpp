@@ -10,6 +10,10 @@
 
 namespace signorini {
 
+/// @throws Error(Exit::input) where an obstacle adds to the energy what the method of the options cannot treat
+template <int B>
+void check_method(const DiscreteProblem<B>& problem, const SolverOptions& options);
+
 /// Solves the problem on the finest level by the method of the options.
 /// @param prolongations coarsest first; the last one leads to the level of `problem`; none: a single level
 /// @param x start and result, B per vector, local coordinates; it is made admissible first

@@ -38,34 +38,48 @@ Scene read(const PartialSlipScene& scene) {
 
 double radius(double area, int dimension) { return dimension == 2 ? area / 2 : std::sqrt(area / pi); }
 
-/// Of the traction on the body at a node from the theory, as a vector.
-template <int D>
-double difference(const ContactNode<D>& node, double distance, const PartialSlipTheory& theory) {
-  double squares = 0;
-  for (int i = 0; i + 1 < D; ++i) {
-    const double d = node.tangential[i] / node.area + (i == 0 ? theory.traction(distance) : 0);
-    squares += d * d;
+/// Differences of tractions on the body from the theory, as vectors.
+class Differences {
+ public:
+  template <int D>
+  void add(const std::array<double, D>& traction, double in_theory, double area) {
+    double square = 0;
+    for (int i = 0; i + 1 < D; ++i) {
+      const double d = traction[i] + (i == 0 ? in_theory : 0);
+      square += d * d;
+    }
+    squares_ += area * square;
+    area_ += area;
+    largest_ = std::max(largest_, std::sqrt(square));
   }
-  return std::sqrt(squares);
-}
+  double mean() const { return area_ > 0 ? std::sqrt(squares_ / area_) : 0; }
+  double largest() const { return largest_; }
+
+ private:
+  double squares_ = 0, area_ = 0, largest_ = 0;
+};
 
 /// Adds to a step what its nodes tell.
 template <int D>
 void measure(const BodyRun<D, D>& run, const PartialSlipTheory& theory, PartialSlipStep& step) {
-  double touches = 0, sticks = 0, squares = 0;
+  double touches = 0, sticks = 0;
+  Differences recovered, nodal;
   for (const ContactNode<D>& node : run.results().contact.nodes) {
     if (!node.contact) continue;
     ++step.nodes;
     touches += node.area;
     if (node.sticks) sticks += node.area;
     const Point<D>& x = run.nodes().at(node.vertex);
-    const double off = difference<D>(node, D == 2 ? std::abs(x[0]) : std::hypot(x[0], x[1]), theory);
-    squares += node.area * off * off;
-    step.largest_error = std::max(step.largest_error, off);
+    const double expected = theory.traction(D == 2 ? std::abs(x[0]) : std::hypot(x[0], x[1]));
+    recovered.add<D>(node.traction, expected, node.area);
+    std::array<double, D> mean = node.tangential;
+    for (double& f : mean) f /= node.area;
+    nodal.add<D>(mean, expected, node.area);
   }
-  const double peak = theory.peak_traction();
-  step.largest_error = peak > 0 ? step.largest_error / peak : 0;
-  step.mean_error = peak > 0 ? std::sqrt(squares / touches) / peak : 0;
+  if (const double peak = theory.peak_traction(); peak > 0) {
+    step.mean_error = recovered.mean() / peak, step.largest_error = recovered.largest() / peak;
+    step.nodal_mean_error = nodal.mean() / peak, step.nodal_largest_error = nodal.largest() / peak;
+  }
   step.contact = radius(touches, D), step.contact_in_theory = theory.contact_radius();
   step.stick = radius(sticks, D), step.stick_in_theory = theory.stick_radius();
 }
@@ -97,15 +111,16 @@ double percent(double computed, double expected) { return 100 * (computed / expe
 
 void print_loading(int dimension, int from, int to) {
   fmt::print(
-      "## {}D, loading\n\n| unknowns | nodes in contact | contact radius | stick radius | traction, mean | traction, "
-      "largest | cycles | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+      "## {}D, loading\n\n| unknowns | nodes in contact | contact radius | stick radius | traction, mean (nodal) | "
+      "largest (nodal) | cycles | seconds |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
       dimension);
   for (int k = from; k <= to; ++k) {
     const PartialSlip slip = solve_partial_slip({dimension, k, false});
     const PartialSlipStep& s = slip.steps.back();
-    fmt::print("| {} | {} | {:+.1f} % | {:+.1f} % | {:.1f} % | {:.0f} % | {}, {} | {:.1f} |\n", slip.unknowns, s.nodes,
-               percent(s.contact, s.contact_in_theory), percent(s.stick, s.stick_in_theory), 100 * s.mean_error,
-               100 * s.largest_error, slip.steps[0].iterations, s.iterations, slip.seconds);
+    fmt::print("| {} | {} | {:+.1f} % | {:+.1f} % | {:.1f} % ({:.1f}) | {:.1f} % ({:.0f}) | {}, {} | {:.1f} |\n",
+               slip.unknowns, s.nodes, percent(s.contact, s.contact_in_theory), percent(s.stick, s.stick_in_theory),
+               100 * s.mean_error, 100 * s.nodal_mean_error, 100 * s.largest_error, 100 * s.nodal_largest_error,
+               slip.steps[0].iterations, s.iterations, slip.seconds);
     std::fflush(stdout);
   }
 }

@@ -10,8 +10,9 @@ struct PartialSlipStep {
   double contact = 0, contact_in_theory = 0;
   double stick = 0, stick_in_theory = 0;  ///< radii; computed ones from the areas of the nodes
   /// Of the tangential traction, in parts of the largest one before the force turned: the root of the mean square over
-  /// the contact, and the largest difference at a node.
+  /// the contact, and the largest difference at a node. Of the recovered one, and of force over area.
   double mean_error = 0, largest_error = 0;
+  double nodal_mean_error = 0, nodal_largest_error = 0;
   double dissipated = 0;  ///< since the first step
   int nodes = 0, iterations = 0;
 };

@@ -6,7 +6,9 @@
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
+#include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/scene/uses_t.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
 #include "driver/nested_solver.hpp"
@@ -14,7 +16,7 @@
 #include "driver/problem.hpp"
 #include "driver/results.hpp"
 #include "methods/automatic.hpp"
-#include "methods/configuration.hpp"
+#include "methods/solve.hpp"
 
 namespace signorini {
 namespace {
@@ -86,6 +88,32 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
                aggregates ? "aggregation, aggregates " + options.aggregates : "classical coarsening");
 }
 
+/// What is wrong somewhere in the body or with the obstacles shows in the discrete problems only. Returns the last
+/// model.
+template <int D, int B>
+Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t body, const Nodes<D>& nodes) {
+  Model<B> model;
+  Discretization<B> discretization;
+  const bool alike = !uses_t(scene, scene.bodies[body]);
+  for (const double t : scene.steps.at) {
+    if (alike && t != scene.steps.at.back()) continue;
+    at_step(scene, t, [&] {
+      Model<B> now = build_model<B>(scene, D, registry, t, body);
+      if (discretization.problem.A.size() == 0)
+        discretization = discretize<D, B>(nodes, now);
+      else
+        renew<D, B>(nodes, model, now, discretization);
+      try {
+        check_method(discretization.problem, scene.solver);
+      } catch (const Error& error) {  // as the solve names it
+        throw Error(error.status(), fmt::format("{}: {}", now.origin, error.what()));
+      }
+      model = std::move(now);
+    });
+  }
+  return model;
+}
+
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
@@ -93,16 +121,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const int order = scene.bodies[body].order;
   const Nodes<D> nodes = nodes_of(hierarchy, order).back();
   locate_probes(hierarchy.finest(), scene, body);
-  // What is wrong somewhere in the body or with the obstacles shows in the discrete problem only.
-  Model<B> model;
-  const auto discretize_at = [&](double t) {
-    at_step(scene, t, [&] {
-      model = build_model<B>(scene, D, registry, t, body);
-      discretize<D, B>(nodes, model);
-    });
-  };
-  if (scene.steps.count() > 1) discretize_at(scene.steps.at.front());
-  discretize_at(scene.steps.at.back());
+  const Model<B> model = check_steps<D, B>(scene, registry, body, nodes);
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, order, model);
   print_contacts(nodes, scene, scene.bodies[body], model);

@@ -48,11 +48,12 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.recovered;
     fields.nodal_pressure[node.vertex] += node.pressure;
-    if (node.contact) fields.contact[node.vertex] = !node.friction ? 1 : node.sticks ? 3 : 2;
+    const double contact = !node.contact ? 0 : !node.friction ? 1 : node.sticks ? 3 : 2;
+    fields.contact[node.vertex] = std::max(fields.contact[node.vertex], contact);
     if (B == 1 || !(node.area > 0)) continue;
     for (int i = 0; i < B; ++i) {
       const std::size_t at = 3 * std::size_t(node.vertex) + i;
-      fields.tangential[at] += node.tangential[i] / node.area;
+      fields.tangential[at] += node.traction[i];
       fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
     }
   }

@@ -31,9 +31,44 @@ bool has_friction(const Report& report) {
   return false;
 }
 
+/// The direction in which a force is largest in all steps; empty where it is zero.
+Vector main_axis(const Report& report, std::size_t k, Vector ContactReport::*force) {
+  const auto& largest = *std::ranges::max_element(
+      report.steps, {}, [&](const StepReport& step) { return length(step.contact[k].*force); });
+  Vector axis = largest.contact[k].*force;
+  const double size = length(axis);
+  if (!(size > 0)) return {};
+  for (double& a : axis) a /= size;
+  return axis;
+}
+
+double along(const Vector& axis, const Vector& v) {
+  return std::inner_product(axis.begin(), axis.end(), v.begin(), 0.0);
+}
+
+/// Whether a force keeps to a line in all steps, to and fro.
+bool keeps_to(const Vector& axis, const Report& report, std::size_t k, Vector ContactReport::*force) {
+  constexpr double across = 0.01;  // of the largest
+  double largest = 0, off = 0;
+  for (const StepReport& step : report.steps) {
+    Vector rest = step.contact[k].*force;
+    const double part = along(axis, rest);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= part * axis[i];
+    largest = std::max(largest, std::abs(part));
+    off = std::max(off, length(rest));
+  }
+  return off <= across * largest;
+}
+
+/// With its sign where the force keeps to a line, so that one that turns round is seen to do so; else its size.
 Line over_t(const Report& report, std::size_t k, Vector ContactReport::*force, std::string name) {
-  Line line{{{0, 0}}, std::move(name)};
-  for (const StepReport& step : report.steps) line.points.push_back({step.t, length(step.contact[k].*force)});
+  const Vector axis = main_axis(report, k, force);
+  const bool line_only = axis.empty() || keeps_to(axis, report, k, force);
+  Line line{{{0, 0}}, line_only ? std::move(name) : name + ", size"};
+  for (const StepReport& step : report.steps) {
+    const Vector& f = step.contact[k].*force;
+    line.points.push_back({step.t, line_only ? along(axis, f) : length(f)});
+  }
   return line;
 }
 
@@ -63,17 +98,12 @@ Vector displacement(const Report& report, const StepReport& step, std::size_t k)
 
 /// What moves the body against the force of the obstacle, along the direction in which that is largest.
 Line over_displacement(const Report& report, std::size_t k, Vector ContactReport::*force, std::string name) {
-  const auto& largest = *std::ranges::max_element(
-      report.steps, {}, [&](const StepReport& step) { return length(step.contact[k].*force); });
-  Vector axis = largest.contact[k].*force;
-  const double size = length(axis);
+  const Vector axis = main_axis(report, k, force);
   Line line{{}, std::move(name)};
-  if (!(size > 0)) return line;
-  for (double& a : axis) a /= -size;
-  const auto along = [&](const Vector& v) { return std::inner_product(axis.begin(), axis.end(), v.begin(), 0.0); };
+  if (axis.empty()) return line;
   line.points.push_back({0, 0});
   for (const StepReport& step : report.steps)
-    line.points.push_back({along(displacement(report, step, k)), -along(step.contact[k].*force)});
+    line.points.push_back({-along(axis, displacement(report, step, k)), along(axis, step.contact[k].*force)});
   return line;
 }
 

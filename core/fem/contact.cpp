@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/algebra/products.hpp"
 #include "core/fem/force_split.hpp"
@@ -83,10 +84,12 @@ class NodeReader {
   }
 
   /// Friction at a slot with a functional, to be added to what is known of its vertex.
-  void add_friction(Index slot, ContactNode<B>& node) const {
+  void add_friction(Index slot, const FrictionLaw& law, ContactNode<B>& node) const {
     const Index p = problem_.constraints.vector[slot];
     const double* Q = problem_.frames.at(p);
-    node.friction = node.sticks = true;
+    node.friction = law.bound > 0 || (law.coefficient > 0 && node.contact);
+    node.law = law;
+    bool sticks = true;
     double work = 0;
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
@@ -94,12 +97,13 @@ class NodeReader {
       // What holds a prescribed component hides the force along it, and other obstacles what slips.
       const bool hidden = has_facets(slot) || problem_.fixed[p] >> k & 1u;
       const double force = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
-      node.sticks = node.sticks && moved == 0;
+      sticks = sticks && moved == 0;
       work += force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
+    node.sticks = node.friction && sticks;
     node.dissipated = std::max(-work, 0.0);  // what is left of the other sign is rounding
-    if (has_facets(slot) && node.sticks) node.tangential = sticking_force(slot);
+    if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
 
@@ -273,12 +277,14 @@ void release(ContactNode<B>& node) {
   node.force = node.tangential;
 }
 
+/// Where it is friction.
 template <int B>
-bool is_friction(const Model<B>& model, const Discretization<B>& discretization, Index slot) {
+std::optional<FrictionLaw> friction_law(const Model<B>& model, const Discretization<B>& discretization, Index slot) {
   const Constraints<B>& c = discretization.problem.constraints;
   FrictionLaw law;
-  return model.obstacles[discretization.functional[slot]].obstacle->nonlinearity()->friction(
-      c.data.data() + Offset{slot} * c.width, law);
+  const Nonlinearity<B>& phi = *model.obstacles[discretization.functional[slot]].obstacle->nonlinearity();
+  if (!phi.friction(c.data.data() + Offset{slot} * c.width, law)) return {};
+  return law;
 }
 
 // Of a functional that is not friction: what is left of the vertex's force beside what its nodes have by their bounds.
@@ -313,29 +319,53 @@ void add_functionals(const NodeReader<B>& reader, const Model<B>& model, const D
       at = nodes.size();
       nodes.push_back(reader.free_node(here));
     }
-    if (is_friction(model, discretization, here))
-      reader.add_friction(here, nodes[at]);
+    if (const auto law = friction_law(model, discretization, here))
+      reader.add_friction(here, *law, nodes[at]);
     else
       add_force(reader, here, nodes.data() + first, nodes.data() + known, nodes[at]);
   }
   std::inplace_merge(nodes.begin(), nodes.begin() + static_cast<Offset>(known), nodes.end(), by_vertex);
 }
 
+/// The nodes of one vertex and obstacle, one for each direction, are one vertex in contact.
 template <int B>
-void add_to(ContactSummary<B>& summary, const ContactNode<B>& node) {
-  for (int i = 0; i < B; ++i) summary.tangential_force[i] += node.tangential[i];
-  summary.dissipated += node.dissipated;
-  if (!node.contact) {
-    for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
-    return;
-  }
-  summary.slip_nodes += node.friction && !node.sticks;
-  summary.stick_nodes += node.friction && node.sticks;
+void add_vertex(const std::vector<const ContactNode<B>*>& nodes, ContactSummary<B>& summary) {
+  const auto any = [&](const auto& is) {
+    return std::ranges::any_of(nodes, [&](const auto* node) { return is(*node); });
+  };
+  if (!any([](const auto& node) { return node.contact; })) return;
   ++summary.nodes;
-  for (int i = 0; i < B; ++i) summary.force[i] += node.force[i];
+  summary.slip_nodes += any([](const auto& node) { return node.friction && !node.sticks; });
+  summary.stick_nodes += any([](const auto& node) { return node.friction && node.sticks; });
+  summary.undetermined_nodes += any([](const auto& node) { return node.contact && (node.held || node.shared); });
+}
+
+template <int B>
+void add_forces(const ContactNode<B>& node, ContactSummary<B>& summary) {
+  summary.dissipated += node.dissipated;
+  for (int i = 0; i < B; ++i) {
+    summary.force[i] += node.force[i];
+    summary.tangential_force[i] += node.tangential[i];
+  }
+  if (!node.contact) return;
   summary.max_pressure = std::max(summary.max_pressure, node.recovered);
-  summary.undetermined_nodes += node.held || node.shared;
   if (node.held || node.shared) summary.undetermined_force += node.pressure * node.area;
+}
+
+/// Of one obstacle.
+template <int B>
+void add_to(ContactSummary<B>& summary, const std::vector<ContactNode<B>>& nodes, Index obstacle) {
+  std::vector<const ContactNode<B>*> here;
+  for (const ContactNode<B>& node : nodes) {
+    if (node.obstacle != obstacle) continue;
+    if (!here.empty() && here.front()->vertex != node.vertex) {
+      add_vertex(here, summary);
+      here.clear();
+    }
+    here.push_back(&node);
+    add_forces(node, summary);
+  }
+  if (!here.empty()) add_vertex(here, summary);
 }
 
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
@@ -347,11 +377,11 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, Index obstacle, doubl
     if (node.obstacle != obstacle) continue;
     node.area = surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
+    for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
     if (surface.in_body() && node.contact) summary.area += node.area;
   }
   if (!surface.in_body()) summary.area = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
-  for (const ContactNode<B>& node : state.nodes)
-    if (node.obstacle == obstacle) add_to(summary, node);
+  add_to(summary, state.nodes, obstacle);
 }
 
 }  // namespace

@@ -21,20 +21,24 @@ struct ContactNode {
   /// Exerted by the obstacle, global coordinates; without contact what a functional of the obstacle exerts, or zero.
   std::array<double, B> force;
   std::array<double, B> direction;     ///< of what presses, and of the gap; of length 1, global
-  bool friction = false;               ///< the obstacle has friction here; then:
-  bool sticks = false;                 ///< no motion along the surface
+  bool friction = false;               ///< what slips here is held back: a bound, or in contact a coefficient, is not 0
+  bool sticks = false;                 ///< with friction: no motion along the surface
   std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
   double dissipated = 0;               ///< work of that against the motion, not negative but for rounding
   /// Obstacles press on the vertex along dependent directions: how the force divides among them is not determined; see
   /// split_force() for what is taken.
   bool shared = false;
   double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
+  FrictionLaw law{};     ///< where there is friction
+  /// The tangential traction at the node, exerted by the obstacle, global: see recover_traction(). Where it is not
+  /// recovered, force over area.
+  std::array<double, B> traction{};
 };
 
 /// What one obstacle does to the body.
 template <int B>
 struct ContactSummary {
-  Index nodes = 0;  ///< in contact
+  Index nodes = 0;  ///< in contact along one direction or several; so are the other numbers of nodes
   /// Measure of the contact, up to its edge within faces: see recover_pressure(); only forces larger than 1e-8 of the
   /// largest one count. Of a scalar obstacle without faces the sum of the areas of the vertices in contact.
   double area = 0;

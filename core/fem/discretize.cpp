@@ -11,6 +11,7 @@
 #include "core/algebra/local_basis.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/admissible_sets.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/bound_coefficients.hpp"
 #include "core/fem/element.hpp"
@@ -68,6 +69,7 @@ class Discretizer {
     reserve(bounds_.size());
     localise();
     add_segments();
+    check_admissible_sets(nodes, model, problem());
     out_.fixes = std::move(fixes_);
     if (B > 1)
       for (const Bound<B>& bound : held_) hold(bound);

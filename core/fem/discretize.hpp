@@ -54,7 +54,8 @@ struct Discretization {
 /// - Each obstacle rules the segments of vectors between its own constrained ones and the next obstacle's. Vectors with
 ///   faces and no functional are the kernel's own, see PolyhedralBox.
 /// Error(Exit::input) for selections without faces, fields that are not finite or out of range, inverted elements;
-/// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction.
+/// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction;
+/// Error(Exit::plugin) for obstacles whose sweeps admit something else than their bounds: check_admissible_sets().
 template <int D, int B>
 Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model);
 

@@ -5,8 +5,9 @@
 
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
-#include "core/fem/polynomial_fit.hpp"
+#include "core/fem/pressed_faces.hpp"
 #include "core/fem/revolution.hpp"
+#include "core/fem/traction_recovery.hpp"
 
 namespace signorini {
 namespace {
@@ -19,88 +20,17 @@ constexpr double falls = 0.5;    // from a node in contact to the next one: more
 // Samples that a fit looks for, and without which it does not go on to the edge.
 template <int D>
 constexpr std::size_t enough = D == 2 ? 4 : 12;
-constexpr Index unreachable = -1;  // number of a node that the obstacle says nothing of
-
-/// The nodes of one obstacle, numbered in the order of ContactState::nodes, and the faces around those it presses.
-template <int D, int B>
-class PressedFaces {
- public:
-  PressedFaces(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
-               std::vector<ContactNode<B>>& contact) {
-    for (ContactNode<B>& node : contact)
-      if (node.obstacle == obstacle) node_.push_back(&node);
-    for (const ContactNode<B>* node : node_) {
-      pressed_.push_back(node->contact && node->pressure * node->area > least_force);
-      if (!pressed_.back()) continue;
-      const std::vector<Index> faces = surface.faces(*node);
-      faces_.insert(faces_.end(), faces.begin(), faces.end());
-    }
-    std::ranges::sort(faces_);
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-    connect(nodes);
-  }
-
-  Index size() const { return static_cast<Index>(node_.size()); }
-  ContactNode<B>& node(Index k) const { return *node_[k]; }
-  bool pressed(Index k) const { return k != unreachable && pressed_[k]; }
-  /// In Mesh::boundary.
-  const std::vector<Index>& faces() const { return faces_; }
-  const std::array<Index, D>& corners(std::size_t face) const { return corners_[face]; }
-  /// Nodes that share faces with one, in ascending order.
-  const std::vector<Index>& around(Index k) const { return around_[k]; }
-  /// One of the faces at a node that has neighbours.
-  Index face_at(Index k) const { return face_at_[k]; }
-  /// Whether all neighbours are pressed, too.
-  bool inside(Index k) const {
-    return pressed(k) && std::ranges::all_of(around_[k], [&](Index other) { return pressed(other); });
-  }
-
- private:
-  /// Of several numbers at a node that of a pressed one.
-  Index number_of(Index vertex) const {
-    auto found = std::ranges::lower_bound(node_, vertex, {}, [](const auto* node) { return node->vertex; });
-    Index out = unreachable;
-    for (; found != node_.end() && (*found)->vertex == vertex; ++found)
-      if (const auto k = static_cast<Index>(found - node_.begin()); out == unreachable || pressed_[k]) out = k;
-    return out;
-  }
-
-  void connect(const Nodes<D>& nodes) {
-    around_.resize(node_.size());
-    face_at_.resize(node_.size());
-    for (const Index face : faces_) {
-      const auto vertices = nodes.of_face(face);
-      std::array<Index, D>& corners = corners_.emplace_back();
-      std::ranges::transform(vertices, corners.begin(), [&](Index v) { return number_of(v); });
-      for (const Index k : corners) {
-        if (k == unreachable) continue;
-        face_at_[k] = face;
-        for (const Index other : corners)
-          if (other != k) around_[k].push_back(other);
-      }
-    }
-    for (std::vector<Index>& list : around_) {
-      std::ranges::sort(list);
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
-  }
-
-  std::vector<ContactNode<B>*> node_;
-  std::vector<bool> pressed_;
-  std::vector<Index> faces_, face_at_;
-  std::vector<std::array<Index, D>> corners_;
-  std::vector<std::vector<Index>> around_;
-};
 
 template <int D, int B>
 class Recovery {
  public:
   Recovery(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
-      : nodes_(nodes), plane_(surface.plane()), faces_(faces), square_(static_cast<std::size_t>(faces.size())) {
-    for (Index k = 0; k < faces.size(); ++k) {
-      inside_.push_back(faces.inside(k));
-      middle_.push_back(inside_[k] ? surface.middle(faces.node(k)) : Point<D>{});
-    }
+      : nodes_(nodes),
+        plane_(surface.plane()),
+        faces_(faces),
+        samples_(nodes, surface, faces),
+        square_(static_cast<std::size_t>(faces.size())) {
+    for (Index k = 0; k < faces.size(); ++k) inside_.push_back(faces.inside(k));
   }
 
   void fit() {
@@ -123,45 +53,15 @@ class Recovery {
  private:
   /// Nodes inside the contact within some rings of neighbours.
   std::vector<Index> neighbourhood(Index from) const {
-    std::vector<Index> seen{from}, found;
-    if (inside_[from]) found.push_back(from);
-    std::size_t first = 0;
     const int wanted = inside_[from] ? rings : rings_beyond;
-    for (int ring = 1; ring <= wanted || (found.size() < enough<D> && ring <= most_rings); ++ring) {
-      const std::size_t last = seen.size();
-      for (; first < last; ++first)
-        for (const Index other : faces_.around(seen[first])) {
-          if (!faces_.pressed(other) || std::ranges::find(seen, other) != seen.end()) continue;
-          seen.push_back(other);
-          if (inside_[other]) found.push_back(other);
-        }
-    }
-    return found;
+    return faces_.around(from, {wanted, most_rings, enough<D>}, [&](Index k) -> bool { return inside_[k]; });
   }
 
   std::vector<Sample<D - 1>> samples(Index k) const {
-    const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
-    Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
-    normalise(normal);
-    const auto axes = tangents(normal);
-    const std::vector<Index> some = neighbourhood(k);
-    const bool both_sides = plane_ == Plane::axisymmetric && std::ranges::any_of(some, [&](Index s) {
-                              return nodes_.at(faces_.node(s).vertex)[0] == 0;
-                            });
-    std::vector<Sample<D - 1>> out;
-    const auto add = [&](const Point<D>& at, double pressure) {
-      const Point<D> from = difference<D>(at, origin);
-      Sample<D - 1>& sample = out.emplace_back();
-      for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
-      sample.value = {pressure * pressure};
-    };
-    for (const Index s : some) {
-      Point<D> at = middle_[s];
-      add(at, faces_.node(s).pressure);
-      at[0] = -at[0];
-      if (both_sides) add(at, faces_.node(s).pressure);
-    }
-    return out;
+    return samples_.around(k, neighbourhood(k), [&](Index s, bool) {
+      const double pressure = faces_.node(s).pressure;
+      return pressure * pressure;
+    });
   }
 
   /// At the edge of a punch: the pressure is larger than at all neighbours.
@@ -237,9 +137,9 @@ class Recovery {
   const Nodes<D>& nodes_;
   const Plane plane_;
   const PressedFaces<D, B>& faces_;
+  const SurfaceSamples<D, B> samples_;
   std::vector<bool> inside_;
-  std::vector<Point<D>> middle_;  // of what lies inside
-  std::vector<double> square_;    // of the pressure, per node; it goes on beyond the edge
+  std::vector<double> square_;  // of the pressure, per node; it goes on beyond the edge
 };
 
 }  // namespace
@@ -250,6 +150,7 @@ double recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surfa
   const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, contact);
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
+  recover_traction(nodes, surface, faces);
   return recovery.area();
 }
 

@@ -11,9 +11,10 @@ namespace signorini {
 /// ends like a square root; its square goes through zero there like a straight line. Only nodes count whose neighbours
 /// are all in contact: the others feel the edge, and what is fitted goes on to them and to the edge.
 ///
-/// Sets ContactNode::recovered of an obstacle's nodes. It lies between the least and 1.25 times the largest of the
-/// means at the node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it. Where
-/// too few nodes are around, or it rises towards the edge as under a punch, it is the mean.
+/// Sets ContactNode::recovered of an obstacle's nodes, and ContactNode::traction from it
+/// (core/fem/traction_recovery.hpp). The pressure lies between the least and 1.25 times the largest of the means at the
+/// node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it. Where too few
+/// nodes are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
 /// @return measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where it does not
 /// fall towards the edge, as under a punch, contact goes on half way to the next node.

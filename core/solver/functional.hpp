@@ -22,15 +22,21 @@ double change(const Level<B>& level, const double* from, const double* to, Index
   return sum;
 }
 
-/// Derivative of phi at `at` along `step`, on the whole level.
+/// Derivative of phi at `at` along `step`, at the vectors first <= p < last of a level.
 template <int B>
-double slope(const Level<B>& level, const double* at, const double* step) {
+double slope(const Level<B>& level, const double* at, const double* step, Index first, Index last) {
   const LevelView<B> view = level.view();
   double sum = 0;
-  level.for_each_segment(0, level.vectors, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
+  level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->slope(view, begin, end, at, step);
   });
   return sum;
+}
+
+/// The same on the whole level.
+template <int B>
+double slope(const Level<B>& level, const double* at, const double* step) {
+  return slope(level, at, step, 0, level.vectors);
 }
 
 /// A problem that is no level yet as its functionals see it.

@@ -91,7 +91,6 @@ void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Inde
 
 template <int B>
 void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r, Index first, Index last, Sums& sums) {
-  rest_on_facets(x, first, last);
   const double added = functional::change(finest(), x_before_.data(), x.data(), first, last);
   if (follows()) functional::renew(finest(), x.data(), r.data(), first, last, data_.data());
   add_natural_residual(x, first, last, r, sums.natural_residual);
@@ -113,26 +112,21 @@ void Iteration<B>::add_sums(std::vector<double>& x, const std::vector<double>& r
   sums.largest = largest;
   sums.moved = moved;
   sums.products += free_products(problem_, x, r, first, last);
-  rest_on_facets(x, first, last);
+  if (!finest().constraints.facet.empty()) leave_out_facets(x, r, first, last, sums);
 }
 
 // Facets are met up to rounding, and large forces do work along that: what has stayed on them counts as if it had been
-// there exactly. Called a second time it takes that back.
+// there exactly. That work is taken out of the sums; a start that is moved onto them would be rounded itself.
 template <int B>
-void Iteration<B>::rest_on_facets(const std::vector<double>& x, Index first, Index last) {
-  const Constraints<B>& c = finest().constraints;
-  if (c.facet.empty()) return;
-  const bool back = !before_rest_.empty();
-  std::size_t next = 0;
+void Iteration<B>::leave_out_facets(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last,
+                                    Sums& sums) {
+  const Level<B>& level = finest();
+  const Constraints<B>& c = level.constraints;
+  across_.resize(x.size());
   const auto [from, to] = slots_between(c, first, last);
   for (Index slot = from; slot < to; ++slot) {
     if (!c.has_facets(slot)) continue;
     const Offset at = Offset{c.vector[slot]} * B;
-    if (back) {
-      std::copy_n(before_rest_.data() + B * next++, B, x_before_.data() + at);
-      continue;
-    }
-    before_rest_.insert(before_rest_.end(), x_before_.begin() + at, x_before_.begin() + at + B);
     double P[B * B], d[B], along[B];
     Flags resting = 0;
     for (int k = 0; k < B; ++k) {
@@ -141,9 +135,13 @@ void Iteration<B>::rest_on_facets(const std::vector<double>& x, Index first, Ind
     }
     c.polyhedron(slot).hold(x.data() + at, x_before_.data() + at, resting, P);
     block::product<B>(P, d, along);
-    for (int k = 0; k < B; ++k) x_before_[at + k] = x[at + k] - along[k];
+    for (int k = 0; k < B; ++k) {
+      const double across = across_[at + k] = d[k] - along[k];
+      sums.gain -= 0.5 * across * (r_before_[at + k] + r[at + k]);
+      sums.correction -= across * (r_before_[at + k] - r[at + k]);
+    }
   }
-  if (back) before_rest_.clear();
+  if (level.nonlinear) sums.gain += functional::slope(level, x.data(), across_.data(), first, last);
 }
 
 template <int B>

@@ -93,7 +93,8 @@ class Iteration {
   bool step(const Monitor& monitor);
   void add_natural_residual(std::vector<double>& x, Index first, Index last, const std::vector<double>& r,
                             double& largest) const;
-  void rest_on_facets(const std::vector<double>& x, Index first, Index last);
+  void leave_out_facets(const std::vector<double>& x, const std::vector<double>& r, Index first, Index last,
+                        Sums& sums);
   void measure(double error);
   void record(Step step);
   double rounding_energy() const;
@@ -111,8 +112,8 @@ class Iteration {
   double trace_ = 0;            // of A
   double size_ = 0;             // ||x||_A
   Summary summary_;
-  std::vector<double> before_rest_;  // of x_before_, while some of it rests on facets
-  std::vector<double> gains_;        // one for each step
+  std::vector<double> across_;  // of the step at facets that it stays on
+  std::vector<double> gains_;   // one for each step
   double reference_ = 0;
   double least_ = infinity;
   int stalled_ = 0;

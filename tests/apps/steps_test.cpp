@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/scenes/tables.hpp"
+#include "apps/signorini/show_steps.hpp"
 #include "program.hpp"
 
 namespace signorini::test {
@@ -199,6 +200,57 @@ TEST_F(Steps, BothWaysToListThemAreRefused) {
   const Ended ended = signorini({"solve", "block.toml", "--set", "steps.count=2"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.err, HasSubstr("block.toml:29: steps.at: both 'at' and 'count' (--set steps.count=2)"));
+}
+
+// A force that turns round is seen to do so, one that turns sideways has its size.
+TEST(StepsPanels, HaveForcesWithTheirSigns) {
+  Report report;
+  report.dimension = 2;
+  const double along[] = {0.5, -2, 1}, across[] = {0, 0, 3};
+  for (std::size_t k = 0; k < 3; ++k) {
+    StepReport& step = report.steps.emplace_back();
+    step.t = (static_cast<double>(k) + 1) / 3;
+    ContactReport& contact = step.contact.emplace_back();
+    contact.slip_nodes = 1;
+    contact.normal_force = {across[k], 4};
+    contact.tangential_force = {along[k], 0};
+    contact.moment_about = contact.displacement = {0, 0};
+  }
+  const std::vector<Panel> panels = steps_panels(report);
+  ASSERT_EQ(panels.size(), 2u);
+  ASSERT_EQ(panels[0].lines.size(), 2u);
+  const Line &normal = panels[0].lines[0], &tangential = panels[0].lines[1];
+  ASSERT_EQ(tangential.points.size(), 4u);
+  const double expected[] = {0, -0.5, 2, -1};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(tangential.points[k][1], expected[k]);
+  EXPECT_EQ(tangential.name, "tangential");
+  EXPECT_EQ(normal.points.back()[1], 5);
+  EXPECT_EQ(normal.name, "normal, size");
+}
+
+TEST_F(Steps, CheckLooksAtAllOfThem) {
+  const auto with = [](const std::string& friction) {
+    std::string scene = block;
+    scene.replace(scene.find("type = 'tresca'"), 29, "type = 'coulomb'\nfriction = '" + friction + "'");
+    return scene;
+  };
+  write("block.toml", with("0.3"));
+  EXPECT_EQ(signorini({"check", "block.toml"}).status, 0);
+  write("block.toml", with("abs(t - 0.5) < 0.1 ? -1 : 0.3"));
+  const Ended wrong = signorini({"check", "block.toml"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("obstacle.0.friction"));
+  EXPECT_THAT(wrong.err, HasSubstr("at t = 0.5"));
+}
+
+TEST_F(Steps, CheckRefusesMethodsThatKnowNoFriction) {
+  write("block.toml", block);
+  for (const char* command : {"check", "solve"}) {
+    const Ended ended = signorini({command, "block.toml", "--set", "solver.method=pdas"});
+    EXPECT_EQ(ended.status, 2) << command;
+    EXPECT_THAT(ended.err, HasSubstr("body.0: solver.method: 'pdas' treats bounds alone")) << command;
+  }
+  EXPECT_EQ(signorini({"check", "block.toml", "--set", "solver.method=newton"}).status, 0);
 }
 
 }  // namespace

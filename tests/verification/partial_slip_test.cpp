@@ -39,7 +39,10 @@ TEST(PartialSlip, OfALineContactConverges) {
   show_step(last);
   EXPECT_NEAR(last.contact, last.contact_in_theory, 0.01 * last.contact);
   EXPECT_NEAR(last.stick, last.stick_in_theory, 0.03 * last.stick);
-  EXPECT_LE(last.mean_error, 0.02);
+  EXPECT_LE(last.mean_error, 0.012);
+  EXPECT_LE(last.largest_error, 0.06) << "beside the kink at the edge of what sticks";
+  EXPECT_LT(last.mean_error, last.nodal_mean_error) << "recovered tractions are nearer than forces over areas";
+  EXPECT_LT(last.largest_error, last.nodal_largest_error);
 }
 
 TEST(PartialSlip, OfAPointContactConverges) { expect_loading_converges(3, 0, 1); }

@@ -260,5 +260,33 @@ TEST(Nested, InterpolatesLinearFieldsThroughDifferentFrames) {
   for (std::size_t k = 0; k < u.size(); ++k) EXPECT_NEAR(u[k], expected[k], 1e-14);
 }
 
+// An obstacle that bounds two directions at a vertex, along x and along y.
+TEST(Contact, NodesOfSeveralDirectionsAreCountedOnce) {
+  for (const bool across : {false, true}) {
+    Model<2> model;
+    model.fixes = {fix<2>("top", {0.05, -0.1})};
+    model.obstacles = {term<2>(
+        [across](const SurfaceVertex& v) {
+          LocalConstraint<2> c = bound<2>({0, 1}, -v.position[1], infinity);
+          c.directions = 2;
+          c.direction[1][0] = 1;
+          c.lower[1] = -infinity;
+          c.upper[1] = across ? 0 : 1;
+          return c;
+        },
+        "bottom")};
+    const Mesh<2> mesh = unit_mesh<2>(4);
+    const auto discrete = discretize(mesh, model);
+    const auto state = contact_state(mesh, model, discrete, solve_bounded(discrete.problem));
+    Index entries = 0;
+    for (const auto& node : state.nodes) entries += node.contact;
+    EXPECT_EQ(state.obstacles[0].nodes, 5);
+    EXPECT_LE(state.obstacles[0].area, 1 + 1e-12);
+    if (across) {
+      EXPECT_GT(entries, 5) << "no test";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace signorini::testing

@@ -304,6 +304,41 @@ TEST(Coulomb, ASqueezedBlockStaysBetweenWallsThatOpen) {
   }
 }
 
+// What has no friction neither slips nor sticks: where the coefficient is zero, and where nothing presses.
+TEST(Coulomb, OnlyNodesWithFrictionSlipOrStick) {
+  SceneText scene = block2(coulomb(on_plane, "\"x < 1 ? 0 : 0.3\""), 2);
+  scene.fixes = {"on = \"top\"\nvalue = [0.01, \"-0.02 - 0.03*(x - 1)\"]"};
+  const auto r = run<2, 2>(scene);
+  Index rough = 0, smooth = 0, open = 0;
+  for (const ContactNode<2>& node : r.results.contact.nodes) {
+    open += !node.contact;
+    smooth += node.contact && !node.friction;
+    rough += node.friction;
+    EXPECT_EQ(node.friction, node.contact && r.mesh().points[node.vertex][0] >= 1) << node.vertex;
+    if (!node.friction) {
+      EXPECT_FALSE(node.sticks) << node.vertex;
+    }
+  }
+  EXPECT_GT(rough, 0);
+  EXPECT_GT(smooth, 0);
+  EXPECT_GT(open, 0) << "no test";
+  EXPECT_EQ(r.contact().slip_nodes + r.contact().stick_nodes, rough);
+}
+
+TEST(Coulomb, ThatAnExpressionDoesNotDragIsSaid) {
+  const auto warnings = [](const std::string& distance, const std::string& law) {
+    SceneText scene = block2("on = \"bottom\"\nshape = \"expression\"\ndistance = \"" + distance + "\"\n" + law, 1);
+    Driver driver(parse_scene(std::string(scene) + "[steps]\ncount = 2\n", "test.toml", "."));
+    return driver.solve().warnings;
+  };
+  const std::string rough = "type = \"coulomb\"\nfriction = 0.3", smooth = "type = \"contact\"";
+  const auto says = testing::Contains(testing::AllOf(testing::HasSubstr("obstacle.0.distance"),
+                                                     testing::HasSubstr("friction takes it to be at rest along it")));
+  EXPECT_THAT(warnings("y + 0.001*t*(1 + x)", rough), says);
+  EXPECT_THAT(warnings("y + 0.001*(1 + x)", rough), testing::Not(says));
+  EXPECT_THAT(warnings("y + 0.001*t*(1 + x)", smooth), testing::Not(says));
+}
+
 TEST(Coulomb, BadInputIsRefusedWithItsPlace) {
   expect_refused(block2(coulomb(on_plane, "-0.1"), 0), "obstacle.0.friction");
   expect_refused(block2(coulomb(on_plane, "\"x - 1\""), 0), "expected a number in [0, inf)");

@@ -1,0 +1,164 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/fem/contact_surface.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/fixes.hpp"
+#include "core/fem/polynomial_fit.hpp"
+
+/// What recoveries of pressures and tractions have in common.
+namespace signorini {
+
+inline constexpr Index unreachable = -1;  ///< number of a node that the obstacle says nothing of
+
+/// The nodes of one obstacle, numbered in the order of ContactState::nodes, and the faces around those it presses.
+template <int D, int B>
+class PressedFaces {
+ public:
+  PressedFaces(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
+               std::vector<ContactNode<B>>& contact) {
+    for (ContactNode<B>& node : contact)
+      if (node.obstacle == obstacle) node_.push_back(&node);
+    for (const ContactNode<B>* node : node_) {
+      pressed_.push_back(node->contact && node->pressure * node->area > least_force);
+      if (!pressed_.back()) continue;
+      const std::vector<Index> faces = surface.faces(*node);
+      faces_.insert(faces_.end(), faces.begin(), faces.end());
+    }
+    std::ranges::sort(faces_);
+    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    connect(nodes);
+  }
+
+  Index size() const { return static_cast<Index>(node_.size()); }
+  ContactNode<B>& node(Index k) const { return *node_[k]; }
+  bool pressed(Index k) const { return k != unreachable && pressed_[k]; }
+  /// In Mesh::boundary.
+  const std::vector<Index>& faces() const { return faces_; }
+  const std::array<Index, D>& corners(std::size_t face) const { return corners_[face]; }
+  /// Nodes that share faces with one, in ascending order.
+  const std::vector<Index>& around(Index k) const { return around_[k]; }
+  /// One of the faces at a node that has neighbours.
+  Index face_at(Index k) const { return face_at_[k]; }
+  /// How far to go from a node in search of samples: so many rings of neighbours, more where they are few.
+  struct Reach {
+    int rings, most;
+    std::size_t enough;
+  };
+  /// Pressed nodes that are reached through pressed ones, and that count.
+  template <class Counts>
+  std::vector<Index> around(Index from, const Reach& reach, const Counts& counts) const {
+    std::vector<Index> seen{from}, found;
+    if (counts(from)) found.push_back(from);
+    std::size_t first = 0;
+    for (int ring = 1; ring <= reach.rings || (found.size() < reach.enough && ring <= reach.most); ++ring) {
+      const std::size_t last = seen.size();
+      for (; first < last; ++first)
+        for (const Index other : around_[seen[first]]) {
+          if (!pressed(other) || std::ranges::find(seen, other) != seen.end()) continue;
+          seen.push_back(other);
+          if (counts(other)) found.push_back(other);
+        }
+    }
+    return found;
+  }
+
+  /// Whether all neighbours are pressed, too.
+  bool inside(Index k) const {
+    return pressed(k) && std::ranges::all_of(around_[k], [&](Index other) { return pressed(other); });
+  }
+
+ private:
+  /// Of several numbers at a node, for several directions, that of a pressed one that pushes against the face most.
+  Index number_of(Index vertex, const Point<D>& normal) const {
+    auto found = std::ranges::lower_bound(node_, vertex, {}, [](const auto* node) { return node->vertex; });
+    Index out = unreachable;
+    for (; found != node_.end() && (*found)->vertex == vertex; ++found)
+      if (const auto k = static_cast<Index>(found - node_.begin()); out == unreachable || precedes(k, out, normal))
+        out = k;
+    return out;
+  }
+
+  bool precedes(Index k, Index other, const Point<D>& normal) const {
+    if (pressed_[k] != pressed_[other]) return pressed_[k];
+    if constexpr (B == D) return dot(normal, node_[k]->direction) < dot(normal, node_[other]->direction);
+    return true;
+  }
+
+  void connect(const Nodes<D>& nodes) {
+    around_.resize(node_.size());
+    face_at_.resize(node_.size());
+    for (const Index face : faces_) {
+      const auto vertices = nodes.of_face(face);
+      const Point<D> normal = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
+      std::array<Index, D>& corners = corners_.emplace_back();
+      std::ranges::transform(vertices, corners.begin(), [&](Index v) { return number_of(v, normal); });
+      for (const Index k : corners) {
+        if (k == unreachable) continue;
+        face_at_[k] = face;
+        for (const Index other : corners)
+          if (other != k) around_[k].push_back(other);
+      }
+    }
+    for (std::vector<Index>& list : around_) {
+      std::ranges::sort(list);
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+  }
+
+  std::vector<ContactNode<B>*> node_;
+  std::vector<bool> pressed_;
+  std::vector<Index> faces_, face_at_;
+  std::vector<std::array<Index, D>> corners_;
+  std::vector<std::vector<Index>> around_;
+};
+
+/// Means around nodes as samples for a fit at one of them.
+template <int D, int B>
+class SurfaceSamples {
+ public:
+  /// Keeps references.
+  SurfaceSamples(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
+      : nodes_(nodes), surface_(surface), faces_(faces), middle_(static_cast<std::size_t>(faces.size())) {}
+
+  /// At the middles of the nodes in `some`, seen from node k in the plane that touches there. Where these reach the
+  /// axis of a body of revolution they are mirrored.
+  /// @param value value(node, mirrored)
+  template <class Value>
+  std::vector<Sample<D - 1>> around(Index k, const std::vector<Index>& some, const Value& value) const {
+    const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
+    Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
+    normalise(normal);
+    const auto axes = tangents(normal);
+    const bool both_sides = surface_.plane() == Plane::axisymmetric && std::ranges::any_of(some, [&](Index s) {
+                              return nodes_.at(faces_.node(s).vertex)[0] == 0;
+                            });
+    std::vector<Sample<D - 1>> out;
+    for (const Index s : some)
+      for (const bool mirrored : {false, true}) {
+        if (mirrored && !both_sides) continue;
+        Point<D> at = middle(s);
+        if (mirrored) at[0] = -at[0];
+        const Point<D> from = difference<D>(at, origin);
+        Sample<D - 1>& sample = out.emplace_back();
+        for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
+        sample.value = value(s, mirrored);
+      }
+    return out;
+  }
+
+ private:
+  const Point<D>& middle(Index k) const {
+    if (!middle_[k]) middle_[k] = surface_.middle(faces_.node(k));
+    return *middle_[k];
+  }
+
+  const Nodes<D>& nodes_;
+  const ContactSurface<D, B>& surface_;
+  const PressedFaces<D, B>& faces_;
+  mutable std::vector<std::optional<Point<D>>> middle_;  // once it was asked for
+};
+
+}  // namespace signorini
