@@ -20,7 +20,8 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(nodes, model, solution.discretization, solution.x),
                     {},
-                    {}};
+                    {},
+                    solution.pressure};
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
     out.deformed.push_back(deformed_contact(nodes, model, static_cast<Index>(k), out.contact, out.u));

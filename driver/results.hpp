@@ -18,6 +18,7 @@ struct Results {
   ContactState<B> contact;
   Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
+  std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
 };
 
 template <int D, int B>

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/dot.hpp"
+#include "core/solver/following_load.hpp"
 #include "core/solver/rounding.hpp"
 #include "methods/automatic.hpp"
 
@@ -54,6 +56,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       own_(linear_level<B>(problem, prolongations, method_)),
       multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
+      with_load_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear),
@@ -94,7 +97,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
   if (nonlinear_ && this->options_.krylov) renew_forces();
-  const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
+  const bool accelerated = this->options_.krylov && method_ != Method::pgs;
+  const bool combined = this->problem_.following ? renew_load(accelerated && !nonlinear_ && rests(cycle.finest()))
+                                                 : accelerated && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
@@ -109,16 +114,17 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     renewal_.add(sums.natural_residual);
     step.stuck = renewal_.stuck();
   }
-  if (nonlinear_) return step;  // nothing else can treat functionals
+  if (nonlinear_ || this->problem_.following) return step;  // nothing else can treat these
   if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 
-// Where functionals follow the solution the steps are those of a fixed point iteration, too.
+// Where functionals or loads follow the solution the steps are those of a fixed point iteration, too.
 template <int B>
 double MultigridIteration<B>::remaining_error() const {
-  return this->follows() ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
+  return this->follows() || this->problem_.following ? std::max(estimate_.error(), estimate_.error_of_steps())
+                                                     : estimate_.error();
 }
 
 template <int B>
@@ -187,6 +193,46 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
   }
   recombination_.reset();
   return false;
+}
+
+// After a cycle what a load depends on follows its iterate, which is judged with the load renewed. The energy was
+// lowered for the load of before, which the sums of gains tell. Returns whether the iterate is no longer the cycle's
+// own.
+template <int B>
+bool MultigridIteration<B>::renew_load(bool accelerated) {
+  FollowingLoad<B>& load = *this->problem_.following;
+  load.correct(this->x_, change_, S_change_);
+  if (accelerated)
+    with_load_.add_step(this->x_before_, this->x_, this->r_before_, this->r_, change_, S_change_);
+  else
+    with_load_.reset();
+  load.add(change_, this->r_);
+  const bool combined = accelerated && combine_with_load();
+  const Sums of_cycle = std::exchange(this->sums_, {});
+  in_pieces<B>(0, multigrid_.finest().vectors,
+               [&](Index first, Index last) { this->add_sums(this->x_, this->r_, first, last, this->sums_); });
+  this->sums_.gain = of_cycle.gain;
+  this->sums_.size = of_cycle.size;
+  this->sums_.correction = of_cycle.correction + dot(change_, S_change_);
+  const auto largest = [](const std::vector<double>& values) {
+    double out = 0;
+    for (const double value : values) out = std::max(out, std::abs(value));
+    return out;
+  };
+  const double moved = largest(change_), size = largest(load.values());
+  this->residual_of_load_ = size > 0 ? moved / size : moved > 0 ? infinity : 0;
+  return combined;
+}
+
+template <int B>
+bool MultigridIteration<B>::combine_with_load() {
+  FollowingLoad<B>& load = *this->problem_.following;
+  std::vector<double> p = load.values();
+  if (!with_load_.combine(this->x_, p, this->r_)) return false;
+  for (std::size_t k = 0; k < p.size(); ++k) p[k] -= load.values()[k];
+  r_trial_.resize(this->r_.size());
+  load.add(p, r_trial_);  // whose residual is combined, too
+  return true;
 }
 
 // The negative gradient of the energy with the functionals, where these are smooth.

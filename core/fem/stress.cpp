@@ -1,5 +1,6 @@
 #include "core/fem/stress.hpp"
 
+#include <cassert>
 #include <cmath>
 
 #include "core/fem/gradient.hpp"
@@ -38,8 +39,11 @@ class StressReader {
  public:
   using Barycentric = std::array<double, D + 1>;
 
-  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
-      : nodes_(nodes), model_(model), law_(model), u_(u) {}
+  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+               const OwnPressure<D>& pressure)
+      : nodes_(nodes), model_(model), law_(model), u_(u), pressure_(pressure) {
+    assert(P == 2 || !pressure.space);
+  }
 
   /// At a point of an element, with the measure of the flat element that it is like there.
   struct Read {
@@ -52,7 +56,13 @@ class StressReader {
     const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
     const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
     const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
-    return {stress<D>(law_.at(where), g, hoop, model_.plane == Plane::stress), flat.measure};
+    const bool own = pressure_.space && pressure_.space->unknown[e][0] >= 0;
+    Material<D> material = law_.at(where);
+    if (own) material = of_displacements(material);
+    Read out{stress<D>(material, g, hoop, model_.plane == Plane::stress), flat.measure};
+    if (own)
+      for (int i = 0; i < 3; ++i) out.stress[i] += pressure_.space->at(*pressure_.values, e, barycentric);
+    return out;
   }
 
  private:
@@ -60,16 +70,18 @@ class StressReader {
   const Model<D>& model_;
   const MaterialLaw<D> law_;
   const std::vector<double>& u_;
+  const OwnPressure<D>& pressure_;
 };
 
 }  // namespace
 
 template <int D>
-std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                   const OwnPressure<D>& pressure) {
   std::vector<Stress> out;
   with_order(nodes, [&](auto order) {
     const auto& elements = nodes.template elements<order>();
-    const StressReader<D, order> reader(nodes, model, u);
+    const StressReader<D, order> reader(nodes, model, u, pressure);
     std::array<double, D + 1> centroid;
     centroid.fill(1.0 / (D + 1));
     out.reserve(elements.size());
@@ -80,12 +92,13 @@ std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model,
 }
 
 template <int D>
-std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                 const OwnPressure<D>& pressure) {
   std::vector<Stress> out(nodes.mesh().points.size());
   std::vector<double> weight(out.size());
   with_order(nodes, [&](auto order) {
     const auto& elements = nodes.template elements<order>();
-    const StressReader<D, order> reader(nodes, model, u);
+    const StressReader<D, order> reader(nodes, model, u, pressure);
     for (std::size_t e = 0; e < elements.size(); ++e) {
       const ElementMap<D, D, order> map(nodes.mesh(), elements[e]);
       typename StressReader<D, order>::Read here;
@@ -108,9 +121,13 @@ double von_mises(const Stress& s) {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
+template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
+                                            const OwnPressure<2>&);
+template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
+                                            const OwnPressure<3>&);
+template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
+                                          const OwnPressure<2>&);
+template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
+                                          const OwnPressure<3>&);
 
 }  // namespace signorini
