@@ -98,6 +98,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
   if (nonlinear_ && this->options_.krylov) renew_forces();
   const bool accelerated = this->options_.krylov && method_ != Method::pgs;
+  if (this->problem_.following) watch_directions(cycle.finest().changed == 0);
   const bool combined = this->problem_.following ? renew_load(accelerated && !nonlinear_ && rests(cycle.finest()))
                                                  : accelerated && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
@@ -222,6 +223,33 @@ bool MultigridIteration<B>::renew_load(bool accelerated) {
   const double moved = largest(change_), size = largest(load.values());
   this->residual_of_load_ = size > 0 ? moved / size : moved > 0 ? infinity : 0;
   return combined;
+}
+
+// Where cycles hardly change the force along a direction of the load, what resists it is found by a few linear cycles
+// with what is held now. That holds until the phases change.
+template <int B>
+void MultigridIteration<B>::watch_directions(bool resting) {
+  constexpr double hardly = 0.7;
+  constexpr int patience = 2;
+  FollowingLoad<B>& load = *this->problem_.following;
+  watched_.resize(load.directions());
+  for (std::size_t e = 0; e < watched_.size(); ++e) {
+    Watched& watched = watched_[e];
+    if (!resting) {
+      if (watched.known) load.set_resistance(e, 0), with_load_.reset();
+      watched = {};
+      continue;
+    }
+    const double along = load.along(e);
+    watched.slow = watched.along != 0 && std::abs(along) > hardly * std::abs(watched.along) ? watched.slow + 1 : 0;
+    watched.along = along;
+    if (watched.known || watched.slow < patience) continue;
+    watched.known = true;
+    const double own = load.own(e);
+    if (const auto found = multigrid_.response(this->x_, load.load_along(e), std::sqrt(own)))
+      load.set_resistance(e, own + *found * *found);
+    with_load_.reset();  // it is another iteration now
+  }
 }
 
 template <int B>

@@ -33,6 +33,7 @@ class MultigridIteration final : public Iteration<B> {
   bool accelerate(const CycleReport& cycle, bool gaining);
   bool renew_load(bool accelerated);
   bool combine_with_load();
+  void watch_directions(bool resting);
   bool take_combination(const CycleReport& cycle);
   void set_forces();
   void renew_forces();
@@ -59,6 +60,14 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<double> x_trial_, r_trial_, data_trial_;  // empty without acceleration
   std::vector<double> forces_, forces_before_;          // empty without functionals
   std::vector<double> change_, S_change_;               // of a load that follows the solution
+  /// Along a direction of it: the force after the last cycle, how many cycles hardly changed it, and whether its
+  /// resistance has been found.
+  struct Watched {
+    double along = 0;
+    int slow = 0;
+    bool known = false;
+  };
+  std::vector<Watched> watched_;
 };
 
 }  // namespace signorini

@@ -14,6 +14,7 @@
 #include "apps/bench/choice.hpp"
 #include "apps/bench/friction_coefficients.hpp"
 #include "apps/bench/friction_costs.hpp"
+#include "apps/bench/incompressible.hpp"
 #include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
@@ -210,6 +211,8 @@ const Table tables[] = {
     {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/friction.md",
      sized<print_partial_slip>},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
+    {"--incompressible", "only elements for nearly incompressible material, the tables of docs/rubber.md",
+     sized<print_incompressible>},
     {"--friction-coefficients", "only what becomes of coefficients of friction from 0 to 5",
      sized<print_friction_coefficients>},
     {"--friction-costs", "only cycles and time of steps with friction beside those without",

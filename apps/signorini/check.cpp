@@ -7,6 +7,7 @@
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/fem/pressure_space.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
 #include "driver/nested_solver.hpp"
@@ -52,6 +53,16 @@ void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& 
     fmt::print("  {} {:>10} {} {:>10} {}  {}\n", k, mesh.vertices(), quadratic ? "nodes   " : "vertices",
                quadratic ? mesh.families.size() : mesh.elements.size(), quadratic ? "quadratic elements" : "elements",
                unknowns);
+  }
+}
+
+/// Of nearly incompressible material.
+template <int D, int B>
+void print_pressure(const Nodes<D>& nodes, const Model<B>& model) {
+  if constexpr (D == B) {
+    if (model.pressure == Pressure::none || nodes.mesh().families.empty()) return;
+    if (const Index unknowns = pressure_space<D>(nodes, model).size; unknowns > 0)
+      fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", unknowns);
   }
 }
 
@@ -105,6 +116,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   discretize_at(scene.steps.at.back());
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, order, model);
+  print_pressure(nodes, model);
   print_contacts(nodes, scene, scene.bodies[body], model);
   const std::size_t first = first_mesh(hierarchy, scene.solver, B, order);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;

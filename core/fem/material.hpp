@@ -20,7 +20,7 @@ struct Material<1> {
 inline constexpr double nearly_incompressible = 9;
 /// The part of lambda, over mu, that stays with the displacements where the pressure has unknowns of its own: those
 /// carry the rest. More of it is worse for smoothers, less of it for the iteration of the pressures (docs/rubber.md).
-inline constexpr double lambda_of_displacements = 4;
+inline constexpr double lambda_of_displacements = 3;
 
 /// Whether the pressure of an element has unknowns of its own.
 /// @param material at the element's centroid

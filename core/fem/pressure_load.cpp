@@ -36,6 +36,14 @@ PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& 
   for (Index k = 0; k < space.size; ++k)
     for (Offset at = space.mass_row[k]; at < space.mass_row[k + 1]; ++at)
       if (space.mass_column[at] == k) inverse_[k] = 1 / space.schur[at];
+  for (auto* of_material : {&along_, &own_, &resistance_, &more_})
+    of_material->assign(static_cast<std::size_t>(space.materials), 0);
+  for (Index k = 0; k < space.size; ++k)
+    for (Offset at = space.mass_row[k]; at < space.mass_row[k + 1]; ++at) {
+      if (space.material[space.mass_column[at]] != space.material[k]) continue;
+      own_[space.material[k]] += space.compliance[at];
+      resistance_[space.material[k]] += space.schur[at];
+    }
 }
 
 template <int D>
@@ -45,6 +53,21 @@ const std::vector<double>& PressureLoad<D>::load_of(const std::vector<double>& p
     for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
       for (int i = 0; i < D; ++i) load_[Offset{space_.column[at]} * D + i] += p[k] * value_[at * D + i];
   return load_;
+}
+
+template <int D>
+std::vector<double> PressureLoad<D>::load_along(std::size_t e) {
+  std::vector<double> one(p_.size());
+  for (std::size_t k = 0; k < one.size(); ++k) one[k] = static_cast<std::size_t>(space_.material[k]) == e ? 1 : 0;
+  std::vector<double> out = load_of(one);
+  for (std::size_t at = 0; at < out.size(); ++at)
+    if (problem().fixed[at / D] >> (at % D) & 1u) out[at] = 0;
+  return out;
+}
+
+template <int D>
+void PressureLoad<D>::set_resistance(std::size_t e, double resistance) {
+  more_[e] = resistance > 0 ? 1 / resistance - 1 / resistance_[e] : 0;
 }
 
 /// From b where components are free. What the prescribed ones lose in work counts, too.
@@ -66,8 +89,6 @@ void PressureLoad<D>::apply() {
   subtract(load_of(p_));
 }
 
-// Chebyshev's iteration from zero, with the diagonal. That bounds the eigenvalues of mass matrices (Wathen, IMA J.
-// Numer. Anal. 7, 1987): linear functions have them from 1/2 to (D + 2) / 2.
 template <int D>
 void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>& change,
                               std::vector<double>& residual) {
@@ -80,6 +101,16 @@ void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>&
       for (int i = 0; i < D; ++i) sum += value_[at * D + i] * x[Offset{space_.column[at]} * D + i];
     residual[k] = sum;
   }
+  solve(residual, change);
+  std::fill(along_.begin(), along_.end(), 0.0);
+  for (Index k = 0; k < space_.size; ++k) along_[space_.material[k]] += residual[k];
+  for (Index k = 0; k < space_.size; ++k) change[k] += more_[space_.material[k]] * along_[space_.material[k]];
+}
+
+// Chebyshev's iteration from zero, with the diagonal. That bounds the eigenvalues of mass matrices (Wathen, IMA J.
+// Numer. Anal. 7, 1987): linear functions have them from 1/2 to (D + 2) / 2.
+template <int D>
+void PressureLoad<D>::solve(const std::vector<double>& residual, std::vector<double>& change) {
   const bool diagonal = space_.kind == Pressure::constant;
   const double least = diagonal ? 1 : 0.5, largest = diagonal ? 1 : (D + 2) / 2.0;
   const double middle = (least + largest) / 2, half = (largest - least) / 2;

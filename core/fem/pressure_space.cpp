@@ -12,7 +12,7 @@ namespace {
 
 /// What gradients without divergence leave of the resistance of displacements, in mu: C A^-1 C' is between mass
 /// matrices over lambda0 + 2 mu / D (bodies that breathe as a whole) and, by the inf-sup condition, several mu.
-constexpr double resistance = 2.5;
+constexpr double resistance = 1.5;
 
 /// The materials of a mesh, as its families name them, numbered from 0.
 template <int D>
@@ -94,6 +94,15 @@ class SpaceBuilder {
     return s;
   }
 
+  Index new_unknown(std::size_t f) {
+    const Index region = mesh_.family_region.empty() ? -1 : mesh_.family_region[f];
+    const auto at = static_cast<std::size_t>(region + 1);
+    material_.resize(std::max(material_.size(), at + 1), -1);
+    if (material_[at] < 0) material_[at] = out_.materials++;
+    out_.material.push_back(material_[at]);
+    return out_.size++;
+  }
+
   void number() {
     std::vector<Index> number(model_.pressure == Pressure::linear ? regions_.keys() : 0, -1);
     out_.unknown.resize(mesh_.families.size());
@@ -102,12 +111,12 @@ class SpaceBuilder {
       const ElementMap<D, D, 2> map(mesh_, mesh_.families[f]);
       if (!has_pressure(model_, law_.at(site_of(f, map(barycentre<D>()))))) continue;
       if (model_.pressure == Pressure::constant) {
-        out_.unknown[f].fill(out_.size++);
+        out_.unknown[f].fill(new_unknown(f));
         continue;
       }
       for (int a = 0; a <= D; ++a) {
         Index& of_corner = number[regions_.key(mesh_.families[f][a], f)];
-        if (of_corner < 0) of_corner = out_.size++;
+        if (of_corner < 0) of_corner = new_unknown(f);
         out_.unknown[f][a] = of_corner;
       }
     }
@@ -182,6 +191,7 @@ class SpaceBuilder {
   const Model<D>& model_;
   const MaterialLaw<D> law_;
   const Regions<D> regions_;
+  std::vector<Index> material_;  // per region + 1
   PressureSpace<D> out_;
 };
 

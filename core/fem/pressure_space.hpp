@@ -23,6 +23,8 @@ struct PressureSpace {
   /// Per family the unknowns of its corners, which are one where they are constant; -1: none.
   std::vector<std::array<Index, D + 1>> unknown;
   Index size = 0;
+  std::vector<Index> material;  ///< per unknown, numbered from 0
+  Index materials = 0;
 
   std::vector<Offset> row = {0};  ///< size + 1: C, the integrals of p-function times divergence
   std::vector<Index> column;      ///< nodes

@@ -223,9 +223,9 @@ bool Iteration<B>::finished(bool gaining, bool exact) {
     s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
     hidden = any ? forces.rounding / forces.acting : 0;
   }
-  // What friction hardly fails to hold slides so far that forces drown in rounding: small errors beside that say
-  // nothing.
-  const bool runs_away = finest().nonlinear && s.residual > far_off * options_.tolerance;
+  // What friction hardly fails to hold slides so far that forces drown in rounding, and a load that follows the
+  // solution may carry it away: small errors beside that say nothing.
+  const bool runs_away = (finest().nonlinear || problem_.following) && s.residual > far_off * options_.tolerance;
   const bool rounding_alone = !runs_away && (is_rounding_of_unknowns() || (exact && s.residual <= small_residual));
   const bool at_rest = stalled_ >= 3 && !gaining && rounding_alone && !has_risen();
   if (!within_tolerance() && !at_rest) return false;
