@@ -99,7 +99,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   if (nonlinear_ && this->options_.krylov) renew_forces();
   const bool accelerated = this->options_.krylov && method_ != Method::pgs;
   if (this->problem_.following) watch_directions(cycle.finest().changed == 0);
-  const bool combined = this->problem_.following ? renew_load(accelerated && !nonlinear_ && rests(cycle.finest()))
+  const bool combined = this->problem_.following ? renew_load(accelerated && rests(cycle.finest()))
                                                  : accelerated && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();

@@ -37,6 +37,8 @@ const Element elements[] = {{"linear", 1, "none"},
                             {"quadratic, linear pressure", 2, "linear"}};
 constexpr double ratios[] = {0.3, 0.45, 0.49, 0.499, 0.4999};
 
+/// Between smooth walls: where a clamped side meets a free one stresses are infinite, the more so the larger Poisson's
+/// ratio is.
 const std::string pressed_2d = R"toml(
 [[body]]
 name = "b"
@@ -49,13 +51,17 @@ poisson = 0.3
 [[fix]]
 body = "b"
 on = "top"
-value = [0, -0.05]
+value = ["free", -0.05]
+[[fix]]
+body = "b"
+on = "left"
+value = [0, "free"]
 [[obstacle]]
 type = "contact"
 body = "b"
 on = "bottom"
 shape = "expression"
-distance = "y + 0.2*(x-0.4)^2"
+distance = "y + 0.2*x^2"
 normal = [0, 1]
 )toml";
 
@@ -71,13 +77,21 @@ poisson = 0.3
 [[fix]]
 body = "b"
 on = "top"
-value = [0, 0, -0.05]
+value = ["free", "free", -0.05]
+[[fix]]
+body = "b"
+on = "left"
+value = [0, "free", "free"]
+[[fix]]
+body = "b"
+on = "front"
+value = ["free", 0, "free"]
 [[obstacle]]
 type = "contact"
 body = "b"
 on = "bottom"
 shape = "expression"
-distance = "z + 0.2*((x-0.4)^2 + (y-0.4)^2)"
+distance = "z + 0.2*(x^2 + y^2)"
 normal = [0, 0, 1]
 )toml";
 

@@ -89,11 +89,11 @@ void read_material(const TableReader& reader, Scene::Body& body) {
 
 // What is left to "auto" is decided when all materials are known.
 void read_pressure(const TableReader& reader, Scene::Body& body) {
+  if (body.equation == Scene::Equation::diffusion) reader.forbid("pressure", "for equation = 'diffusion'");
   const std::string kind = reader.text("pressure");
   if (kind == "none") body.pressure = Pressure::none;
   if (kind != "linear" && kind != "constant") return;
   const std::string& origin = reader.origin("pressure");
-  if (body.equation == Scene::Equation::diffusion) reader.forbid("pressure", "for equation = 'diffusion'");
   if (body.plane == Plane::stress)
     input_error(origin, fmt::format("'{}' is for plane strain and 3D: in plane stress elements do not lock", kind));
   if (body.plane == Plane::axisymmetric)
