@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/base/dot.hpp"
-#include "core/solver/following_load.hpp"
 #include "core/solver/rounding.hpp"
 #include "methods/automatic.hpp"
 
@@ -56,11 +54,11 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       own_(linear_level<B>(problem, prolongations, method_)),
       multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
-      with_load_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear),
       renewal_(options) {
+  if (problem.following) load_.emplace(*problem.following, multigrid_);
   multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
 }
 
@@ -96,11 +94,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
         });
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
-  if (nonlinear_ && this->options_.krylov) renew_forces();
-  const bool accelerated = this->options_.krylov && method_ != Method::pgs;
-  if (this->problem_.following) watch_directions(cycle.finest().changed == 0);
-  const bool combined = this->problem_.following ? renew_load(accelerated && rests(cycle.finest()))
-                                                 : accelerated && accelerate(cycle, gaining);
+  if (nonlinear_ && this->options_.krylov && !load_) renew_forces();
+  const bool combined = load_ ? renew_load(cycle.finest())
+                              : this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
@@ -115,7 +111,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     renewal_.add(sums.natural_residual);
     step.stuck = renewal_.stuck();
   }
-  if (nonlinear_ || this->problem_.following) return step;  // nothing else can treat these
+  if (nonlinear_ || load_) return step;  // nothing else can treat these
   if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
@@ -124,8 +120,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
 // Where functionals or loads follow the solution the steps are those of a fixed point iteration, too.
 template <int B>
 double MultigridIteration<B>::remaining_error() const {
-  return this->follows() || this->problem_.following ? std::max(estimate_.error(), estimate_.error_of_steps())
-                                                     : estimate_.error();
+  return this->follows() || load_ ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
 }
 
 template <int B>
@@ -196,71 +191,21 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
   return false;
 }
 
-// After a cycle what a load depends on follows its iterate, which is judged with the load renewed. The energy was
-// lowered for the load of before, which the sums of gains tell. Returns whether the iterate is no longer the cycle's
-// own.
+// After a cycle a load follows its iterate, which is judged with the load renewed. The energy was lowered for the load
+// of before, which the sums of gains tell. Returns whether the iterate is no longer the cycle's own.
 template <int B>
-bool MultigridIteration<B>::renew_load(bool accelerated) {
-  FollowingLoad<B>& load = *this->problem_.following;
-  load.correct(this->x_, change_, S_change_);
-  if (accelerated)
-    with_load_.add_step(this->x_before_, this->x_, this->r_before_, this->r_, change_, S_change_);
-  else
-    with_load_.reset();
-  load.add(change_, this->r_);
-  const bool combined = accelerated && combine_with_load();
+bool MultigridIteration<B>::renew_load(const LevelReport& finest) {
+  const bool accelerated = this->options_.krylov && method_ != Method::pgs && rests(finest);
+  const auto renewed =
+      load_->renew(this->x_before_, this->r_before_, this->x_, this->r_, accelerated, finest.changed == 0);
   const Sums of_cycle = std::exchange(this->sums_, {});
   in_pieces<B>(0, multigrid_.finest().vectors,
                [&](Index first, Index last) { this->add_sums(this->x_, this->r_, first, last, this->sums_); });
   this->sums_.gain = of_cycle.gain;
   this->sums_.size = of_cycle.size;
-  this->sums_.correction = of_cycle.correction + dot(change_, S_change_);
-  const auto largest = [](const std::vector<double>& values) {
-    double out = 0;
-    for (const double value : values) out = std::max(out, std::abs(value));
-    return out;
-  };
-  const double moved = largest(change_), size = largest(load.values());
-  this->residual_of_load_ = size > 0 ? moved / size : moved > 0 ? infinity : 0;
-  return combined;
-}
-
-// Where cycles hardly change the force along a direction of the load, what resists it is found by a few linear cycles
-// with what is held now. That holds until the phases change.
-template <int B>
-void MultigridIteration<B>::watch_directions(bool resting) {
-  constexpr double hardly = 0.7;
-  constexpr int patience = 2;
-  FollowingLoad<B>& load = *this->problem_.following;
-  watched_.resize(load.directions());
-  for (std::size_t e = 0; e < watched_.size(); ++e) {
-    Watched& watched = watched_[e];
-    if (!resting) {
-      if (watched.known) load.set_resistance(e, 0), with_load_.reset();
-      watched = {};
-      continue;
-    }
-    const double along = load.along(e);
-    watched.slow = watched.along != 0 && std::abs(along) > hardly * std::abs(watched.along) ? watched.slow + 1 : 0;
-    watched.along = along;
-    if (watched.known || watched.slow < patience) continue;
-    watched.known = true;
-    const double own = load.own(e);
-    if (const auto found = multigrid_.response(this->x_, load.load_along(e), std::sqrt(own)))
-      load.set_resistance(e, own + *found * *found);
-    with_load_.reset();  // it is another iteration now
-  }
-}
-
-template <int B>
-bool MultigridIteration<B>::combine_with_load() {
-  FollowingLoad<B>& load = *this->problem_.following;
-  std::vector<double> p = load.values();
-  if (!with_load_.combine(this->x_, p, this->r_)) return false;
-  for (std::size_t k = 0; k < p.size(); ++k) p[k] -= load.values()[k];
-  r_trial_.resize(this->r_.size());
-  load.add(p, r_trial_);  // whose residual is combined, too
-  return true;
+  this->sums_.correction = of_cycle.correction + renewed.squared;
+  this->residual_of_load_ = renewed.change;
+  return renewed.combined;
 }
 
 // The negative gradient of the energy with the functionals, where these are smooth.
