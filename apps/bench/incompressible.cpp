@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
 
 namespace signorini::bench {
 namespace {
 
 struct Measured {
-  double unknowns = 0, force = 0, peak = 0, probe = 0, seconds = 0;
+  double unknowns = 0, force = 0, peak = 0, probe = 0;
   int cycles = 0;
 };
 
@@ -167,10 +166,8 @@ Measured solve(const std::string& text, const Element& element, double poisson, 
       fmt::format("body.0.order={}", element.order), fmt::format("body.0.pressure={}", element.pressure),
       fmt::format("body.0.poisson={}", poisson), fmt::format("refine.uniform={}", refinements + 2 - element.order)};
   Driver driver(parse_scene(text, "incompressible", ".", overrides));
-  const Stopwatch watch;
   driver.solve([] {});
   Measured out;
-  out.seconds = watch.elapsed();
   const StepReport& last = driver.report().last();
   if (!last.summary.converged()) throw Error(Exit::not_converged, last.summary.reason);
   out.unknowns = static_cast<double>(last.summary.level_unknowns.back());
@@ -224,7 +221,7 @@ void print_cook(int finest) {
 }
 
 void print_cycles(const char* title, const std::string& text, int finest) {
-  fmt::print("### Cycles and seconds, {}\n\n| unknowns |", title);
+  fmt::print("### Cycles, {}\n\n| unknowns |", title);
   for (const double poisson : ratios) fmt::print(" {} |", poisson);
   fmt::print("\n| --- |");
   for (std::size_t k = 0; k < std::size(ratios); ++k) fmt::print(" --- |");
@@ -234,7 +231,7 @@ void print_cycles(const char* title, const std::string& text, int finest) {
     double unknowns = 0;
     for (const double poisson : ratios) {
       const Measured m = solve(text, elements[3], poisson, k);
-      row += fmt::format(" {}, {:.2f} s |", m.cycles, m.seconds);
+      row += fmt::format(" {} |", m.cycles);
       unknowns = m.unknowns;
     }
     fmt::print("| {} |{}\n", unknowns, row);

@@ -60,7 +60,8 @@ TEST(Scene, ElementsFollowPoissonsRatio) {
   EXPECT_EQ(chosen("0.45", ""), std::pair(1, Pressure::none));
   EXPECT_EQ(chosen("0.4501", ""), std::pair(2, Pressure::linear));
   EXPECT_EQ(chosen("0.4999", "order = 1"), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("0.4999", "pressure = \"none\""), std::pair(2, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "pressure = \"none\""), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "order = 2\npressure = \"none\""), std::pair(2, Pressure::none));
   EXPECT_EQ(chosen("0.4999", "pressure = \"constant\""), std::pair(2, Pressure::constant));
   EXPECT_EQ(chosen("\"0.49 + 0*x\"", ""), std::pair(1, Pressure::none));
   EXPECT_EQ(chosen("\"0.49 + 0*x\"", "order = 2"), std::pair(2, Pressure::linear));
