@@ -56,7 +56,8 @@ void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) cons
 
 template <int D, int B>
 std::vector<Stress> BodyRun<D, B>::stress() const {
-  if constexpr (B == D) return nodal_stress(nodes(), model_, results_.u);
+  if constexpr (B == D)
+    return nodal_stress(nodes(), model_, results_.u, {solver_.pressure_space(), &results_.pressure});
   return {};
 }
 

@@ -111,6 +111,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   model.young = coefficient(scene, body, body.young, &Scene::Material::young);
   model.poisson = coefficient(scene, body, body.poisson, &Scene::Material::poisson);
   model.plane = body.plane;
+  model.pressure = body.pressure.value_or(Pressure::none);
   model.t = t;
   model.origin = body.source.table;
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(scene.fixes[k]));

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/nested.hpp"
+#include "core/fem/pressure_load.hpp"
 #include "core/mesh/slender.hpp"
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
@@ -55,6 +56,9 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
   for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
     for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
 }
+
+template <int D, int B>
+using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
 
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
@@ -156,6 +160,9 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   now_.resize(hierarchy.levels.size());
   numbers_before_.resize(hierarchy.levels.size());
   numbers_now_.resize(hierarchy.levels.size());
+  pressure_before_.resize(hierarchy.levels.size());
+  pressure_now_.resize(hierarchy.levels.size());
+  spaces_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
@@ -176,6 +183,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     Assemblies& count = times_.assemblies;
     ++count.stiffness, ++count.load, ++count.constraints;
   }
+  if (changed_[level]) find_pressure_space(model, level);
   if (level == first_ && changed_[level]) forget_products();
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (model.follows && !problem.constraints.last.empty() && !before_[level].empty())
@@ -204,6 +212,28 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
   times_.assemblies.load += assembled.load;
   ++times_.assemblies.constraints;
   return std::move(kept->discretization);
+}
+
+/// Meshes that are no refinements have none: starts on them know the displacements' part of the material alone.
+template <int D, int B>
+void NestedSolver<D, B>::find_pressure_space(const Model<B>& model, std::size_t level) {
+  spaces_[level].reset();
+  if constexpr (D == B) {
+    if (model.pressure == Pressure::none || hierarchy_.levels[level].families.empty()) return;
+    PressureSpace<D> space = signorini::pressure_space(nodes_[level], model);
+    if (space.size > 0) spaces_[level].emplace(std::move(space));
+  }
+}
+
+/// A pressure of the next coarser mesh on this one; zero where that has none.
+template <int D, int B>
+std::vector<double> NestedSolver<D, B>::refined_pressure(std::size_t level, const std::vector<double>& coarse) const {
+  if constexpr (D == B) {
+    if (spaces_[level] && !coarse.empty() && spaces_[level - 1])
+      return prolongate(*spaces_[level - 1], hierarchy_.levels[level - 1], coarse, hierarchy_.refinements[level - 1],
+                        *spaces_[level], hierarchy_.levels[level]);
+  }
+  return {};
 }
 
 template <int D, int B>
@@ -319,6 +349,30 @@ void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>&
   solution.x = std::move(starts[least_energy(problem, starts)]);
 }
 
+/// With a pressure, of which displacements alone have no energy to compare: from the last step and the change that the
+/// coarser mesh saw, or from the coarser mesh alone where it does not know the last step.
+template <int D, int B>
+void NestedSolver<D, B>::start_with_pressure(std::size_t level, const Solution<B>& coarse,
+                                             Solution<B>& solution) const {
+  const DiscreteProblem<B>& problem = solution.discretization.problem;
+  const bool change = !coarse.x.empty() && !before_[level - 1].empty() && !pressure_before_[level].empty();
+  if (!change && !coarse.x.empty()) return;
+  solution.x = to_local(problem, before_[level]);
+  solution.pressure = pressure_before_[level];
+  if (change) {
+    const auto less = [](std::vector<double> a, const std::vector<double>& b, double factor) {
+      for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) a[k] += factor * b[k];
+      return a;
+    };
+    const DiscreteProblem<B>& below = coarse.discretization.problem;
+    const std::vector<double> moved = less(coarse.x, to_local(below, before_[level - 1]), -1);
+    solution.x = less(solution.x, interpolate(below, moved, prolongations_[number(level) - 1], problem), 1);
+    solution.pressure =
+        less(solution.pressure, refined_pressure(level, less(coarse.pressure, pressure_before_[level - 1], -1)), 1);
+  }
+  make_admissible(problem, solution.x);
+}
+
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
@@ -334,7 +388,13 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
     solution.x =
         nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
   }
-  if (!before_[level].empty()) start_from_before(level, coarse, solution);
+  if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
+  if (!before_[level].empty()) {
+    if (spaces_[level])
+      start_with_pressure(level, coarse, solution);
+    else
+      start_from_before(level, coarse, solution);
+  }
   times_.solve += watch.elapsed();
   if (refined) {
     share_matrix(coarse, level, problem);
@@ -350,6 +410,13 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = products_below(level);
   MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x);
+  std::optional<LoadOf<D, B>> pressure;
+  if constexpr (D == B) {
+    if (spaces_[level]) {
+      pressure.emplace(*spaces_[level], solution.discretization, std::move(solution.pressure));
+      solution.discretization.problem.following = &*pressure;
+    }
+  }
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
                                            registry_, monitor_);
@@ -358,6 +425,14 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   }
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
+  if constexpr (D == B) {
+    if (pressure) {
+      if (moved.moves()) pressure->apply();
+      pressure->press_on_prescribed();
+      solution.pressure = pressure->values();
+    }
+  }
+  solution.discretization.problem.following = nullptr;
   solution.discretization.problem.galerkin = {};
   solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
@@ -391,6 +466,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     solve_level(model, level, options, body ? &*body : nullptr, solution);
     now_[level] = to_global(solution.discretization.problem, solution.x);
     numbers_now_[level] = {solution.discretization, solution.x};
+    pressure_now_[level] = solution.pressure;
     coarse = std::move(solution);
     return "";
   };
@@ -417,6 +493,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   coarse = {};
   solve_finest(model, solution);
   numbers_now_[finest] = {solution.discretization, solution.x};
+  pressure_now_[finest] = solution.pressure;
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
@@ -447,6 +524,7 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   own.hierarchy = "meshes";
   auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_, nodes_);
   meshes->numbers_before_ = numbers_before_;
+  meshes->pressure_before_ = pressure_before_;
   Solution<B> second = before_.back().empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back());
   const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
   if (better) meshes_ = std::move(meshes);
@@ -462,6 +540,7 @@ void NestedSolver<D, B>::accept() {
   if (meshes_) return meshes_->accept();
   before_.swap(now_);
   numbers_before_.swap(numbers_now_);
+  pressure_before_.swap(pressure_now_);
   for (auto& of_level : now_) of_level = {};
 }
 
@@ -470,6 +549,7 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   if (meshes_) return meshes_->solve(model);
   for (auto& solution : before_) solution.clear();
   for (auto& numbers : numbers_before_) numbers = {};
+  for (auto& pressure : pressure_before_) pressure.clear();
   return solve_safely(model);
 }
 

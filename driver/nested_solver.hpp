@@ -7,6 +7,7 @@
 
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/fem/pressure_space.hpp"
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
@@ -27,6 +28,7 @@ template <int B>
 struct Solution {
   Discretization<B> discretization;
   std::vector<double> x;
+  std::vector<double> pressure;  ///< of NestedSolver::pressure_space()
   Summary summary;
   std::vector<std::string> undetermined;  ///< motions that nothing decides, see LooseBody
 };
@@ -46,6 +48,11 @@ std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& o
 template <int D>
 std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
 
+/// Of scalar bodies there is nothing to know.
+struct NoPressure {};
+template <int D, int B>
+using PressureOf = std::conditional_t<D == B, PressureSpace<D>, NoPressure>;
+
 /// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
 /// only.
 template <int D, int B>
@@ -58,6 +65,12 @@ class NestedSolver {
 
   /// Of the finest mesh: solutions have B numbers for each.
   const Nodes<D>& nodes() const { return nodes_.back(); }
+
+  /// Of the last solve on the finest mesh; null where no pressure has unknowns of its own.
+  const PressureOf<D, B>* pressure_space() const {
+    if (meshes_) return meshes_->pressure_space();
+    return spaces_.back() ? &*spaces_.back() : nullptr;
+  }
 
   /// Starts as `solver.start` says. Error(Exit::interrupted) when the user asked to end, Error(Exit::no_solution) where
   /// none exists; without convergence the summary says so.
@@ -100,6 +113,9 @@ class NestedSolver {
     return std::find(is_product_.begin(), is_product_.begin() + count, false) == is_product_.begin() + count;
   }
   void forget_products();
+  void find_pressure_space(const Model<B>& model, std::size_t level);
+  std::vector<double> refined_pressure(std::size_t level, const std::vector<double>& coarse) const;
+  void start_with_pressure(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
@@ -128,7 +144,9 @@ class NestedSolver {
   // Per mesh, solutions in global coordinates: of the last step that was accepted, and of the last solve (finest mesh:
   // none).
   std::vector<std::vector<double>> before_, now_;
-  std::vector<OwnNumbers<B>> numbers_before_, numbers_now_;  // likewise, of the finest mesh as well
+  std::vector<OwnNumbers<B>> numbers_before_, numbers_now_;          // likewise, of the finest mesh as well
+  std::vector<std::vector<double>> pressure_before_, pressure_now_;  // likewise
+  std::vector<std::optional<PressureOf<D, B>>> spaces_;              // per mesh
 };
 
 }  // namespace signorini

@@ -19,6 +19,7 @@ struct Results {
   Forces<B> forces;
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
+  std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
 };
 
 template <int D, int B>

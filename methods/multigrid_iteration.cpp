@@ -58,6 +58,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear),
       renewal_(options) {
+  if (problem.following) load_.emplace(*problem.following, multigrid_);
   multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
 }
 
@@ -93,8 +94,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
         });
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
-  if (nonlinear_ && this->options_.krylov) renew_forces();
-  const bool combined = this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
+  if (nonlinear_ && this->options_.krylov && !load_) renew_forces();
+  const bool combined = load_ ? renew_load(cycle.finest())
+                              : this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
@@ -109,16 +111,16 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     renewal_.add(sums.natural_residual);
     step.stuck = renewal_.stuck();
   }
-  if (nonlinear_) return step;  // nothing else can treat functionals
+  if (nonlinear_ || load_) return step;  // nothing else can treat these
   if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
   if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 
-// Where functionals follow the solution the steps are those of a fixed point iteration, too.
+// Where functionals or loads follow the solution the steps are those of a fixed point iteration, too.
 template <int B>
 double MultigridIteration<B>::remaining_error() const {
-  return this->follows() ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
+  return this->follows() || load_ ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
 }
 
 template <int B>
@@ -187,6 +189,23 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
   }
   recombination_.reset();
   return false;
+}
+
+// After a cycle a load follows its iterate, which is judged with the load renewed. The energy was lowered for the load
+// of before, which the sums of gains tell. Returns whether the iterate is no longer the cycle's own.
+template <int B>
+bool MultigridIteration<B>::renew_load(const LevelReport& finest) {
+  const bool accelerated = this->options_.krylov && method_ != Method::pgs && rests(finest);
+  const auto renewed =
+      load_->renew(this->x_before_, this->r_before_, this->x_, this->r_, accelerated, finest.changed == 0);
+  const Sums of_cycle = std::exchange(this->sums_, {});
+  in_pieces<B>(0, multigrid_.finest().vectors,
+               [&](Index first, Index last) { this->add_sums(this->x_, this->r_, first, last, this->sums_); });
+  this->sums_.gain = of_cycle.gain;
+  this->sums_.size = of_cycle.size;
+  this->sums_.correction = of_cycle.correction + renewed.squared;
+  this->residual_of_load_ = renewed.change;
+  return renewed.combined;
 }
 
 // The negative gradient of the energy with the functionals, where these are smooth.

@@ -3,6 +3,7 @@
 #include "core/solver/multigrid.hpp"
 #include "core/solver/recombination.hpp"
 #include "methods/configuration.hpp"
+#include "methods/load_renewal.hpp"
 #include "methods/renewal.hpp"
 #include "methods/stages.hpp"
 
@@ -30,6 +31,7 @@ class MultigridIteration final : public Iteration<B> {
   void compare_gains(bool free, bool cut_off);
   bool loses_patience() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
+  bool renew_load(const LevelReport& finest);
   bool take_combination(const CycleReport& cycle);
   void set_forces();
   void renew_forces();
@@ -42,10 +44,11 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Prolongation> own_;  // empty unless a single level has functionals
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
-  bool blocks_;         // among the interpolations' weights
-  bool may_turn_;       // "auto" may make corrections without bounds
-  bool nonlinear_;      // obstacles add to the energy
-  bool rests_ = false;  // few phases changed in the last cycle
+  std::optional<LoadRenewal<B>> load_;  // where one follows the solution
+  bool blocks_;                         // among the interpolations' weights
+  bool may_turn_;                       // "auto" may make corrections without bounds
+  bool nonlinear_;                      // obstacles add to the energy
+  bool rests_ = false;                  // few phases changed in the last cycle
   bool bounds_pay_ = true;
   double amplification_ = 0;                               // of rounding in the residual that the last cycle began with
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back

@@ -42,8 +42,7 @@ class Automatic {
     situation_.unknowns = Offset{situation_.vectors} * B;
     situation_.coarsest = Offset{situation_.coarsest_vectors} * B;
     situation_.levels = !prolongations.empty();
-    // Nothing but cycles can treat functionals.
-    situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !has_functional(problem.segments);
+    situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !cycles_only();
   }
 
   Summary run() {
@@ -58,9 +57,12 @@ class Automatic {
   }
 
  private:
+  /// Nothing else can treat functionals, or loads that follow the solution.
+  bool cycles_only() const { return has_functional(problem_.segments) || problem_.following; }
+
   bool unsolved() const {
     if (!situation_.begun) return true;
-    if (has_functional(problem_.segments)) return false;
+    if (cycles_only()) return false;
     if (steps_ >= options_.max_iterations) return false;
     return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
   }
@@ -183,6 +185,12 @@ std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>&
                                         std::span<const Prolongation> prolongations, std::vector<double>& x,
                                         const SolverOptions& options, const Registry& registry) {
   check_method(problem, options);
+  if (problem.following && (method == Method::pdas || method == Method::newton))
+    input_error(
+        "solver.method",
+        fmt::format("'{}' solves for displacements alone, and nearly incompressible material has pressures of its "
+                    "own; expected 'auto', 'monotone' or 'tnnmg', or pressure = \"none\" in the body",
+                    options.method));
   if (method == Method::pdas) return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
   if (method == Method::newton) return std::make_unique<NewtonIteration<B>>(problem, x, options, registry);
   SolverOptions own = options;

@@ -15,6 +15,7 @@
 #include "apps/bench/choice.hpp"
 #include "apps/bench/friction_coefficients.hpp"
 #include "apps/bench/friction_costs.hpp"
+#include "apps/bench/incompressible.hpp"
 #include "apps/bench/kept_aside.hpp"
 #include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
@@ -212,6 +213,8 @@ const Table tables[] = {
      sized<print_partial_slip>},
     {"--accuracy", "only errors beside seconds, the tables of docs/accuracy.md", sized<print_accuracy>},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
+    {"--incompressible", "only elements for nearly incompressible material, the tables of docs/rubber.md",
+     sized<print_incompressible>},
     {"--friction-coefficients", "only what becomes of coefficients of friction from 0 to 5",
      sized<print_friction_coefficients>},
     {"--friction-costs", "only cycles and time of steps with friction beside those without",

@@ -8,6 +8,7 @@
 #include "apps/signorini/console.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/fem/pressure_space.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
@@ -57,6 +58,15 @@ void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& 
   }
 }
 
+/// Unknowns of the pressure of nearly incompressible material.
+template <int D, int B>
+Index pressure_unknowns(const Nodes<D>& nodes, const Model<B>& model) {
+  if constexpr (D == B) {
+    if (model.pressure != Pressure::none && !nodes.mesh().families.empty()) return pressure_space<D>(nodes, model).size;
+  }
+  return 0;
+}
+
 template <int D, int B>
 void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
@@ -70,11 +80,12 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
 }
 
 void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
-                  Offset unknowns, bool functional) {
+                  Offset unknowns, bool cycles_only) {
   const bool aggregates = below == Coarsening::aggregation;
   fmt::print("solver: method {}\n",
-             options.method == "auto" ? "auto: " + automatic::describe(options, aggregates, block, unknowns, functional)
-                                      : options.method);
+             options.method == "auto"
+                 ? "auto: " + automatic::describe(options, aggregates, block, unknowns, cycles_only)
+                 : options.method);
   if (options.method == "pdas" || options.method == "newton") return;
   if (options.method == "pgs") {
     fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
@@ -124,13 +135,16 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const Model<B> model = check_steps<D, B>(scene, registry, body, nodes);
   print_parts(hierarchy.levels.front());
   print_levels(hierarchy, order, model);
+  const Index pressures = pressure_unknowns(nodes, model);
+  if (pressures > 0)
+    fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
   print_contacts(nodes, scene, scene.bodies[body], model);
   const std::size_t first = first_mesh(hierarchy, scene.solver, B, order);
   const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
   const bool functional =
       std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
-  print_solver(scene.solver, below, first == 0, B, free_unknowns(nodes, model), functional);
+  print_solver(scene.solver, below, first == 0, B, free_unknowns(nodes, model), functional || pressures > 0);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
   print_warnings(model_warnings(scene, nodes, model, body));

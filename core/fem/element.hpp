@@ -131,6 +131,13 @@ inline std::array<double, D + 1> node_place(std::size_t k) {
   return out;
 }
 
+template <int K>
+inline std::array<double, K + 1> barycentre() {
+  std::array<double, K + 1> out;
+  out.fill(1.0 / (K + 1));
+  return out;
+}
+
 /// The mean of the k-th one over a simplex of dimension K.
 template <int P, int K>
 constexpr double basis_mean(std::size_t k) {

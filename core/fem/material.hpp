@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "core/fem/model.hpp"
 
 namespace signorini {
@@ -13,6 +15,31 @@ template <>
 struct Material<1> {
   double diffusion;
 };
+
+/// lambda over mu above which material is nearly incompressible: that of Poisson's ratio 0.45.
+inline constexpr double nearly_incompressible = 9;
+/// The part of lambda, over mu, that stays with the displacements where the pressure has unknowns of its own: those
+/// carry the rest. More of it is worse for smoothers, less of it for the iteration of the pressures (docs/rubber.md).
+inline constexpr double lambda_of_displacements = 3;
+
+/// Whether the pressure of an element has unknowns of its own.
+/// @param material at the element's centroid
+template <int B>
+bool has_pressure(const Model<B>& model, const Material<B>& material) {
+  constexpr double above = 1 + 1e-9;  // Poisson's ratio 0.45 itself is not, whatever rounding makes of it
+  return model.pressure != Pressure::none && !(B == 2 && model.plane != Plane::strain) &&
+         material.lambda > above * nearly_incompressible * material.mu;
+}
+
+/// What such a material is to the displacements, and what of lambda is left to the pressure.
+template <int B>
+Material<B> of_displacements(const Material<B>& material) {
+  return {std::min(material.lambda, lambda_of_displacements * material.mu), material.mu};
+}
+template <int B>
+double lambda_of_pressure(const Material<B>& material) {
+  return material.lambda - of_displacements(material).lambda;
+}
 
 /// The material of a model at a point. Constants are evaluated and checked once; an expression whose value is out of
 /// range (diffusion <= 0, young <= 0, poisson outside (-1, 1/2)) is an Error(Exit::input) that names its origin, value

@@ -23,6 +23,10 @@ struct Selection {
 enum class Plane { strain, stress, axisymmetric };
 enum class Frame { global, normal };
 
+/// Of nearly incompressible material: whether its pressure has unknowns of its own, see core/fem/pressure_space.hpp.
+/// Linear: continuous within a material, with an unknown per corner of an element; constant: one per element.
+enum class Pressure { none, linear, constant };
+
 /// Dirichlet condition: one field per component, empty where the component is free.
 template <int B>
 struct Fix {
@@ -55,9 +59,10 @@ struct ObstacleTerm {
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
 template <int B>
 struct Model {
-  Field diffusion = 1;           ///< B = 1
-  Field young = 1, poisson = 0;  ///< B > 1
-  Plane plane = Plane::strain;   ///< D = 2; of B = 1 only whether it is axisymmetric
+  Field diffusion = 1;                 ///< B = 1
+  Field young = 1, poisson = 0;        ///< B > 1
+  Plane plane = Plane::strain;         ///< D = 2; of B = 1 only whether it is axisymmetric
+  Pressure pressure = Pressure::none;  ///< B > 1
   std::vector<Fix<B>> fixes;
   std::vector<Load<B>> loads;
   std::vector<ObstacleTerm<B>> obstacles;

@@ -144,7 +144,7 @@ class SurfaceSamples {
         const Point<D> from = difference<D>(at, origin);
         Sample<D - 1>& sample = out.emplace_back();
         for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
-        sample.value = value(s, mirrored);
+        sample.value = {value(s, mirrored)};
       }
     return out;
   }

@@ -23,7 +23,8 @@ template <int B>
 bool same_stiffness(const Model<B>& a, const Model<B>& b) {
   const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
   if (B == 1) return same(&Model<B>::diffusion);
-  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane);
+  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
+         a.pressure == b.pressure;
 }
 
 template <int B>

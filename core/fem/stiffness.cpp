@@ -98,7 +98,7 @@ template <int D, int B, int P>
 class ElementPoints {
  public:
   ElementPoints(const Nodes<D>& nodes, const Model<B>& model) : nodes_(nodes), model_(model), law_(model) {
-    if (law_.constant()) material_.fill(law_.at({}));
+    if (law_.constant()) material_.fill(own_part(law_.at({}), law_.at({})));
   }
 
   void move_to(std::size_t e) {
@@ -112,8 +112,9 @@ class ElementPoints {
       measure_[q] = P == 1 ? flat.measure : weight * flat.measure;
       gradient_[q] = basis_gradients<P>(flat.gradient, barycentric);
       if (law_.constant()) continue;
-      material_[q] =
-          law_.at(P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t));
+      const Site where =
+          P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
+      material_[q] = own_part(law_.at(where), P == 1 ? law_.at(where) : at_centroid(e, map));
     }
     if constexpr (P == 1) {
       measure_[0] *= mean_circumference<D>(model_.plane, nodes_.mesh(), vertices);
@@ -130,6 +131,14 @@ class ElementPoints {
 
  private:
   static constexpr std::size_t most = most_stiffness_points<D, P>;
+
+  Material<B> at_centroid(std::size_t e, const ElementMap<D, D, P>& map) const {
+    return law_.at(site_in<D>(nodes_, e, map(barycentre<D>()), model_.t));
+  }
+  // Of an element's material, with that at its centroid.
+  Material<B> own_part(const Material<B>& material, const Material<B>& of_element) const {
+    return has_pressure(model_, of_element) ? of_displacements(material) : material;
+  }
 
   const Nodes<D>& nodes_;
   const Model<B>& model_;

@@ -6,11 +6,12 @@
 
 namespace signorini {
 template <int D>
-std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                   const OwnPressure<D>& pressure) {
   std::vector<Stress> out;
   with_order(nodes, [&](auto order) {
     const auto& elements = nodes.template elements<order>();
-    const StressReader<D, order> reader(nodes, model, u);
+    const StressReader<D, order> reader(nodes, model, u, pressure);
     std::array<double, D + 1> centroid;
     centroid.fill(1.0 / (D + 1));
     out.reserve(elements.size());
@@ -25,7 +26,9 @@ double von_mises(const Stress& s) {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
+template std::vector<Stress> element_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
+                                            const OwnPressure<2>&);
+template std::vector<Stress> element_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
+                                            const OwnPressure<3>&);
 
 }  // namespace signorini

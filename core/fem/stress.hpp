@@ -3,17 +3,27 @@
 
 #include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
+#include "core/fem/pressure_space.hpp"
 
 namespace signorini {
 
 /// A symmetric stress tensor in the order of VTK: xx, yy, zz, xy, yz, xz.
 using Stress = std::array<double, 6>;
 
+/// A pressure with unknowns of its own; null: none.
+template <int D>
+struct OwnPressure {
+  const PressureSpace<D>* space = nullptr;
+  const std::vector<double>* values = nullptr;
+};
+
 /// The stress at the centroid of every element; in plane strain zz is what holds the body flat. Of an axisymmetric body
 /// xx is the radial, yy the axial and zz the hoop stress.
 /// @param u displacements in global coordinates, D per node
+/// @param pressure of quadratic elements alone
 template <int D>
-std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
+std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                   const OwnPressure<D>& pressure = {});
 
 /// At each vertex of the mesh, recovered (Zienkiewicz and Zhu, The superconvergent patch recovery, 1992): stresses of
 /// finite elements are best at some points inside, and jump between elements. Polynomials of the elements' degree are
@@ -27,7 +37,8 @@ std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model,
 /// solution is smooth.
 /// @param u likewise
 template <int D>
-std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
+std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                 const OwnPressure<D>& pressure = {});
 
 double von_mises(const Stress& stress);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <cassert>
+
 #include "core/fem/element.hpp"
 #include "core/fem/gradient.hpp"
 #include "core/fem/material.hpp"
@@ -36,8 +38,11 @@ class StressReader {
  public:
   using Barycentric = std::array<double, D + 1>;
 
-  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
-      : nodes_(nodes), model_(model), law_(model), u_(u) {}
+  StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+               const OwnPressure<D>& pressure)
+      : nodes_(nodes), model_(model), law_(model), u_(u), pressure_(pressure) {
+    assert(P == 2 || !pressure.space);
+  }
 
   /// At a point of an element, with the measure of the flat element that it is like there.
   struct Read {
@@ -50,7 +55,13 @@ class StressReader {
     const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
     const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
     const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
-    return {stress<D>(law_.at(where), g, hoop, model_.plane == Plane::stress), flat.measure};
+    const bool own = pressure_.space && pressure_.space->unknown[e][0] >= 0;
+    Material<D> material = law_.at(where);
+    if (own) material = of_displacements(material);
+    Read out{stress<D>(material, g, hoop, model_.plane == Plane::stress), flat.measure};
+    if (own)
+      for (int i = 0; i < 3; ++i) out.stress[i] += pressure_.space->at(*pressure_.values, e, barycentric);
+    return out;
   }
 
  private:
@@ -58,6 +69,7 @@ class StressReader {
   const Model<D>& model_;
   const MaterialLaw<D> law_;
   const std::vector<double>& u_;
+  const OwnPressure<D>& pressure_;
 };
 
 }  // namespace signorini

@@ -61,14 +61,15 @@ class Collection {
 template <int D, int P>
 class StressRecovery {
  public:
-  StressRecovery(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u)
+  StressRecovery(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                 const OwnPressure<D>& pressure)
       : nodes_(nodes),
         elements_(nodes.template elements<P>()),
         around_(nodes),
         boundary_(nodes.size()),
         patch_(elements_.size()),
         near_nodes_(nodes.size()) {
-    const StressReader<D, P> reader(nodes, model, u);
+    const StressReader<D, P> reader(nodes, model, u, pressure);
     samples_.reserve(elements_.size() * points().size());
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       const ElementMap<D, D, P> map(nodes.mesh(), elements_[e]);
@@ -180,16 +181,19 @@ class StressRecovery {
 }  // namespace
 
 template <int D>
-std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+std::vector<Stress> nodal_stress(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
+                                 const OwnPressure<D>& pressure) {
   std::vector<Stress> out(nodes.mesh().points.size());
   with_order(nodes, [&](auto order) {
-    const std::vector<Stress> recovered = StressRecovery<D, order>(nodes, model, u).run();
+    const std::vector<Stress> recovered = StressRecovery<D, order>(nodes, model, u, pressure).run();
     for (Index v = 0; v < nodes.mesh().vertices(); ++v) out[v] = recovered[nodes.of_vertex(v)];
   });
   return out;
 }
 
-template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
-template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
+template std::vector<Stress> nodal_stress(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
+                                          const OwnPressure<2>&);
+template std::vector<Stress> nodal_stress(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
+                                          const OwnPressure<3>&);
 
 }  // namespace signorini

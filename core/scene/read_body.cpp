@@ -87,6 +87,27 @@ void read_material(const TableReader& reader, Scene::Body& body) {
   body.poisson = reader.field("poisson");
 }
 
+// What is left to "auto" is decided when all materials are known.
+void read_pressure(const TableReader& reader, Scene::Body& body) {
+  if (body.equation == Scene::Equation::diffusion) reader.forbid("pressure", "for equation = 'diffusion'");
+  const std::string kind = reader.text("pressure");
+  if (kind == "none") body.pressure = Pressure::none;
+  if (kind != "linear" && kind != "constant") return;
+  const std::string& origin = reader.origin("pressure");
+  if (body.plane == Plane::stress)
+    input_error(origin, fmt::format("'{}' is for plane strain and 3D: in plane stress elements do not lock", kind));
+  if (body.plane == Plane::axisymmetric)
+    input_error(origin,
+                fmt::format("'{}' needs quadratic elements, which are not available for an axisymmetric body in "
+                            "this version",
+                            kind));
+  if (reader.given("order") && body.order == 1)
+    input_error(origin,
+                fmt::format("'{}' is for quadratic elements, and the body has order = 1; expected order = 2", kind));
+  body.order = 2;
+  body.pressure = kind == "linear" ? Pressure::linear : Pressure::constant;
+}
+
 // The target edge length belongs to the shapes that a mesh generator fills.
 void read_size(const TableReader& reader, Scene::Body& body) {
   const bool structured =
@@ -114,11 +135,12 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   if (body.name.empty()) input_error(reader.origin("name"), "the name is empty");
   body.shape = spec ? shape(reader, spec->name) : Scene::MeshFile{reader.file("mesh")};
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
-  body.order = reader.integer("order");
+  if (reader.given("order")) body.order = reader.integer("order");
   body.plane = plane(reader.text("plane"));
   if (body.order == 2 && body.plane == Plane::axisymmetric)
     input_error(reader.origin("order"), "quadratic elements of an axisymmetric body are not available in this version");
   cut_at_axis(body);
+  read_pressure(reader, body);
   read_material(reader, body);
   read_size(reader, body);
   return body;

@@ -138,6 +138,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);
   scene.probes = read_all(document, "probe", folder, read_probe);
   read_settings(document, folder, scene);
+  choose_elements(scene);
   check_scene(scene, name);
   return scene;
 }

@@ -51,10 +51,11 @@ struct Scene {
     BodyShape shape;
     std::optional<Field> size;  ///< target edge length; for the shapes that are meshed freely
     Equation equation = Equation::elasticity;
-    Field young = 1, poisson = 0;  ///< elasticity
-    Field diffusion = 1;           ///< diffusion
-    Plane plane = Plane::strain;   ///< 2D
-    int order = 1;
+    Field young = 1, poisson = 0;      ///< elasticity
+    Field diffusion = 1;               ///< diffusion
+    Plane plane = Plane::strain;       ///< 2D
+    int order = 1;                     ///< of the elements
+    std::optional<Pressure> pressure;  ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
   };
 

@@ -21,8 +21,13 @@ constexpr KeySpec body[] = {
     {"plane", text, "strain", "strain | stress | axisymmetric", "",
      "what holds across the plane, 2D only; axisymmetric: x is the radius and y the axis, scalar bodies too"},
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
-    {"order", integer, "1", "[1, 2]", "",
-     "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more"},
+    {"order", integer, "", "[1, 2]", "",
+     "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more. "
+     "Where not given 1, but 2 where a constant `poisson` of the body is above 0.45 and `pressure` is not none"},
+    {"pressure", text, "auto", "auto | linear | constant | none", "",
+     "of quadratic elements where `poisson` is above 0.45, but in plane stress: pressures as unknowns of their own, so "
+     "that these do not lock. linear: continuous, the default; constant: one per element; none: displacements alone. "
+     "See docs/rubber.md"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };

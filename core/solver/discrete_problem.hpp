@@ -141,6 +141,9 @@ struct GalerkinMatrix {
   bool complete = true;    ///< whether A stores a coupling wherever truncation may leave one, even where it is zero
 };
 
+template <int B>
+class FollowingLoad;
+
 /// min 1/2 x'Ax - b'x + sum of phi_p(x_p) with x within bounds: what the solver is given; the obstacles of the segments
 /// know phi. All of it is in local coordinates. A component
 /// whose bit is set in `fixed` is prescribed: its row and column are those of the identity and b holds its value, while
@@ -160,7 +163,8 @@ struct DiscreteProblem {
   /// The coarser levels' matrices where they are known from before, coarsest first, one for each prolongation; with
   /// frames only for Rotate::all. Not owned.
   std::span<const GalerkinMatrix<B>> galerkin;
-  std::vector<Segment<B>> segments;  ///< cover all vectors in ascending order; empty when there is no obstacle
+  FollowingLoad<B>* following = nullptr;  ///< a part of b that follows the solution; null: none. Not owned
+  std::vector<Segment<B>> segments;       ///< cover all vectors in ascending order; empty when there is no obstacle
   /// Whether a factorisation of A costs no more than some cycles, so that A needs no coarser level.
   bool cheap_to_factorise = false;
 };

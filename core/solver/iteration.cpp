@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/attainable.hpp"
+#include "core/solver/following_load.hpp"
 #include "core/solver/functional.hpp"
 
 namespace signorini {
@@ -36,6 +37,7 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
     for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
   for (const double v : problem_.constraints.last) largest_before_ = std::max(largest_before_, std::abs(v));
   reference_ = residual_at_projected_zero();
+  if (problem_.following) problem_.following->apply();
   make_admissible(problem_, x_);
   x_before_ = x_;
   refuse_nan(evaluate(x_, r_).natural_residual);
@@ -161,14 +163,16 @@ template <int B>
 void Iteration<B>::measure(double error) {
   Summary& s = summary_;
   s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : is_rounding_of_unknowns() ? 0 : infinity;
-  double squared = energy_norm_squared(problem_, x_, sums_.products);
+  s.residual = std::max(s.residual, residual_of_load_);
+  const double of_load = problem_.following ? problem_.following->squared() : 0;
+  double squared = energy_norm_squared(problem_, x_, sums_.products) + of_load;
   const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
   moves_rigidly_ = squared < rounding;
   size_ = std::sqrt(std::max(squared, rounding));
   // Back at zero after a load step, but for rounding of positions: nothing is left that errors could be compared with.
   const bool at_zero = reference_ == 0 && largest_before_ > 0 && is_rounding_of_unknowns();
   s.algebraic_error = error == 0 || at_zero ? 0 : size_ > 0 ? error / size_ : 1;
-  s.energy = energy(problem_, sums_.products);
+  s.energy = energy(problem_, sums_.products) - 0.5 * of_load;
   if (finest().nonlinear) {
     zero_.resize(x_.size());
     s.energy +=
@@ -217,9 +221,9 @@ bool Iteration<B>::finished(bool gaining, bool exact) {
     s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
     hidden = any ? forces.rounding / forces.acting : 0;
   }
-  // What friction hardly fails to hold slides so far that forces drown in rounding: small errors beside that say
-  // nothing.
-  const bool runs_away = finest().nonlinear && s.residual > far_off * options_.tolerance;
+  // What friction hardly fails to hold slides so far that forces drown in rounding, and a load that follows the
+  // solution may carry it away: small errors beside that say nothing.
+  const bool runs_away = (finest().nonlinear || problem_.following) && s.residual > far_off * options_.tolerance;
   const bool rounding_alone = !runs_away && (is_rounding_of_unknowns() || (exact && s.residual <= small_residual));
   const bool at_rest = stalled_ >= 3 && !gaining && rounding_alone && !has_risen();
   if (!within_tolerance() && !at_rest) return false;
@@ -290,7 +294,7 @@ bool Iteration<B>::end(Outcome outcome, std::string reason) {
 // solution gains belong to energies of their own, and do not add up.
 template <int B>
 void Iteration<B>::finish_energies() {
-  if (follows()) return;
+  if (follows() || problem_.following) return;
   auto& history = summary_.history;
   for (std::size_t k = history.size(); k-- > 1;) history[k - 1].energy = history[k].energy + gains_[k];
 }

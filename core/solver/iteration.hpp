@@ -87,7 +87,8 @@ class Iteration {
   /// the natural residual and the energy are those of this phi, gains those of what was frozen. Empty where none
   /// follows.
   std::vector<double> data_;
-  double largest_before_ = 0;  ///< of the vectors at slots with functionals, after the last load step
+  double residual_of_load_ = 0;  ///< of a load that follows: the last relative change of what it depends on
+  double largest_before_ = 0;    ///< of the vectors at slots with functionals, after the last load step
 
  private:
   bool step(const Monitor& monitor);

@@ -250,14 +250,24 @@ TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
 
 TEST_F(Solve, WarnsWhereLinearElementsLock) {
   write("punch.toml", punch);
-  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o", "--set", "body.0.poisson=0.49"}).status, 0);
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o", "--set", "body.0.poisson=0.49", "--set", "body.0.order=1"})
+                .status,
+            0);
   EXPECT_THAT(report("o").at("warnings").dump(),
               HasSubstr("linear elements are too stiff for nearly incompressible material"));
   EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("43 % at 0.49"));
   ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "q", "--set", "body.0.poisson=0.45"}).status, 0);
   EXPECT_THAT(report("q").at("warnings").dump(), HasSubstr("7 % off at 0.45"));
-  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "p"}).status, 0);
-  EXPECT_TRUE(report("p").at("warnings").empty());
+  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("here 49; order = 2 does not lock"));
+  ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "s", "--set", "body.0.poisson=0.4999", "--set",
+                       "body.0.pressure=none", "--set", "body.0.order=2"})
+                .status,
+            0);
+  EXPECT_THAT(report("s").at("warnings").dump(), HasSubstr("quadratic elements of displacements alone"));
+  for (const char* poisson : {"body.0.poisson=0.3", "body.0.poisson=0.4999"}) {
+    ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "p", "--set", poisson}).status, 0);
+    EXPECT_TRUE(report("p").at("warnings").empty()) << poisson;
+  }
 }
 
 TEST_F(Solve, WithoutTheLibraryForPicturesThereIsANote) {

@@ -51,6 +51,22 @@ TEST(Scene, ReadsTheDocumentedExample) {
   EXPECT_THAT(scene.probes.at(0).at, ElementsAre(0, 0, -1));
 }
 
+TEST(Scene, ElementsFollowPoissonsRatio) {
+  const auto chosen = [](const std::string& poisson, const std::string& order) {
+    const Scene scene = parse(with(with(ball, "0.3", poisson), "order    = 1", order));
+    return std::pair(scene.bodies[0].order, *scene.bodies[0].pressure);
+  };
+  EXPECT_EQ(chosen("0.3", ""), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("0.45", ""), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("0.4501", ""), std::pair(2, Pressure::linear));
+  EXPECT_EQ(chosen("0.4999", "order = 1"), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "pressure = \"none\""), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "order = 2\npressure = \"none\""), std::pair(2, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "pressure = \"constant\""), std::pair(2, Pressure::constant));
+  EXPECT_EQ(chosen("\"0.49 + 0*x\"", ""), std::pair(1, Pressure::none));
+  EXPECT_EQ(chosen("\"0.49 + 0*x\"", "order = 2"), std::pair(2, Pressure::linear));
+}
+
 TEST(Scene, DefaultsAreTheDocumentedOnes) {
   const Scene scene = parse(membrane);
   EXPECT_EQ(scene.title, "");

@@ -1,0 +1,47 @@
+#pragma once
+#include <vector>
+
+#include "core/fem/discretize.hpp"
+#include "core/fem/pressure_space.hpp"
+#include "core/solver/following_load.hpp"
+
+namespace signorini {
+
+/// The load of a pressure on a discrete problem, in its local coordinates.
+template <int D>
+class PressureLoad final : public FollowingLoad<D> {
+ public:
+  /// Keeps references to all but p, its start.
+  PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p);
+
+  const std::vector<double>& values() const override { return p_; }
+  void apply() override;
+  void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) override;
+  void add(const std::vector<double>& change, std::vector<double>& r) override;
+  double squared() const override;
+  std::size_t directions() const override { return along_.size(); }
+  double along(std::size_t e) const override { return along_[e]; }
+  std::vector<double> load_along(std::size_t e) override;
+  double own(std::size_t e) const override { return own_[e]; }
+  void set_resistance(std::size_t e, double resistance) override;
+  /// The rows that tell reactions know the load, too: once, at the end.
+  void press_on_prescribed();
+
+ private:
+  DiscreteProblem<D>& problem() const { return discretization_.problem; }
+  void solve(const std::vector<double>& residual, std::vector<double>& change);
+  const std::vector<double>& load_of(const std::vector<double>& p);
+  void subtract(const std::vector<double>& load);
+
+  const PressureSpace<D>& space_;
+  Discretization<D>& discretization_;
+  std::vector<double> p_;
+  std::vector<double> value_;             // of the space, in local coordinates
+  std::vector<double> inverse_;           // of the diagonal of what stands for the Schur complement
+  std::vector<double> load_;              // C'p of the call before, D per node
+  std::vector<double> step_, remaining_;  // of the solution with that
+  // Per material, of the pressure that is constant in it: what is known along it, and what of the correction is added.
+  std::vector<double> along_, own_, resistance_, more_;
+};
+
+}  // namespace signorini

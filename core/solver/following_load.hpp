@@ -1,0 +1,41 @@
+#pragma once
+#include <vector>
+
+namespace signorini {
+
+/// A load -C'p by unknowns p beside those of the problem, which follow the solution from cycle to cycle, such as the
+/// pressure of nearly incompressible material. What is sought is the saddle point of
+///
+///     1/2 x'Ax - b'x + p'Cx - 1/2 p'Mp    over all admissible x, for the p that makes it largest:
+///
+/// a cycle lowers it with p frozen, then p is corrected by S^-1 (C x - M p) with an approximation S of
+/// C A^-1 C' + M (the method of Uzawa; Benzi, Golub and Liesen, Acta Numerica 2005, section 8.1).
+template <int B>
+class FollowingLoad {
+ public:
+  virtual ~FollowingLoad() = default;
+
+  /// p.
+  virtual const std::vector<double>& values() const = 0;
+  /// The load of the p of now becomes part of the problem's b, once.
+  virtual void apply() = 0;
+  /// From x the correction of p, and S times it.
+  virtual void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) = 0;
+  /// Changes p, the problem's b with it, and the residual b - A x.
+  virtual void add(const std::vector<double>& change, std::vector<double>& r) = 0;
+  /// p'Mp: what is left of the energy.
+  virtual double squared() const = 0;
+
+  /// Directions e of p along which little but M may resist, as to a pressure that is constant in a body held all
+  /// around: S is far too large for them then.
+  virtual std::size_t directions() const = 0;
+  /// e'(C x - M p) at the last correct().
+  virtual double along(std::size_t e) const = 0;
+  /// C'e where components are free, and e'Me.
+  virtual std::vector<double> load_along(std::size_t e) = 0;
+  virtual double own(std::size_t e) const = 0;
+  /// The next corrections take e'Se for this; 0: for what it was.
+  virtual void set_resistance(std::size_t e, double resistance) = 0;
+};
+
+}  // namespace signorini

@@ -1,0 +1,120 @@
+#include "methods/paired_acceleration.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace signorini {
+namespace {
+
+constexpr double grown = 4;  // square of a step over that before: the iteration is not what the directions knew
+
+void subtract(const std::vector<double>& from, const std::vector<double>& what, std::vector<double>& out) {
+  out.resize(from.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = from[i] - what[i];
+}
+
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+#pragma omp simd reduction(+ : sum)
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+void add_times(double factor, const std::vector<double>& what, std::vector<double>& to) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * what[i];
+}
+
+}  // namespace
+
+template <int B>
+void PairedAcceleration<B>::add_step(const std::vector<double>& x_before, const std::vector<double>& x,
+                                     const std::vector<double>& r_before, const std::vector<double>& r,
+                                     const std::vector<double>& change, const std::vector<double>& S_change) {
+  std::swap(before_, now_);
+  now_.squared = before_.squared;
+  subtract(x, x_before, now_.step.x);
+  subtract(r_before, r, now_.image.x);
+  now_.step.p = change;
+  now_.image.p = S_change;
+}
+
+template <int B>
+void PairedAcceleration<B>::difference(const Step& before, const Step& now, Step& out) const {
+  subtract(now.step.x, before.step.x, out.step.x);
+  subtract(now.step.p, before.step.p, out.step.p);
+  subtract(now.image.x, before.image.x, out.image.x);
+  subtract(now.image.p, before.image.p, out.image.p);
+  subtract(now.result.x, before.result.x, out.result.x);
+  subtract(now.result.p, before.result.p, out.result.p);
+  subtract(now.residual, before.residual, out.residual);
+}
+
+template <int B>
+void PairedAcceleration<B>::make_orthogonal(Step& newest) const {
+  for (int k = 0; k < known_; ++k) {
+    const Step& other = directions_[k];
+    if (&other == &newest) continue;
+    const double part =
+        -(product(other.image.x, newest.step.x) + product(other.image.p, newest.step.p)) / other.squared;
+    add_times(part, other.step.x, newest.step.x);
+    add_times(part, other.step.p, newest.step.p);
+    add_times(part, other.image.x, newest.image.x);
+    add_times(part, other.image.p, newest.image.p);
+    add_times(part, other.result.x, newest.result.x);
+    add_times(part, other.result.p, newest.result.p);
+    add_times(part, other.residual, newest.residual);
+  }
+  newest.squared = product(newest.image.x, newest.step.x) + product(newest.image.p, newest.step.p);
+}
+
+template <int B>
+bool PairedAcceleration<B>::admissible(const std::vector<double>& x) const {
+  for (Index slot = 0; slot < constraints_.size(); ++slot)
+    if (!constraints_.admits(slot, x.data() + Offset{constraints_.vector[slot]} * B)) return false;
+  return true;
+}
+
+template <int B>
+bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>& p, std::vector<double>& r) {
+  now_.result.x = x;
+  now_.result.p = p;
+  now_.residual = r;
+  const double squared = product(now_.image.x, now_.step.x) + product(now_.image.p, now_.step.p);
+  const bool grows = squared > grown * now_.squared;
+  now_.squared = squared;
+  if (grows) reset();
+  if (steps_++ == 0) return false;
+  Step& newest = directions_[next_];
+  difference(before_, now_, newest);
+  make_orthogonal(newest);
+  if (!(newest.squared > 0)) {
+    reset();
+    return false;
+  }
+  next_ = (next_ + 1) % depth;
+  known_ = std::min(known_ + 1, depth);
+  x_ = x;
+  r_ = r;
+  for (int k = 0; k < known_; ++k) {
+    const Step& direction = directions_[k];
+    const double part =
+        -(product(direction.image.x, now_.step.x) + product(direction.image.p, now_.step.p)) / direction.squared;
+    add_times(part, direction.result.x, x_);
+    add_times(part, direction.result.p, p);
+    add_times(part, direction.residual, r_);
+  }
+  if (!admissible(x_)) {
+    reset();
+    p = now_.result.p;
+    return false;
+  }
+  x.swap(x_);
+  r.swap(r_);
+  return true;
+}
+
+template class PairedAcceleration<1>;
+template class PairedAcceleration<2>;
+template class PairedAcceleration<3>;
+
+}  // namespace signorini
