@@ -14,7 +14,7 @@ constexpr KeySpec top[] = {{"title", text, "\"\"", "", "", "what the scene shows
 constexpr KeySpec body[] = {
     {"name", text, nullptr, "", "", "what other tables call the body"},
     {"shape", text, "", "", "", "one of the shapes below; either this or `mesh`"},
-    {"mesh", file, "", "", "", "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU; physical groups become named parts"},
+    {"mesh", file, "", "", "", "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU, of first or second order; physical groups become named parts"},
     {"equation", text, "elasticity", "elasticity | diffusion", "", "diffusion: one scalar unknown"},
     {"young", field, "", "(0, inf)", "", "Young's modulus; required for elasticity"},
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
@@ -23,6 +23,11 @@ constexpr KeySpec body[] = {
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
     {"order", integer, "1", "[1, 2]", "",
      "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more"},
+    {"geometry", text, "auto", "auto | smooth | fit | facets", "",
+     "of a body from a mesh, what its boundary faces stand for. smooth: a smooth surface through the vertices; fit: "
+     "planes, cylinders, cones, spheres, tori (2D: lines, circles), else facets; auto: shapes that fit up to rounding, "
+     "else the mesh's own curved elements, else smooth"},
+    {"crease", number, "35", "(0, 180)", "", "beside `geometry`: faces that meet at more degrees meet at an edge"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };
@@ -114,7 +119,11 @@ constexpr KeySpec cylinder_obstacle[] = {
     {"axis", fields, nullptr, "", "", "direction of the axis; of any length"},
     {"radius", field, nullptr, "(0, inf)", "", "radius"},
 };
-constexpr KeySpec surface_obstacle[] = {{"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"}};
+constexpr KeySpec surface_obstacle[] = {
+    {"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"},
+    {"geometry", text, "smooth", "smooth | facets", "", "smooth: a smooth surface through the vertices"},
+    {"crease", number, "35", "(0, 180)", "", "triangles that meet at more degrees meet at an edge of the obstacle"},
+};
 constexpr KeySpec expression_obstacle[] = {
     {"distance", field, nullptr, "", "", "signed distance, positive outside the obstacle"},
     {"normal", fields, "", "", "",
