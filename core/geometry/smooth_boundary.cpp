@@ -1,12 +1,12 @@
 #include "core/geometry/smooth_boundary.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/jet.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
 
@@ -231,39 +231,20 @@ class Smoother {
     return out;
   }
 
-  /// Of a curve near its ends, where there are no two vertices on either side. Its curvature is taken to change
-  /// linearly, as the circles through three vertices each say; the angle between tangent and chord is half the length
-  /// times the curvature a third of the way along.
+  /// Of a curve near its ends, where there are no two vertices on either side.
   std::optional<Point<2>> end_normal(const std::vector<Index>& corners) const {
-    const Point<2>& here = points_[faces_[corners[0] / D][corners[0] % D]];
     auto on = walk(corners, true, 3), back = walk(corners, false, 3);
     if (on.size() >= 2 && back.size() >= 2) return {};
     const bool reversed = back.size() > on.size();
     if (reversed) std::swap(on, back);
     if (on.size() < 2) return {};
-    std::vector<Point<2>> p{here};
-    if (!back.empty()) p.insert(p.begin(), back[0]);
-    p.insert(p.end(), on.begin(), on.end());
-    const std::size_t at = back.empty() ? 0 : 1;
-    std::vector<double> place, curvature;
-    double along = at == 0 ? 0 : -length<2>(difference<2>(p[1], p[0]));
-    for (std::size_t i = 1; i + 1 < p.size() && place.size() < 2; ++i) {
-      const Point<2> a = difference<2>(p[i], p[i - 1]), b = difference<2>(p[i + 1], p[i]),
-                     c = difference<2>(p[i + 1], p[i - 1]);
-      const double la = length<2>(a), lb = length<2>(b);
-      along += la;
-      place.push_back(along + (lb - la) / 3);
-      curvature.push_back(2 * (a[0] * b[1] - a[1] * b[0]) / (la * lb * length<2>(c)));
-    }
-    const Point<2> chord = difference<2>(p[at + 1], p[at]);
-    const double h = length<2>(chord);
-    double there = curvature[0];
-    if (place.size() == 2) there += (h / 3 - place[0]) / (place[1] - place[0]) * (curvature[1] - curvature[0]);
-    const double s = h / 2 * there;
-    if (!(std::abs(s) < 0.5)) return {};
-    const double c = std::sqrt(1 - s * s), sign = reversed ? -1 : 1;
-    const Point<2> t{(c * chord[0] + s * chord[1]) / h, (c * chord[1] - s * chord[0]) / h};
-    return Point<2>{sign * t[1], -sign * t[0]};
+    std::vector<Point<2>> row{points_[faces_[corners[0] / D][corners[0] % D]]};
+    if (!back.empty()) row.insert(row.begin(), back[0]);
+    row.insert(row.end(), on.begin(), on.end());
+    const auto t = end_tangent(row, back.empty() ? 0 : 1);
+    if (!t) return {};
+    const double sign = reversed ? -1 : 1;
+    return Point<2>{sign * (*t)[1], -sign * (*t)[0]};
   }
 
   double angle_at(Index corner) const {
@@ -302,63 +283,19 @@ class Smoother {
 
   Index vertex_of(Index side) const { return faces_[of_side_[side][0] / D][of_side_[side][0] % D]; }
 
-  /// Of a polynomial over the tangent plane `up` that goes through the vertex and near those around it.
+  /// Of the highest polynomial that there are vertices enough for around a side; `up` where there are none.
   Point<D> jet_normal(Index side, const Point<D>& up) const {
-    constexpr int highest = D == 2 ? 4 : 3;
     const Point<D>& center = points_[vertex_of(side)];
-    const auto axes = tangents(up);
-    for (int degree = highest; degree >= 2; --degree) {
-      const int terms = D == 2 ? degree : (degree + 1) * (degree + 2) / 2 - 1;
-      const auto least = static_cast<std::size_t>(D == 2 ? terms : terms + 2 * degree - 2);
+    for (int degree = highest_jet<D>; degree >= 2; --degree)
       for (int rings = 2; rings <= (D == 2 ? 4 : 3); ++rings) {
         const std::vector<Index> vertices = around(side, up, rings);
-        if (vertices.size() < least) continue;
-        if (const auto found = fitted(vertices, center, up, axes, degree, terms)) return *found;
+        if (vertices.size() < points_for_jet<D>(degree)) continue;
+        std::vector<Point<D>> near;
+        for (const Index v : vertices) near.push_back(difference<D>(points_[v], center));
+        if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree); n && dot(*n, up) >= cosine_) return *n;
         break;
       }
-    }
     return up;
-  }
-
-  static std::array<Point<D>, D - 1> tangents(const Point<D>& up) {
-    if constexpr (D == 2) {
-      return {Point<2>{-up[1], up[0]}};
-    } else {
-      const auto k =
-          static_cast<std::size_t>(std::ranges::min_element(up, {}, [](double x) { return std::abs(x); }) - up.begin());
-      Point<3> first = scaled<3>(-up[k], up);
-      first[k] += 1;
-      first = unit<3>(first);
-      return {first, cross(up, first)};
-    }
-  }
-
-  std::optional<Point<D>> fitted(const std::vector<Index>& vertices, const Point<D>& center, const Point<D>& up,
-                                 const std::array<Point<D>, D - 1>& axes, int degree, int terms) const {
-    double size = 0;
-    for (const Index v : vertices) size = std::max(size, length<D>(difference<D>(points_[v], center)));
-    const auto rows = static_cast<Eigen::Index>(vertices.size());
-    Eigen::MatrixXd a(rows, terms);
-    Eigen::VectorXd b(rows);
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const Point<D> p = scaled<D>(1 / size, difference<D>(points_[vertices[r]], center));
-      const double weight = 1 / length<D>(p);
-      std::array<double, 2> x{dot(p, axes[0]), D == 3 ? dot(p, axes[D - 2]) : 0};
-      std::array<std::array<double, 2>, 5> power{{{weight, 1}}};
-      for (int k = 1; k <= degree; ++k) power[k] = {power[k - 1][0] * x[0], power[k - 1][1] * x[1]};
-      int column = 0;
-      for (int total = 1; total <= degree; ++total)
-        for (int k = 0; k <= (D == 2 ? 0 : total); ++k) a(r, column++) = power[total - k][0] * power[k][1];
-      b(r) = weight * dot(p, up);
-    }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-    if (qr.rank() < terms) return {};
-    const Eigen::VectorXd slope = qr.solve(b);
-    Point<D> n = up;
-    for (int k = 0; k < D - 1; ++k) add<D>(n, -slope(k), axes[k]);
-    n = unit<D>(n);
-    if (!(dot(n, up) >= cosine_)) return {};
-    return n;
   }
 
   /// Along creases and borders: the tangent of the circle through three vertices that follow each other; within the
