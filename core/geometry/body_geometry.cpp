@@ -160,24 +160,29 @@ class Chooser {
       return note(flat_kind(), piece, off);
     if (surfaces_ == Surfaces::facets) return note("facets", piece, off_patches(piece));
     if (surfaces_ == Surfaces::smooth) return make_smooth(piece);
-    if (fit(piece)) return;
-    std::vector<Index> left;
-    if (const auto groups = by_group(piece); groups.size() > 1)
-      for (const auto& group : groups) {
-        if (const double off = off_plane(group); off <= flat * size_of(group))
-          note(flat_kind(), group, off);
-        else if (!fit(group))
-          left.insert(left.end(), group.begin(), group.end());
-      }
-    else
-      left = piece;
+    std::vector<Index> left = piece;
+    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts}) fit_groups(left, by);
     if (left.empty()) return;
     if (surfaces_ == Surfaces::fit) return note("facets", left, off_patches(left));
     make_smooth(left);
   }
 
-  /// Connected ones by the parts that they belong to.
-  std::vector<std::vector<Index>> by_group(const std::vector<Index>& piece) {
+  /// What faces of one group have in common, beside that they are connected.
+  enum class Grouping { none, flatness, parts };
+
+  /// Leaves those faces whose group is no shape.
+  void fit_groups(std::vector<Index>& faces, Grouping by) {
+    std::vector<Index> left;
+    for (const std::vector<Index>& group : groups(faces, by)) {
+      if (const double off = off_plane(group); off <= flat * size_of(group))
+        note(flat_kind(), group, off);
+      else if (!fit(group))
+        left.insert(left.end(), group.begin(), group.end());
+    }
+    faces = std::move(left);
+  }
+
+  std::vector<std::vector<Index>> groups(const std::vector<Index>& faces, Grouping by) {
     if (parts_of_.empty()) {
       parts_of_.resize(faces_.size());
       for (std::size_t k = 0; k < mesh_.parts.size(); ++k)
@@ -185,19 +190,23 @@ class Chooser {
     }
     std::map<std::array<Index, D - 1>, std::vector<Index>> at;
     std::map<Index, bool> open;
-    for (const Index f : piece) {
+    for (const Index f : faces) {
       open[f] = true;
       for (int tip = 0; tip < D; ++tip) at[joint(f, tip)].push_back(f);
     }
     std::vector<std::vector<Index>> out;
-    for (const Index first : piece) {
+    const auto together = [&](Index f, Index g) {
+      return (by == Grouping::none || smooth_.flat[f] == smooth_.flat[g]) &&
+             (by != Grouping::parts || parts_of_[f] == parts_of_[g]);
+    };
+    for (const Index first : faces) {
       if (!std::exchange(open[first], false)) continue;
       std::vector<Index> group{first};
       for (std::size_t i = 0; i < group.size(); ++i) {
         const Index f = group[i];
         for (int tip = 0; tip < D; ++tip)
           for (const Index g : at[joint(f, tip)])
-            if (parts_of_[g] == parts_of_[f] && std::exchange(open[g], false)) group.push_back(g);
+            if (together(f, g) && std::exchange(open[g], false)) group.push_back(g);
       }
       out.push_back(std::move(group));
     }

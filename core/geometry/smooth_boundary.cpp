@@ -87,6 +87,7 @@ class Smoother {
       auto& normals = out_.normals.emplace_back();
       for (int i = 0; i < D; ++i) normals[i] = side_normal_[side_[f * D + i]];
     }
+    out_.flat = std::move(flat_);
     return std::move(out_);
   }
 

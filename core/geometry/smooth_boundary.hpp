@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <span>
@@ -24,6 +25,7 @@ struct SmoothBoundary {
   std::vector<CubicPatch<D>> patches;       ///< per face
   std::vector<Index> piece;                 ///< per face the smooth piece it belongs to, from 0
   Index pieces = 0;
+  std::vector<std::uint8_t> flat;  ///< per face whether it is of a flat part
   std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
 };
 

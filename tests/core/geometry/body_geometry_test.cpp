@@ -185,8 +185,35 @@ TEST(BodyGeometry, GroupsThatAreShapesAreFittedOneByOne) {
       EXPECT_NEAR(piece.radius, 1, 1e-12);
     }
   alone.parts.clear();
-  give_geometry(alone, Surfaces::automatic);
+  give_geometry(alone, Surfaces::automatic);  // a single edge may be part of anything
   EXPECT_EQ(kinds(alone), (std::multiset<std::string>{"smooth", "line"}));
+}
+
+// Lines and bows of a stadium run into each other smoothly; lines of several edges tell them apart.
+TEST(BodyGeometry, LinesThatRunIntoBowsAreFound) {
+  RawMesh<2> raw;
+  std::vector<Point<2>>& p = raw.points;
+  const int n = 10;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i < n; ++i) {
+      const double a = std::numbers::pi * (i / double(n) - 0.5);
+      p.push_back({side * (2 + std::cos(a)), side * std::sin(a)});
+    }
+    for (int i = 0; i < 4; ++i) p.push_back({side * (2 - i), side});
+  }
+  const auto last = static_cast<Index>(p.size());
+  p.push_back({0, 0});
+  for (Index i = 0; i < last; ++i) raw.elements.push_back({last, i, (i + 1) % last});
+  Mesh<2> mesh = build_mesh<2>(raw, "test");
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"circle", "circle", "line", "line"}));
+  const Mesh<2> fine = hierarchy(mesh, 2).finest();
+  for (const Face<2>& face : fine.boundary)
+    for (const Index v : face.vertices) {
+      const Point<2>& x = fine.points[v];
+      const double off = std::abs(x[0]) <= 2 ? std::abs(x[1]) : std::hypot(std::abs(x[0]) - 2, x[1]);
+      EXPECT_NEAR(off, 1, 1e-14);
+    }
 }
 
 TEST(BodyGeometry, SecondOrderElementsAreTheGeometryUnlessToldOtherwise) {
