@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
+#include "core/geometry/body_geometry.hpp"
 #include "core/io/mesh_file.hpp"
 #include "core/io/surface_complaint.hpp"
 #include "core/mesh/meridian.hpp"
@@ -110,6 +111,8 @@ Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vect
   Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, given.shape);
   if constexpr (D == 2)
     if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
+  if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))
+    geometry::give_geometry(mesh, file->reading.surfaces, file->reading.crease);
   return mesh;
 }
 

@@ -117,10 +117,13 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
       if (!(sagitta > most)) return;
       warnings.push_back(fmt::format(
           "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
-          "where {}displacements are up to {:.3g}: refinement brings out the edges between them, and the largest "
-          "pressure gets worse with it",
+          "where {}displacements are up to {:.3g}: the gap is off by up to {:.2g} % of what closes it, refinement "
+          "brings "
+          "out the edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {} "
+          "puts a smooth surface through the vertices",
           model.obstacles[k].origin, whose, sagitta,
-          depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
+          depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement,
+          100 * sagitta / (depth > 0 ? depth : displacement), whose));
     };
     std::vector<bool> touching(nodes.size()), at_vertex;
     for (const ContactNode<B>& node : results.contact.nodes)

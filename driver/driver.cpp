@@ -43,6 +43,12 @@ void Driver::build_bodies() {
                                                                mesh_warnings_, bodies > 1 ? &promised : nullptr));
         },
         body);
+  for (std::size_t body = 0; body < bodies; ++body)
+    std::as_const(*this).visit(body, [&](const auto& run) {
+      const auto& meshes = run.hierarchy();
+      if (const auto& pieces = meshes.levels.front().pieces; !pieces.empty())
+        report_.geometry.push_back({scene_.bodies[body].name, pieces, meshes.straightened});
+    });
 }
 
 const Report& Driver::solve(const std::function<void()>& done) {

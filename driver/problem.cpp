@@ -1,5 +1,7 @@
 #include "driver/problem.hpp"
 
+#include "core/mesh/families.hpp"
+
 namespace signorini {
 
 template <int D>
@@ -12,7 +14,14 @@ MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std:
                promised ? scene.bodies[body].source.table + ", " + scene.refine.source.of("uniform")
                         : scene.refine.source.of("uniform"),
                promised, order == 1 ? 0 : D);
-  return hierarchy(std::move(coarsest), refinements);
+  MeshHierarchy<D> meshes = hierarchy(std::move(coarsest), refinements);
+  if (order == 2) meshes.straightened += straighten_families(meshes.levels.back());
+  if (warnings && meshes.straightened > 0)
+    warnings->push_back(
+        fmt::format("{}: {} midpoints of edges stay off the curved surface they belong to, or elements "
+                    "would be turned inside out there; a finer mesh follows it",
+                    scene.bodies[body].source.table, meshes.straightened));
+  return meshes;
 }
 
 template MeshHierarchy<2> build_hierarchy(const Scene&, int, std::vector<std::string>*, const Progress&, std::size_t,

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <set>
@@ -34,6 +35,21 @@ void print_parts(const Mesh<D>& mesh) {
   fmt::print("parts of the coarsest mesh:\n");
   for (const Part& part : mesh.parts) fmt::print("  {:<16} {} faces\n", part.name, part.faces.size());
   fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
+}
+
+void print_geometry(const std::vector<SurfacePiece>& pieces) {
+  constexpr std::size_t most = 20;
+  if (!pieces.empty()) fmt::print("geometry of the boundary:\n");
+  for (std::size_t k = 0; k < std::min(most, pieces.size()); ++k) {
+    const SurfacePiece& piece = pieces[k];
+    fmt::print("  {:<12} {:>8} faces, {} {:.2g} of its size {:.4g}", piece.kind, piece.faces,
+               piece.center.empty() ? "off the flat faces by" : "vertices off it by", piece.deviation, piece.size);
+    if (!piece.center.empty()) fmt::print(", center [{:.6g}]", fmt::join(piece.center, ", "));
+    if (piece.kind == "cone") fmt::print(", half angle {:.6g}", piece.second);
+    if (!piece.center.empty() && piece.kind != "cone") fmt::print(", radius {:.6g}", piece.radius);
+    fmt::print("\n");
+  }
+  if (pieces.size() > most) fmt::print("  and {} more\n", pieces.size() - most);
 }
 
 /// Of quadratic elements the last line tells their nodes and number.
@@ -134,6 +150,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   locate_probes(hierarchy.finest(), scene, body);
   const Model<B> model = check_steps<D, B>(scene, registry, body, nodes);
   print_parts(hierarchy.levels.front());
+  print_geometry(hierarchy.levels.front().pieces);
   print_levels(hierarchy, order, model);
   const Index pressures = pressure_unknowns(nodes, model);
   if (pressures > 0)

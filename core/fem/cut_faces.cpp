@@ -41,7 +41,9 @@ class CoarsestFace {
  public:
   CoarsestFace(const Mesh<D>& mesh, Index number)
       : mesh_(mesh), face_{.vertices = coarsest_face(mesh, number), .element = -1} {
-    face_.curve = mesh.boundary[number * faces_per_coarsest(mesh)].curve;
+    const Index curve = mesh.boundary[number * faces_per_coarsest(mesh)].curve;
+    if (curve >= 0) curve_ = &mesh.curves[curve];
+    if (curve_ && curve_->kind == Curve<D>::Kind::patches) patch_ = &(*mesh.patches)[number];
     normal_ = area_normal(mesh, face_);
     measure_ = normalise(normal_);
   }
@@ -49,7 +51,7 @@ class CoarsestFace {
   double measure() const { return measure_; }
   const Point<D>& normal() const { return normal_; }
   const std::array<Index, D>& vertices() const { return face_.vertices; }
-  bool curved() const { return face_.curve >= 0; }
+  bool curved() const { return patch_ || (curve_ && curve_->is_shape()); }
 
   /// The part of its measure on which the expression holds nowhere near.
   double without(const Field& expression, double t, const std::vector<std::array<double, D>>& samples) const {
@@ -88,6 +90,7 @@ class CoarsestFace {
 
   /// Exactly on the plane of a face that is orthogonal to an axis.
   Point<D> point(const std::array<double, D>& barycentric) const {
+    if (patch_) return patch_->at(barycentric);
     Point<D> x{};
     for (int i = 0; i < D; ++i) {
       const auto at = [&](int a) { return mesh_.points[face_.vertices[a]][i]; };
@@ -98,11 +101,13 @@ class CoarsestFace {
       }
       if (same) x[i] = at(0);
     }
-    return face_.curve < 0 ? x : project<D>(mesh_.curves[face_.curve], x);
+    return curve_ ? project<D>(*curve_, x) : x;
   }
 
   const Mesh<D>& mesh_;
   Face<D> face_;
+  const Curve<D>* curve_ = nullptr;
+  const CubicPatch<D>* patch_ = nullptr;
   Point<D> normal_;
   double measure_;
 };

@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
+#include "core/mesh/curve.hpp"
 
 namespace signorini {
 namespace {
@@ -117,7 +118,7 @@ double smooth_turn(const Mesh<D>& mesh, const Face<D>& face) {
   const Point<D> n = unit_normal(face);
   double cosine = 1;
   for (const Face<D>& other : mesh.boundary) {
-    if (other.curve >= 0) continue;
+    if (other.curve >= 0 && mesh.curves[other.curve].is_shape()) continue;
     if (std::ranges::find_first_of(face.vertices, other.vertices) == face.vertices.end()) continue;
     if (const double c = dot(n, unit_normal(other)); c > smooth_cosine) cosine = std::min(cosine, c);
   }
@@ -128,7 +129,9 @@ double smooth_turn(const Mesh<D>& mesh, const Face<D>& face) {
 template <int D>
 double slack(const Mesh<D>& mesh, const Face<D>& face) {
   const double h = longest_edge_of<D>(corners_of(mesh, face));
-  const double turn = face.curve >= 0 ? h / mesh.curves[face.curve].radius : smooth_turn(mesh, face);
+  const bool shape = face.curve >= 0 && mesh.curves[face.curve].is_shape();
+  const double turn =
+      shape ? h / least_radius<D>(mesh.curves[face.curve], mesh.points[face.vertices[0]]) : smooth_turn(mesh, face);
   return h * (turn / 2 + boundary_rounding);
 }
 

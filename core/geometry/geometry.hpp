@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -69,7 +70,10 @@ class Engine {
   virtual Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const = 0;
   /// Distance to a triangle surface file: negative inside a closed one. The normal of an open surface is oriented by
   /// its faces.
-  virtual std::unique_ptr<DistanceFunction> surface(const std::string& file) const = 0;
+  /// @param crease the distance is that to the smooth surface through the vertices, see smooth_boundary(); without, to
+  ///   the triangles
+  virtual std::unique_ptr<DistanceFunction> surface(const std::string& file,
+                                                    std::optional<double> crease = {}) const = 0;
 };
 
 /// The CGAL engine, loading its library on first use. Throws Error(Exit::plugin) when the library is missing.

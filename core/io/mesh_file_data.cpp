@@ -52,7 +52,7 @@ template <int D>
 Mesh<D> build(std::vector<Point<D>> points, FileCells<D + 1> cells, const FileCells<D>& faces, const GroupNames& names,
               std::string_view place, FileGroups* file_groups) {
   if (file_groups) file_groups->of_elements = by_name(cells, names);
-  RawMesh<D> raw{std::move(points), std::move(cells.vertices), std::move(cells.label), {}};
+  RawMesh<D> raw{std::move(points), std::move(cells.vertices), std::move(cells.middle), std::move(cells.label), {}};
   std::map<Index, std::vector<std::size_t>> groups_of;  // per entity, positions in raw.groups
   for (std::size_t f = 0; f < faces.vertices.size(); ++f) {
     const auto [entry, is_new] = groups_of.try_emplace(faces.group[f]);

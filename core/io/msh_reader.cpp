@@ -25,10 +25,7 @@ std::string type_name(int type) {
                                                 {5, "hexahedron"},
                                                 {6, "prism"},
                                                 {7, "pyramid"},
-                                                {8, "second-order line"},
-                                                {9, "second-order triangle"},
                                                 {10, "second-order quadrangle"},
-                                                {11, "second-order tetrahedron"},
                                                 {12, "second-order hexahedron"},
                                                 {13, "second-order prism"},
                                                 {14, "second-order pyramid"},
@@ -54,7 +51,7 @@ void drop_repeated(FileCells<Corners>& cells, Index vertices) {
     Offset& f = first[numbering.number[i]];
     if (f >= 0 && cells.group[f] != cells.group[i]) continue;  // twice in one group is an error, found later
     if (f < 0) f = static_cast<Offset>(i);
-    kept.add(cells.vertices[i], cells.label[i], cells.group[i]);
+    kept.add(cells.vertices[i], cells.label[i], cells.group[i], cells.middle_of(i));
   }
   cells = std::move(kept);
 }
@@ -194,15 +191,31 @@ class MshReader {
     nodes_.close(in_);
   }
 
+  Index read_node() {
+    const Offset tag =
+        version_ == 4 ? in_.number<Offset>("an element's node") : Offset{in_.number<std::int32_t>("an element's node")};
+    return nodes_.find(tag, in_);
+  }
+
+  template <int Corners>
+  std::array<Index, Corners> read_corners() {
+    std::array<Index, Corners> v;
+    for (Index& corner : v) corner = read_node();
+    return v;
+  }
+
   template <int Corners>
   void read_cell(FileCells<Corners>& cells, Offset label, Index entity) {
-    std::array<Index, Corners> v;
-    for (Index& corner : v) {
-      const Offset tag = version_ == 4 ? in_.number<Offset>("an element's node")
-                                       : Offset{in_.number<std::int32_t>("an element's node")};
-      corner = nodes_.find(tag, in_);
-    }
-    cells.add(v, label, entity);
+    cells.add(read_corners<Corners>(), label, entity);
+  }
+
+  template <int Corners>
+  void read_curved(FileCells<Corners>& cells, const EdgeOrder<Corners>& order, Offset label, Index entity) {
+    const auto corners = read_corners<Corners>();
+    MiddleNodes<Corners> given, middle;
+    for (Index& node : given) node = read_node();
+    for (std::size_t k = 0; k < middle.size(); ++k) middle[k] = given[order[k]];
+    cells.add(corners, label, entity, middle);
   }
 
   void read_cell(Offset type, Offset label, Index entity) {
@@ -213,11 +226,17 @@ class MshReader {
         return read_cell(data_.triangles, label, entity);
       case 4:
         return read_cell(data_.tetrahedra, label, entity);
+      case 8:
+        return read_curved(data_.lines, line_edges, label, entity);
+      case 9:
+        return read_curved(data_.triangles, triangle_edges, label, entity);
+      case 11:
+        return read_curved(data_.tetrahedra, gmsh_tetrahedron_edges, label, entity);
       case 15:
-        version_ == 4 ? in_.number<Offset>("a node") : Offset{in_.number<std::int32_t>("a node")};
+        read_node();
         return;
       default:
-        in_.fail(fmt::format("element {} is a {}; expected linear triangles or tetrahedra", label,
+        in_.fail(fmt::format("element {} is a {}; expected triangles or tetrahedra of first or second order", label,
                              type_name(static_cast<int>(type))));
     }
   }

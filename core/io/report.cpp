@@ -175,6 +175,21 @@ Json step(const StepReport& step) {
   return json;
 }
 
+Json surface_piece(const SurfacePiece& piece) {
+  Json json{{"kind", piece.kind}, {"faces", piece.faces}, {"deviation", piece.deviation}, {"size", piece.size}};
+  if (piece.center.empty()) return json;
+  json["center"] = piece.center;
+  if (!piece.axis.empty()) json["axis"] = piece.axis;
+  if (piece.kind != "cone") json["radius"] = piece.radius;
+  if (piece.kind == "cone") json["half_angle"] = piece.second;
+  if (piece.kind == "torus") json["axis_radius"] = piece.second;
+  return json;
+}
+
+Json geometry(const GeometryReport& body) {
+  return {{"body", body.body}, {"pieces", array(body.pieces, surface_piece)}, {"straightened", body.straightened}};
+}
+
 Json failed_step(const FailedStep& step) {
   return {{"step", step.step},
           {"from", step.from},
@@ -256,6 +271,7 @@ Json to_json(const Report& report) {
   json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
     return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};
   });
+  json["geometry"] = array(report.geometry, geometry);
   json["warnings"] = report.warnings;
   finite_or_null(json);
   return json;

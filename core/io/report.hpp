@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh/mesh.hpp"
 #include "core/solver/summary.hpp"
 
 namespace signorini {
@@ -101,6 +102,13 @@ struct FailedStep {
   std::string reason;
 };
 
+/// What the boundary of a body from a mesh file is taken for.
+struct GeometryReport {
+  std::string body;
+  std::vector<SurfacePiece> pieces;
+  Index straightened = 0;  ///< see MeshHierarchy
+};
+
 /// Everything `report.json` says.
 struct Report {
   std::string scene, title;
@@ -111,6 +119,7 @@ struct Report {
   std::vector<FailedStep> failed;    ///< what was then solved in parts
   std::vector<std::string> warnings;
   std::vector<PluginReport> plugins;
+  std::vector<GeometryReport> geometry;  ///< of bodies from mesh files
   Times time;
   double peak_memory_mb = 0;
   bool interrupted = false;  ///< before the last step; those that were finished are there

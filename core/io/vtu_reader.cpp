@@ -28,10 +28,7 @@ std::string type_name(Offset type) {
                                                    {12, "hexahedron"},
                                                    {13, "wedge"},
                                                    {14, "pyramid"},
-                                                   {21, "quadratic edge"},
-                                                   {22, "quadratic triangle"},
                                                    {23, "quadratic quadrilateral"},
-                                                   {24, "quadratic tetrahedron"},
                                                    {25, "quadratic hexahedron"},
                                                    {42, "polyhedron"},
                                                    {68, "Lagrange curve"},
@@ -171,25 +168,47 @@ class VtuReader {
         return add_cell(cells, data_.triangles, vertices, c, group);
       case 10:
         return add_cell(cells, data_.tetrahedra, vertices, c, group);
+      case 21:
+        return add_curved(cells, data_.lines, line_edges, vertices, c, group);
+      case 22:
+        return add_curved(cells, data_.triangles, triangle_edges, vertices, c, group);
+      case 24:
+        return add_curved(cells, data_.tetrahedra, vtk_tetrahedron_edges, vertices, c, group);
       default:
-        format_.fail(cells,
-                     fmt::format("cell {} is a {}; expected linear triangles or tetrahedra", c, type_name(type)));
+        format_.fail(cells, fmt::format("cell {} is a {}; expected triangles or tetrahedra, linear or quadratic", c,
+                                        type_name(type)));
     }
   }
 
-  template <int Corners>
-  void add_cell(const pugi::xml_node& cells, FileCells<Corners>& to, std::span<const Offset> vertices, Offset c,
-                Index group) {
-    if (vertices.size() != Corners)
-      format_.fail(cells, fmt::format("cell {} has {} vertices, expected {}", c, vertices.size(), Corners));
-    std::array<Index, Corners> v;
-    for (int i = 0; i < Corners; ++i) {
+  template <std::size_t N>
+  std::array<Index, N> nodes_of(const pugi::xml_node& cells, std::span<const Offset> vertices, Offset c) const {
+    if (vertices.size() != N)
+      format_.fail(cells, fmt::format("cell {} has {} vertices, expected {}", c, vertices.size(), N));
+    std::array<Index, N> v;
+    for (std::size_t i = 0; i < N; ++i) {
       if (vertices[i] < 0 || vertices[i] >= static_cast<Offset>(data_.points.size()))
         format_.fail(cells,
                      fmt::format("cell {} has vertex {}, there are {} points", c, vertices[i], data_.points.size()));
       v[i] = static_cast<Index>(vertices[i]);
     }
-    to.add(v, c, group);
+    return v;
+  }
+
+  template <int Corners>
+  void add_cell(const pugi::xml_node& cells, FileCells<Corners>& to, std::span<const Offset> vertices, Offset c,
+                Index group) {
+    to.add(nodes_of<Corners>(cells, vertices, c), c, group);
+  }
+
+  template <int Corners>
+  void add_curved(const pugi::xml_node& cells, FileCells<Corners>& to, const EdgeOrder<Corners>& order,
+                  std::span<const Offset> vertices, Offset c, Index group) {
+    const auto all = nodes_of<Corners*(Corners + 1) / 2>(cells, vertices, c);
+    std::array<Index, Corners> corners;
+    std::copy_n(all.begin(), Corners, corners.begin());
+    MiddleNodes<Corners> middle;
+    for (std::size_t k = 0; k < middle.size(); ++k) middle[k] = all[Corners + order[k]];
+    to.add(corners, c, group, middle);
   }
 
   /// The group of each cell, counted in the order in which they appear; 0 for all where there is no array of groups.

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/mesh/red_refinement.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
 
@@ -93,11 +94,29 @@ std::array<Index, D> coarsest_face(const Mesh<D>& mesh, Index coarsest) {
   return corners;
 }
 
+template <int D>
+std::array<std::array<double, D>, D> in_coarsest_face(Index face, int refinements) {
+  constexpr auto edges = simplex_edges<D - 1>();
+  std::array<std::array<double, D>, D> corner{};
+  for (int i = 0; i < D; ++i) corner[i][i] = 1;
+  for (int step = refinements - 1; step >= 0; --step) {
+    const auto& child = RedRefinement<D - 1>::children[(face >> ((D - 1) * step)) & ((1 << (D - 1)) - 1)];
+    auto next = corner;
+    for (int i = 0; i < D; ++i)
+      for (int k = 0; k < D; ++k)
+        next[i][k] = child[i] < D ? corner[child[i]][k]
+                                  : (corner[edges[child[i] - D][0]][k] + corner[edges[child[i] - D][1]][k]) / 2;
+    corner = next;
+  }
+  return corner;
+}
+
 #define SIGNORINI_INSTANTIATE(D)                                                                       \
   template std::vector<Face<D>> find_boundary<D>(Index, const std::vector<std::array<Index, D + 1>>&); \
   template void attach_parts(Mesh<D>&, const std::vector<FaceGroup<D>>&);                              \
   template std::vector<Index> faces_of(const Mesh<D>&, std::string_view, std::string_view);            \
-  template std::array<Index, D> coarsest_face<D>(const Mesh<D>&, Index);
+  template std::array<Index, D> coarsest_face<D>(const Mesh<D>&, Index);                               \
+  template std::array<std::array<double, D>, D> in_coarsest_face<D>(Index, int);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

@@ -39,4 +39,9 @@ Index faces_per_coarsest(const Mesh<D>& mesh) {
 template <int D>
 std::array<Index, D> coarsest_face(const Mesh<D>& mesh, Index coarsest);
 
+/// The corners of a boundary face in barycentric coordinates of the face of the coarsest mesh that it is a part of.
+/// @param face its number after so many uniform refinements
+template <int D>
+std::array<std::array<double, D>, D> in_coarsest_face(Index face, int refinements);
+
 }  // namespace signorini

@@ -1,7 +1,9 @@
 #include "core/mesh/curve.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/base/dot.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini {
@@ -17,21 +19,110 @@ struct Touched {
 
 }  // namespace
 
+namespace {
+
+template <int D>
+Point<D> along(const Point<D>& from, double factor, const Point<D>& direction) {
+  Point<D> out;
+  for (int k = 0; k < D; ++k) out[k] = from[k] + factor * direction[k];
+  return out;
+}
+
+/// Of what turns around an axis: the height over the centre, and the direction and length across the axis.
+template <int D>
+struct Around {
+  double along_axis, radius;
+  Point<D> out;  // of unit length
+
+  Around(const Curve<D>& curve, const Point<D>& p) {
+    const Point<D> from = difference<D>(p, curve.center);
+    along_axis = dot(from, curve.axis);
+    out = along<D>(from, -along_axis, curve.axis);
+    radius = length<D>(out);
+    for (double& x : out) x /= radius;
+  }
+};
+
+}  // namespace
+
+template <int D>
+std::optional<Height<D>> height(const Curve<D>& curve, const Point<D>& p) {
+  using enum CurveKind;
+  if (!curve.is_shape()) return {};
+  if (curve.kind == round) {
+    Point<D> radial = difference<D>(p, curve.center);
+    const double distance = length<D>(radial);
+    if (!(distance > 0)) return {};
+    for (double& x : radial) x /= distance;
+    return Height<D>{distance - curve.radius, radial};
+  }
+  const Around<D> at(curve, p);
+  if (!(at.radius > 0)) return {};
+  if (curve.kind == cylinder) return Height<D>{at.radius - curve.radius, at.out};
+  if (curve.kind == cone) {
+    const double c = std::cos(curve.second), s = std::sin(curve.second);
+    Point<D> normal = along<D>({}, c, at.out);
+    return Height<D>{c * at.radius - s * at.along_axis, along<D>(normal, -s, curve.axis)};
+  }
+  const double off = at.radius - curve.second, distance = std::hypot(off, at.along_axis);
+  if (!(distance > 0)) return {};
+  Point<D> normal = along<D>({}, off / distance, at.out);
+  return Height<D>{distance - curve.radius, along<D>(normal, at.along_axis / distance, curve.axis)};
+}
+
 template <int D>
 Point<D> project(const Curve<D>& curve, const Point<D>& p) {
-  Point<D> radial = difference<D>(p, curve.center);
-  if (D == 3 && curve.along_z) radial[D - 1] = 0;
-  const double distance = length<D>(radial);
-  if (!(distance > 0)) return p;
-  Point<D> q;
-  for (int k = 0; k < D; ++k) q[k] = curve.center[k] + curve.radius / distance * radial[k];
-  if (D == 3 && curve.along_z) q[D - 1] = p[D - 1];
+  if (curve.kind == Curve<D>::Kind::round) {
+    const Point<D> radial = difference<D>(p, curve.center);
+    const double distance = length<D>(radial);
+    return distance > 0 ? along<D>(curve.center, curve.radius / distance, radial) : p;
+  }
+  const auto off = height<D>(curve, p);
+  return off ? along<D>(p, -off->distance, off->normal) : p;
+}
+
+template <int D>
+Point<D> project(std::span<const Curve<D>* const> curves, std::span<const Flat<D>> planes, const Point<D>& p,
+                 double reach) {
+  constexpr int most = 12;
+  constexpr double parallel = 1e-4;
+  Point<D> q = p;
+  const auto each = [&](const auto& use) {
+    for (const Curve<D>* curve : curves)
+      if (const auto off = height<D>(*curve, q)) use(*off);
+    for (const Flat<D>& plane : planes) use(Height<D>{dot(difference<D>(q, plane.point), plane.normal), plane.normal});
+  };
+  for (int step = 0; step < most; ++step) {
+    // Orthogonal directions: what an earlier surface asks for is kept.
+    std::array<Point<D>, D> basis;
+    int found = 0;
+    Point<D> move{};
+    each([&](const Height<D>& off) {
+      if (found == D) return;
+      Point<D> rest = off.normal;
+      for (int k = 0; k < found; ++k) rest = along<D>(rest, -dot(rest, basis[k]), basis[k]);
+      const double size = length<D>(rest);
+      if (size < parallel) return;
+      for (double& x : rest) x /= size;
+      move = along<D>(move, -(off.distance + dot(move, off.normal)) / size, rest);
+      basis[found++] = rest;
+    });
+    q = along<D>(q, 1, move);
+    if (!(length<D>(difference<D>(q, p)) <= reach)) return p;
+    if (length<D>(move) <= 1e-15 * reach) break;
+  }
   return q;
 }
 
 template <int D>
-void move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
-  if (moves.empty()) return;
+double least_radius(const Curve<D>& curve, const Point<D>& p) {
+  if (curve.kind != Curve<D>::Kind::cone) return curve.radius;
+  return Around<D>(curve, p).radius / std::cos(curve.second);
+}
+
+template <int D>
+Index move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
+  if (moves.empty()) return 0;
   std::vector<Index> move_of(mesh.points.size(), -1);
   std::vector<Point<D>> start;
   for (std::size_t m = 0; m < moves.size(); ++m) {
@@ -64,11 +155,15 @@ void move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
         }
     }
   }
+  return static_cast<Index>(std::ranges::count_if(step, [](double s) { return s < 1; }));
 }
 
-#define SIGNORINI_INSTANTIATE(D)                                  \
-  template Point<D> project<D>(const Curve<D>&, const Point<D>&); \
-  template void move_vertices(Mesh<D>&, const std::vector<Move<D>>&);
+#define SIGNORINI_INSTANTIATE(D)                                                                                     \
+  template std::optional<Height<D>> height<D>(const Curve<D>&, const Point<D>&);                                     \
+  template Point<D> project<D>(const Curve<D>&, const Point<D>&);                                                    \
+  template Point<D> project<D>(std::span<const Curve<D>* const>, std::span<const Flat<D>>, const Point<D>&, double); \
+  template double least_radius<D>(const Curve<D>&, const Point<D>&);                                                 \
+  template Index move_vertices(Mesh<D>&, const std::vector<Move<D>>&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

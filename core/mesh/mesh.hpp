@@ -1,8 +1,10 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/mesh/cubic_patch.hpp"
 
 namespace signorini {
 
@@ -12,12 +14,29 @@ struct Part {
   std::vector<Index> faces;
 };
 
-/// A circle (D = 2), a sphere (D = 3) or a cylinder along z (D = 3, `along_z`), on which curved boundary faces lie.
+/// Shapes with a closed form, and what only the mesh knows.
+enum class CurveKind {
+  round,     ///< a circle (D = 2), a sphere (D = 3)
+  cylinder,  ///< D = 3
+  cone,      ///< D = 3
+  torus,     ///< D = 3
+  patches,   ///< a smooth surface through the vertices: see Mesh::patches
+  elements,  ///< what the curved elements of the coarsest mesh make of their faces: see Mesh::bends
+};
+
+/// What curved boundary faces lie on.
 template <int D>
 struct Curve {
-  Point<D> center{};
-  double radius = 0;
-  bool along_z = false;
+  using Kind = CurveKind;
+
+  Point<D> center{};  ///< of a cylinder any point of the axis, of a cone its tip
+  double radius = 0;  ///< of a torus that of the tube
+  Kind kind = Kind::round;
+  Point<D> axis{};    ///< of unit length; that of a cone points from the tip into it
+  double second = 0;  ///< of a cone half the angle at its tip (radians), of a torus the radius of the tube's axis
+
+  /// Whether it has a closed form.
+  bool is_shape() const { return kind != Kind::patches && kind != Kind::elements; }
 };
 
 /// A boundary face, vertices ordered so that its normal points outwards.
@@ -33,6 +52,21 @@ struct Face {
 template <int D>
 using Family = std::array<Index, (D + 1) * (D + 2) / 2>;
 
+/// What a smooth piece of the coarsest boundary is taken for; numbers in user's units.
+struct SurfacePiece {
+  std::string kind;      ///< plane, line, circle, sphere, cylinder, cone, torus, smooth, second order, facets
+  Index faces = 0;       ///< of the coarsest mesh
+  double deviation = 0;  ///< of vertices from a shape; of other kinds the largest distance from the flat faces
+  double size = 0;       ///< diagonal of the box around it
+  std::vector<double> center{}, axis{};  ///< of shapes, see Curve; empty where there is none
+  double radius = 0, second = 0;         ///< likewise
+};
+
+/// By how much the midpoints of an element's edges are off the middle between their ends, in the order of
+/// simplex_edges: those of the quadratic map that makes the element curved.
+template <int D>
+using Bends = std::array<Point<D>, D*(D + 1) / 2>;
+
 /// One conforming simplicial mesh: D = 2 triangles, D = 3 tetrahedra.
 template <int D>
 struct Mesh {
@@ -41,6 +75,11 @@ struct Mesh {
   std::vector<Face<D>> boundary;                   ///< every boundary face, once
   std::vector<Part> parts;                         ///< named parts; all faces together always answer to "boundary"
   std::vector<Curve<D>> curves;
+  /// Per boundary face of the coarsest mesh, for faces on curves of the kind `patches`; shared by all refinements of
+  /// it.
+  std::shared_ptr<const std::vector<CubicPatch<D>>> patches;
+  std::vector<Bends<D>> bends;       ///< per element; empty: all are straight, or the mesh is not to be refined
+  std::vector<SurfacePiece> pieces;  ///< of the coarsest mesh of a body whose geometry was looked for
   std::vector<Index> region;         ///< per element the material it is of, -1: the body's own; empty: all of them
   std::vector<Family<D>> families;   ///< all elements once more, as children; none where they are not
   std::vector<Index> family_region;  ///< per family, as `region`
@@ -56,6 +95,7 @@ struct Refinement {
   std::vector<std::array<Index, 2>> parents;  ///< per fine vertex
   std::vector<Index> father;                  ///< per fine element, the coarse element it lies in
   bool uniform = true;                        ///< every coarse edge is cut
+  Index straightened = 0;  ///< midpoints that are off the curve they belong to, or their elements would be inverted
 };
 
 /// Conforming meshes, coarsest first; refinements[k] leads from levels[k] to levels[k + 1].
@@ -63,6 +103,7 @@ template <int D>
 struct MeshHierarchy {
   std::vector<Mesh<D>> levels;
   std::vector<Refinement> refinements;
+  Index straightened = 0;  ///< of all refinements
 
   const Mesh<D>& finest() const { return levels.back(); }
 };

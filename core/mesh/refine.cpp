@@ -6,7 +6,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/mesh/bends.hpp"
+#include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
 #include "core/mesh/layers.hpp"
 #include "core/mesh/red_refinement.hpp"
@@ -47,6 +50,7 @@ class Refiner {
     if constexpr (D == 3)
       for (auto& e : fathers_) e = put_shortest_diagonal_first(coarse.points, e);
     edges_ = number_edges<D>(coarse.vertices(), fathers_);
+    find_bends();
   }
 
   Refinement run() {
@@ -54,6 +58,7 @@ class Refiner {
     refine_elements();
     refine_boundary();
     fine_.curves = coarse_.curves;
+    fine_.patches = coarse_.patches;
     fine_.refinements = coarse_.refinements + 1;
     bend();
     return std::move(refinement_);
@@ -114,7 +119,8 @@ class Refiner {
     Family<D> layers;
     for (int i = 0; i <= D; ++i) layers[i] = 2 * layer_[fathers_[father][i]];
     for (std::size_t k = 0; k < ends.size(); ++k) layers[D + 1 + k] = (layers[ends[k][0]] + layers[ends[k][1]]) / 2;
-    for (const auto& child : children) {
+    for (std::size_t c = 0; c < children.size(); ++c) {
+      const auto& child = children[c];
       Index lowest = layers[child[0]];
       for (const int i : child) lowest = std::min(lowest, layers[i]);
       if (lowest != layer) continue;
@@ -125,6 +131,7 @@ class Refiner {
       }
       refinement_.father.push_back(father);
       if (!coarse_.region.empty()) fine_.region.push_back(coarse_.region[father]);
+      if (!bends_.empty()) fine_.bends.push_back(bends_of_child<D>(bends_[father], c));
     }
   }
 
@@ -199,23 +206,123 @@ class Refiner {
     }
   }
 
-  /// Moves the midpoints on curved faces; one that two curves share goes to that of the first face.
+  /// Of the elements as they are numbered here.
+  void find_bends() {
+    bends_ = coarse_.bends;
+    for (std::size_t e = 0; e < bends_.size(); ++e) {
+      std::array<int, D + 1> was;
+      for (int i = 0; i <= D; ++i)
+        was[i] = static_cast<int>(std::ranges::find(coarse_.elements[e], fathers_[e][i]) - coarse_.elements[e].begin());
+      bends_[e] = permuted<D>(bends_[e], was);
+    }
+  }
+
+  /// Puts midpoints where curved elements and boundaries have them.
   void bend() {
-    if (fine_.curves.empty()) return;
     std::vector<Move<D>> moves;
     std::vector<std::uint8_t> seen(fine_.points.size(), 0);
-    for (const Face<D>& face : fine_.boundary)
-      for (const Index v : face.vertices)
-        if (const auto [a, b] = refinement_.parents[v]; face.curve >= 0 && a != b && !seen[v]) {
-          seen[v] = 1;
-          moves.push_back({v, project<D>(fine_.curves[face.curve], fine_.points[v])});
-        }
-    move_vertices(fine_, moves);
+    const auto add = [&](Index v, const Point<D>& target) {
+      if (seen[v]++ == 0) moves.push_back({v, target});
+    };
+    if (!fine_.curves.empty()) add_moves_of_boundary(add);
+    add_moves_of_elements(add);
+    refinement_.straightened = move_vertices(fine_, moves);
+  }
+
+  template <class Add>
+  void add_moves_of_elements(const Add& add) {
+    for (std::size_t e = 0; e < bends_.size(); ++e)
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        if (bends_[e][k] == Point<D>{}) continue;
+        const Index v = fine_vertex(static_cast<Index>(e), static_cast<int>(D + 1 + k));
+        Point<D> target = fine_.points[v];
+        for (int i = 0; i < D; ++i) target[i] += bends_[e][k][i];
+        add(v, target);
+      }
+  }
+
+  template <class Add>
+  void add_moves_of_boundary(const Add& add) {
+    const auto per_face = static_cast<Index>(face_children.size());
+    const std::vector<std::array<Index, 2>> around = faces_of_new_vertices();
+    for (Index f = 0; f < static_cast<Index>(coarse_.boundary.size()); ++f) {
+      const Index curve = coarse_.boundary[f].curve;
+      if (curve < 0 || coarse_.curves[curve].kind == CurveKind::elements) continue;
+      for (Index child = per_face * f; child < per_face * (f + 1); ++child)
+        for (const Index v : fine_.boundary[child].vertices)
+          if (const auto [a, b] = refinement_.parents[v]; a != b) add(v, place(v, around[v]));
+    }
+  }
+
+  /// Per fine vertex the coarse boundary faces that it is new on, at most two (of a hinge, some two); -1: none.
+  std::vector<std::array<Index, 2>> faces_of_new_vertices() const {
+    const auto per_face = static_cast<Index>(face_children.size());
+    std::vector<std::array<Index, 2>> out(fine_.points.size(), {-1, -1});
+    for (Index child = 0; child < static_cast<Index>(fine_.boundary.size()); ++child)
+      for (const Index v : fine_.boundary[child].vertices) {
+        const auto [a, b] = refinement_.parents[v];
+        if (a == b || out[v][0] == child / per_face) continue;
+        out[v][out[v][0] < 0 ? 0 : 1] = child / per_face;
+      }
+    return out;
+  }
+
+  /// Where a new vertex on one or two boundary faces belongs.
+  Point<D> place(Index v, const std::array<Index, 2>& faces) const {
+    std::vector<const Curve<D>*> shapes;
+    std::vector<Flat<D>> planes;
+    Index patch = -1;
+    for (const Index f : faces) {
+      if (f < 0) continue;
+      const Index number = coarse_.boundary[f].curve;
+      const Curve<D>* curve = number < 0 ? nullptr : &coarse_.curves[number];
+      if (!curve)
+        planes.push_back(plane_of(coarse_.boundary[f]));
+      else if (curve->is_shape() && std::ranges::count(shapes, curve) == 0)
+        shapes.push_back(curve);
+      else if (curve->kind == Curve<D>::Kind::patches)
+        patch = f;
+    }
+    const Point<D>& middle = fine_.points[v];
+    if (shapes.empty()) return patch < 0 ? middle : on_patch(v, patch);
+    const Point<D> alone = project<D>(*shapes[0], middle);
+    if (shapes.size() + planes.size() == 1) return alone;
+    const auto [a, b] = refinement_.parents[v];
+    const double reach = length<D>(difference<D>(coarse_.points[a], coarse_.points[b]));
+    if (shapes.size() == 1 &&
+        std::abs(dot(difference<D>(alone, planes[0].point), planes[0].normal)) <= tie * tie * reach)
+      return alone;
+    return project<D>(shapes, planes, middle, reach);
+  }
+
+  Flat<D> plane_of(const Face<D>& face) const {
+    const auto& p = coarse_.points;
+    const Point<D> u = difference<D>(p[face.vertices[1]], p[face.vertices[0]]);
+    Flat<D> out{p[face.vertices[0]], {}};
+    if constexpr (D == 2)
+      out.normal = {u[1], -u[0]};
+    else
+      out.normal = cross(u, difference<D>(p[face.vertices[2]], p[face.vertices[0]]));
+    const double size = length<D>(out.normal);
+    for (double& x : out.normal) x /= size;
+    return out;
+  }
+
+  /// At the middle of an edge of coarse face f, which is the middle of one of a patch's.
+  Point<D> on_patch(Index v, Index f) const {
+    const auto corner = in_coarsest_face<D>(f, coarse_.refinements);
+    std::array<double, D> at{};
+    for (int i = 0; i < D; ++i)
+      for (const Index end : refinement_.parents[v])
+        if (coarse_.boundary[f].vertices[i] == end)
+          for (int k = 0; k < D; ++k) at[k] += 0.5 * corner[i][k];
+    return (*coarse_.patches)[f >> ((D - 1) * coarse_.refinements)].at(at);
   }
 
   const Mesh<D>& coarse_;
   Mesh<D>& fine_;
   std::vector<Simplex<D>> fathers_;
+  std::vector<Bends<D>> bends_;  // of the fathers
   Numbering edges_;
   std::vector<Index> layer_;        // per coarse vertex
   Index span_ = 0;                  // of the layers of an element; so far above twice its lowest one may a child's be
@@ -238,6 +345,8 @@ MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
   for (int k = 0; k < uniform; ++k) {
     Mesh<D> fine;
     result.refinements.push_back(refine_uniformly(result.levels.back(), fine));
+    result.straightened += result.refinements.back().straightened;
+    if (k + 1 == uniform) fine.bends = {};
     result.levels.push_back(std::move(fine));
   }
   return result;
@@ -255,8 +364,10 @@ HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
            elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + families * sizeof(Family<D>) +
            boundary * sizeof(Face<D>) + in_parts * sizeof(Index);
   };
+  const double bends_per_element = coarsest.bends.empty() ? 0 : sizeof(Bends<D>);
   double bytes = level_bytes();
   for (int k = 0; k < uniform; ++k) {
+    bytes += elements * bends_per_element;  // the finest mesh has none
     vertices += edges;
     if constexpr (D == 2) {
       edges = 2 * edges + 3 * elements;

@@ -36,7 +36,7 @@ class Separator {
     for (std::size_t i = 0; i < faces.size(); ++i)
       for (std::size_t j = i + 1; j < faces.size(); ++j) {
         const Face<D>&f = mesh_.boundary[faces[i]], &g = mesh_.boundary[faces[j]];
-        if (f.curve < 0 || f.curve != g.curve) continue;
+        if (f.curve < 0 || f.curve != g.curve || mesh_.curves[f.curve].kind == Curve<D>::Kind::elements) continue;
         const Index c = missing(e, f), d = missing(e, g);
         if (!on_boundary(c, d)) {
           bisect(c, d);
@@ -73,6 +73,7 @@ class Separator {
   void bisect_element(Index e, Index c, Index d, Index m) {
     const auto added = static_cast<Index>(mesh_.elements.size());
     mesh_.elements.push_back(mesh_.elements[e]);
+    if (!mesh_.region.empty()) mesh_.region.push_back(mesh_.region[e]);
     std::replace(mesh_.elements[e].begin(), mesh_.elements[e].end(), d, m);
     std::replace(mesh_.elements[added].begin(), mesh_.elements[added].end(), c, m);
     for (const Index v : mesh_.elements[added])

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "core/scene/read_tables.hpp"
@@ -108,6 +109,17 @@ void read_pressure(const TableReader& reader, Scene::Body& body) {
   body.pressure = kind == "linear" ? Pressure::linear : Pressure::constant;
 }
 
+geometry::Surfaces surfaces(const std::string& name) {
+  using enum geometry::Surfaces;
+  if (name == "smooth") return smooth;
+  if (name == "fit") return fit;
+  return name == "facets" ? facets : automatic;
+}
+
+Scene::MeshFile mesh_file(const TableReader& reader) {
+  return {reader.file("mesh"), {surfaces(reader.text("geometry")), reader.number("crease") * std::numbers::pi / 180}};
+}
+
 // The target edge length belongs to the shapes that a mesh generator fills.
 void read_size(const TableReader& reader, Scene::Body& body) {
   const bool structured =
@@ -133,7 +145,9 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   body.source = reader.source();
   body.name = reader.text("name");
   if (body.name.empty()) input_error(reader.origin("name"), "the name is empty");
-  body.shape = spec ? shape(reader, spec->name) : Scene::MeshFile{reader.file("mesh")};
+  body.shape = spec ? shape(reader, spec->name) : mesh_file(reader);
+  for (const char* key : {"geometry", "crease"})
+    if (spec) reader.forbid(key, "beside 'shape': the program knows what it meshes");
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
   if (reader.given("order")) body.order = reader.integer("order");
   body.plane = plane(reader.text("plane"));

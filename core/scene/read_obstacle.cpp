@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "core/base/error.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/table_reader.hpp"
@@ -12,13 +14,18 @@ bool has_normal(const TableReader& reader, const RawTable& table) {
   return reader.given("normal") && std::holds_alternative<RawValue::List>(table.find("normal")->value);
 }
 
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
 Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std::string_view name) {
   if (name == "plane") return Scene::PlaneShape{reader.fields("point"), reader.fields("normal")};
   if (name == "sphere")
     return Scene::SphereShape{reader.fields("center"), reader.field("radius"), reader.flag("inside")};
   if (name == "cylinder")
     return Scene::CylinderShape{reader.fields("center"), reader.fields("axis"), reader.field("radius")};
-  if (name == "surface") return Scene::SurfaceShape{reader.file("file")};
+  if (name == "surface") {
+    if (reader.text("geometry") == "facets") return Scene::SurfaceShape{reader.file("file"), {}};
+    return Scene::SurfaceShape{reader.file("file"), radians(reader.number("crease"))};
+  }
   Scene::ExpressionShape given{reader.field("distance"), {}};
   if (has_normal(reader, table)) given.normal = reader.fields("normal");
   return given;

@@ -25,7 +25,7 @@ struct Converter {
   }
   Result operator()(const Scene::SurfaceShape& s) const {
     try {
-      return geometry::engine().surface(s.file.string());
+      return geometry::engine().surface(s.file.string(), s.crease);
     } catch (const Error& error) {
       const std::string more = surface_complaint(s.file);
       throw Error(error.status(), fmt::format("{}: {}{}{}", origin, error.what(), more.empty() ? "" : "; ", more));

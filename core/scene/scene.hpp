@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/fem/model.hpp"
+#include "core/geometry/body_geometry.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/input/field.hpp"
 #include "core/input/raw.hpp"
@@ -41,6 +42,7 @@ struct Scene {
 
   struct MeshFile {
     std::filesystem::path file;
+    geometry::Reading reading;
   };
 
   using BodyShape = std::variant<MeshFile, Block<2>, geometry::Disk, geometry::Polygon, Block<3>, geometry::Ball,
@@ -97,6 +99,7 @@ struct Scene {
   };
   struct SurfaceShape {
     std::filesystem::path file;
+    std::optional<double> crease = geometry::default_crease;  ///< radians; nothing: facets
   };
   struct ExpressionShape {
     Field distance;

@@ -14,7 +14,8 @@ constexpr KeySpec top[] = {{"title", text, "\"\"", "", "", "what the scene shows
 constexpr KeySpec body[] = {
     {"name", text, nullptr, "", "", "what other tables call the body"},
     {"shape", text, "", "", "", "one of the shapes below; either this or `mesh`"},
-    {"mesh", file, "", "", "", "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU; physical groups become named parts"},
+    {"mesh", file, "", "", "",
+     "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU, of first or second order; physical groups become named parts"},
     {"equation", text, "elasticity", "elasticity | diffusion", "", "diffusion: one scalar unknown"},
     {"young", field, "", "(0, inf)", "", "Young's modulus; required for elasticity"},
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
@@ -28,6 +29,11 @@ constexpr KeySpec body[] = {
      "of quadratic elements where `poisson` is above 0.45, but in plane stress: pressures as unknowns of their own, so "
      "that these do not lock. linear: continuous, the default; constant: one per element; none: displacements alone. "
      "See docs/rubber.md"},
+    {"geometry", text, "auto", "auto | smooth | fit | facets", "",
+     "of a body from a mesh, what its boundary faces stand for. smooth: a smooth surface through the vertices; fit: "
+     "planes, cylinders, cones, spheres, tori (2D: lines, circles), else facets; auto: shapes that fit up to rounding, "
+     "else the mesh's own curved elements, else smooth"},
+    {"crease", number, "35", "(0, 180)", "", "beside `geometry`: faces that meet at more degrees meet at an edge"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };
@@ -119,7 +125,11 @@ constexpr KeySpec cylinder_obstacle[] = {
     {"axis", fields, nullptr, "", "", "direction of the axis; of any length"},
     {"radius", field, nullptr, "(0, inf)", "", "radius"},
 };
-constexpr KeySpec surface_obstacle[] = {{"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"}};
+constexpr KeySpec surface_obstacle[] = {
+    {"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"},
+    {"geometry", text, "smooth", "smooth | facets", "", "smooth: a smooth surface through the vertices"},
+    {"crease", number, "35", "(0, 180)", "", "triangles that meet at more degrees meet at an edge of the obstacle"},
+};
 constexpr KeySpec expression_obstacle[] = {
     {"distance", field, nullptr, "", "", "signed distance, positive outside the obstacle"},
     {"normal", fields, "", "", "",

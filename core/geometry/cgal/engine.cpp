@@ -69,8 +69,8 @@ class CgalEngine : public Engine {
   Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const override {
     return guarded("meshing", [&] { return std::visit([&](const auto& s) { return mesh_of(s, size); }, shape); });
   }
-  std::unique_ptr<DistanceFunction> surface(const std::string& file) const override {
-    return guarded("reading a surface", [&] { return surface_distance(file); });
+  std::unique_ptr<DistanceFunction> surface(const std::string& file, std::optional<double> crease) const override {
+    return guarded("reading a surface", [&] { return surface_distance(file, crease); });
   }
 };
 

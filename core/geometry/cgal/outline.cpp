@@ -21,7 +21,7 @@ Outline outline_of(const Disk& disk) {
   const Point<2>& c = disk.center;
   const double r = disk.radius;
   const Point<2> left{c[0] - r, c[1]}, right{c[0] + r, c[1]};
-  Outline result{shape, {}, Curve<2>{c, r, false}, 2 * r, r, {}};
+  Outline result{shape, {}, Curve<2>{c, r}, 2 * r, r, {}};
   const Point<2> top{c[0], c[1] + r}, bottom{c[0], c[1] - r};
   if (disk.lower_half && disk.right_half)
     result.sides = {{bottom, right, true, "curved"}, {right, c, false, "flat"}, {c, bottom, false, ""}};
@@ -70,7 +70,8 @@ struct Path {
     const double t = std::min(s / length, 1.0);
     if (t == 0) return side.from;
     if (!side.curved) return {std::lerp(side.from[0], side.to[0], t), std::lerp(side.from[1], side.to[1], t)};
-    const auto& [c, r, along_z] = *outline.circle;
+    const Point<2>& c = outline.circle->center;
+    const double r = outline.circle->radius;
     return {c[0] + r * std::cos(first + t * sweep), c[1] + r * std::sin(first + t * sweep)};
   }
 };

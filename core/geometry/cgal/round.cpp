@@ -10,11 +10,19 @@ namespace signorini::geometry {
 
 using std::numbers::pi;
 
+namespace {
+
+Curve<3> upright_cylinder(const Point<3>& center, double radius) {
+  return {.center = center, .radius = radius, .kind = Curve<3>::Kind::cylinder, .axis = {0, 0, 1}};
+}
+
+}  // namespace
+
 RoundDomain::RoundDomain(const Ball& ball)
     : name_(ball.lower_half ? "half_ball" : "ball"),
       units_{ball.center, ball.radius},
-      given_{{ball.center, ball.radius, false}, {}},
-      own_{{{}, 1, false}, {}},
+      given_{{ball.center, ball.radius}, {}},
+      own_{{{}, 1}, {}},
       curved_part_(ball.lower_half ? "curved" : ""),
       low_(-1),
       high_(ball.lower_half ? 0 : 1),
@@ -29,9 +37,9 @@ RoundDomain::RoundDomain(const Ball& ball)
 RoundDomain::RoundDomain(const Cylinder& cylinder)
     : name_("cylinder"),
       units_{cylinder.center, cylinder.radius},
-      given_{{cylinder.center, cylinder.radius, true},
+      given_{upright_cylinder(cylinder.center, cylinder.radius),
              {cylinder.center[2] - cylinder.height / 2, cylinder.center[2] + cylinder.height / 2}},
-      own_{{{}, 1, true}, {}},
+      own_{upright_cylinder({}, 1), {}},
       plane_parts_{"bottom", "top"},
       curved_part_("side") {
   const double height = rounded(cylinder.height / cylinder.radius, shape_digits);
@@ -46,7 +54,7 @@ Box RoundDomain::box() const { return {{-1, -1, low_}, {1, 1, high_}}; }
 
 double RoundShape::square(const Point<3>& p) const {
   const double x = p[0] - curve.center[0], y = p[1] - curve.center[1], z = p[2] - curve.center[2];
-  return x * x + y * y + (curve.along_z ? 0 : z * z);
+  return x * x + y * y + (curve.kind == Curve<3>::Kind::round ? z * z : 0);
 }
 
 bool RoundDomain::inside(const Point<3>& p) const {
@@ -60,7 +68,7 @@ std::optional<Point<3>> RoundDomain::crossing(const Point<3>& a, const Point<3>&
   // The part first <= t <= last of the line that lies in the quadric ...
   const Point<3> v{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, &c = own_.curve.center;
   const Point<3> m{a[0] - c[0], a[1] - c[1], a[2] - c[2]};
-  const double z = own_.curve.along_z ? 0 : 1;
+  const double z = own_.curve.kind == Curve<3>::Kind::round ? 1 : 0;
   const double A = v[0] * v[0] + v[1] * v[1] + z * v[2] * v[2], B = m[0] * v[0] + m[1] * v[1] + z * m[2] * v[2];
   const double C = own_.square(a) - own_.curve.radius * own_.curve.radius, discriminant = B * B - A * C;
   double first = -infinity, last = infinity;
@@ -139,7 +147,7 @@ Point<3> RoundShape::onto_surface(Point<3> p, bool on_crease) const {
   if (plane >= 0 && !on_crease) return p;
   if (plane < 0) return project<3>(curve, p);
   const double height = p[2];
-  p = project<3>(Curve<3>{curve.center, curve.radius, true}, p);
+  p = project<3>(upright_cylinder(curve.center, curve.radius), p);
   p[2] = height;
   return p;
 }

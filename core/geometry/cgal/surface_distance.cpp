@@ -8,8 +8,10 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/cgal/nearest.hpp"
+#include "core/geometry/cgal/patch_foot.hpp"
 #include "core/geometry/cgal/triangle_surface.hpp"
 #include "core/geometry/faceted_distance.hpp"
+#include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -33,13 +35,15 @@ Point<3> unit(const Point<3>& a) {
   return l > 0 ? Point<3>{a[0] / l, a[1] / l, a[2] / l} : Point<3>{};
 }
 
-/// The point of a triangle nearest to another point.
+/// The point of a triangle, or of the patch on it, nearest to another point.
 struct Foot {
   Index triangle;
   Point<3> at;
   Point<3> offset;  ///< from there to the point
   double distance;
   bool perpendicular;  ///< the offset is along the triangle's normal
+  Point<3> normal;     ///< of unit length
+  std::array<double, 3> weights;
 };
 
 /// Signs by the inside of a closed surface, and for an open one by pseudonormals: the faces' normals at an edge, and
@@ -47,9 +51,13 @@ struct Foot {
 /// Normals are the gradient of the distance, on the surface pseudonormals. Where several points of the surface are
 /// nearest, on the bisector of a valley, -u'n_k <= d for each of them, and so for the mean: with its unit vector n the
 /// distance is that along n, longer than d. What is within rounding counts as the same.
+///
+/// On a smooth surface the same holds for its patches. Next to it, where the triangles do not tell the inside, signs
+/// are those of an open surface.
 class SurfaceDistance : public FacetedDistance {
  public:
-  explicit SurfaceDistance(const std::string& file) : surface_(file, TriangleSurface::Coordinates::centred) {
+  SurfaceDistance(const std::string& file, std::optional<double> crease)
+      : surface_(file, TriangleSurface::Coordinates::centred) {
     const auto [low, high] = surface_.box();
     const double diameter = length<3>(difference<3>(high, low));
     rounding_ = 16 * std::numeric_limits<double>::epsilon() * (diameter + length<3>(surface_.units().origin));
@@ -58,9 +66,11 @@ class SurfaceDistance : public FacetedDistance {
       const auto p = corners(static_cast<Index>(t));
       face_normals_.push_back(unit(cross(difference<3>(p[1], p[0]), difference<3>(p[2], p[0]))));
     }
+    if (crease) smooth(*crease);
   }
 
   double sagitta_at(const double* point) const noexcept override {
+    if (!patches_.empty()) return 0;
     try {
       const Point<3> p = difference<3>({point[0], point[1], point[2]}, surface_.units().origin);
       const Index t = surface_.nearest_triangle(p);
@@ -93,7 +103,8 @@ class SurfaceDistance : public FacetedDistance {
     const Point<3> p = difference<3>(given, surface_.units().origin);
     const std::vector<Foot> feet = nearest(p);
     const Point<3> outer = pseudonormal(feet);
-    const bool behind = surface_.closed() ? surface_.inside(p) : dot(feet[0].offset, outer) < 0;
+    const bool told = surface_.closed() && (patches_.empty() || feet[0].distance > most_bulge_);
+    const bool behind = told ? surface_.inside(p) : dot(feet[0].offset, outer) < 0;
     const double sign = behind ? -1 : 1;
     if (feet[0].distance <= same_) return {sign * feet[0].distance, {outer[0], outer[1], outer[2]}};
     const Point<3> mean = gradient(feet, sign), n = unit(mean);
@@ -107,10 +118,14 @@ class SurfaceDistance : public FacetedDistance {
     double least = infinity;
     const auto reach = [&] { return least + (least > same_ ? rounding_ : same_); };
     surface_.approach(p, [&](Index t) {
-      feet.push_back(foot(p, t));
-      least = std::min(least, feet.back().distance);
-      if (feet.back().distance > reach()) feet.pop_back();
-      return reach();
+      Foot found = foot(p, t);
+      if (!is_flat(t)) {
+        if (found.distance - bulge_[t] > reach()) return reach() + most_bulge_;
+        found = curved_foot(p, found);
+      }
+      least = std::min(least, found.distance);
+      if (found.distance <= reach()) feet.push_back(found);
+      return reach() + most_bulge_;
     });
     std::erase_if(feet, [limit = reach()](const Foot& f) { return f.distance > limit; });
     const auto near = [&](const Foot& f) { return f.distance <= least + rounding_; };
@@ -133,26 +148,43 @@ class SurfaceDistance : public FacetedDistance {
     const bool perpendicular = length<3>(aside) <= rounding_;
     if (perpendicular) add(offset = {}, height, face_normals_[t]);
     add(at, -1, offset);
-    return {t, at, offset, length<3>(offset), perpendicular};
+    return {t, at, offset, length<3>(offset), perpendicular, face_normals_[t], weights};
+  }
+
+  bool is_flat(Index t) const { return patches_.empty() || bulge_[t] <= rounding_; }
+
+  /// On the patch, from that on its triangle.
+  Foot curved_foot(const Point<3>& p, const Foot& flat) const {
+    const PatchFoot on = nearest_on_patch(patches_[flat.triangle], p, flat.weights);
+    const Point<3> offset = difference<3>(p, on.at);
+    return {flat.triangle, on.at, offset, length<3>(offset), on.inside, unit(on.normal), on.weights};
+  }
+
+  void smooth(double crease) {
+    patches_ = smooth_boundary<3>(surface_.points(), surface_.triangles(), crease).patches;
+    for (const CubicPatch<3>& patch : patches_) bulge_.push_back(bulge<3>(patch));
+    most_bulge_ = bulge_.empty() ? 0 : *std::ranges::max_element(bulge_);
   }
 
   /// The mean of the normals around the nearest point, weighted by the angle that each face takes there.
   Point<3> pseudonormal(const std::vector<Foot>& feet) const {
     Point<3> sum{};
     for (const Foot& f : feet)
-      if (length<3>(difference<3>(f.at, feet[0].at)) <= 2 * same_) add(sum, angle_at(f), face_normals_[f.triangle]);
-    return length<3>(sum) > 1e-9 ? unit(sum) : face_normals_[feet[0].triangle];
+      if (length<3>(difference<3>(f.at, feet[0].at)) <= 2 * same_) add(sum, angle_at(f), f.normal);
+    return length<3>(sum) > 1e-9 ? unit(sum) : feet[0].normal;
   }
 
   /// Of a triangle at a point of it: at an edge half a turn, inside a full one.
   double angle_at(const Foot& foot) const {
     const auto p = corners(foot.triangle);
+    const bool curved = !is_flat(foot.triangle);
     double angle = 2 * std::numbers::pi;
     for (std::size_t k = 0; k < 3; ++k) {
+      if (curved && foot.weights[(k + 2) % 3] == 0) angle = std::numbers::pi;
       const Point<3> u = difference<3>(p[(k + 1) % 3], p[k]), v = difference<3>(p[(k + 2) % 3], p[k]);
       const Point<3> x = difference<3>(foot.at, p[k]);
       if (length<3>(x) <= same_) return std::atan2(length<3>(cross(u, v)), dot(u, v));
-      if (length<3>(cross(u, x)) <= same_ * length<3>(u)) angle = std::numbers::pi;
+      if (!curved && length<3>(cross(u, x)) <= same_ * length<3>(u)) angle = std::numbers::pi;
     }
     return angle;
   }
@@ -194,12 +226,15 @@ class SurfaceDistance : public FacetedDistance {
   TriangleSurface surface_;
   double rounding_, same_;  ///< lengths up to which positions are one: computed, and on the surface
   std::vector<Point<3>> face_normals_;
+  std::vector<CubicPatch<3>> patches_;  ///< per triangle of a smooth surface
+  std::vector<double> bulge_;           ///< of each, and the largest
+  double most_bulge_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<DistanceFunction> surface_distance(const std::string& file) {
-  return std::make_unique<SurfaceDistance>(file);
+std::unique_ptr<DistanceFunction> surface_distance(const std::string& file, std::optional<double> crease) {
+  return std::make_unique<SurfaceDistance>(file, crease);
 }
 
 }  // namespace signorini::geometry

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/sdk/settings.hpp"
@@ -7,6 +8,6 @@
 namespace signorini::geometry {
 
 /// Signed distance to a triangle surface file, see Engine::surface.
-std::unique_ptr<DistanceFunction> surface_distance(const std::string& file);
+std::unique_ptr<DistanceFunction> surface_distance(const std::string& file, std::optional<double> crease);
 
 }  // namespace signorini::geometry

@@ -52,7 +52,7 @@ TEST(Fixes, CurvedPartsHaveOneAveragedNormal) {
     mesh.elements.push_back({0, 1 + k, 1 + (k + 1) % 8});
     mesh.boundary.push_back({{1 + k, 1 + (k + 1) % 8}, k, 0});
   }
-  mesh.curves = {{{0, 0}, 1, false}};
+  mesh.curves = {{{0, 0}, 1}};
   Model<2> model;
   model.fixes.push_back(fix<2>({}, {0.25, std::nullopt}, Frame::normal));
   for (const auto& f : collect_fixes(mesh, model)) {

@@ -75,7 +75,7 @@ void expect_on_curves(const Mesh<D>& mesh) {
     const Curve<D>& curve = mesh.curves.at(face.curve);
     for (const Index v : face.vertices) {
       Point<D> radial = difference<D>(mesh.points[v], curve.center);
-      if (curve.along_z) radial[D - 1] = 0;
+      if (curve.kind == Curve<D>::Kind::cylinder) radial[D - 1] = 0;
       EXPECT_NEAR(length<D>(radial), curve.radius, 1e-14 * curve.radius);
     }
   }

@@ -48,6 +48,28 @@ Sample sample_of(const Mesh<D>& mesh) {
   return sample;
 }
 
+/// The sample with second-order cells: a node on every edge where `middle` puts it, edges in the order of Gmsh or VTK
+/// (the nodes 8 and 9 of tetrahedra change places).
+template <class Middle>
+Sample second_order(Sample sample, const Middle& middle, bool vtk) {
+  std::map<std::pair<Index, Index>, Index> between;
+  const auto node = [&](Index a, Index b) {
+    const auto [entry, is_new] = between.try_emplace(std::minmax(a, b), static_cast<Index>(sample.points.size()));
+    if (is_new) sample.points.push_back(middle(sample.points[a], sample.points[b]));
+    return entry->second;
+  };
+  for (SampleBlock& block : sample.blocks)
+    for (auto& cell : block.cells) {
+      std::vector<std::pair<int, int>> edges{{0, 1}};
+      if (block.dimension >= 2) edges.insert(edges.end(), {{1, 2}, {2, 0}});
+      if (block.dimension == 3) edges.insert(edges.end(), {{3, 0}, {3, 2}, {3, 1}});
+      if (block.dimension == 3 && vtk) std::swap(edges[4], edges[5]);
+      const std::vector<Index> corners = cell;
+      for (const auto& [a, b] : edges) cell.push_back(node(corners[a], corners[b]));
+    }
+  return sample;
+}
+
 /// Numbers as bytes of either order.
 class ByteWriter {
  public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/mesh/structured.hpp"
+#include "curved_meshes.hpp"
 #include "msh_samples.hpp"
 #include "tests/core/mesh/mesh_checks.hpp"
 
@@ -41,6 +42,13 @@ void expect_read_back(const Mesh<D>& mesh, MshVariant variant) {
 
 TEST_P(Msh, GivesBackAPlate) { expect_read_back(plate(), GetParam()); }
 TEST_P(Msh, GivesBackABrick) { expect_read_back(brick(), GetParam()); }
+
+TEST_P(Msh, SecondOrderElementsAreCurved) {
+  test::expect_curved<2>(
+      plate(), [&](const Sample& s) { return read_msh(MshWriter(s, GetParam()).write(), "file.msh"); }, false);
+  test::expect_curved<3>(
+      brick(), [&](const Sample& s) { return read_msh(MshWriter(s, GetParam()).write(), "file.msh"); }, false);
+}
 
 TEST_P(Msh, TellsGroupsThatAreNoParts) {
   Sample sample = sample_of(plate());
@@ -232,8 +240,8 @@ TEST(MshErrors, NameTheTypeOfElementsThatAreNotRead) {
                                    {5, "hexahedron"},
                                    {6, "prism"},
                                    {7, "pyramid"},
-                                   {9, "second-order triangle"},
-                                   {11, "second-order tetrahedron"},
+                                   {21, "third-order triangle"},
+                                   {10, "second-order quadrangle"},
                                    {93, "type 93"}})
     EXPECT_THAT(complaint(with(gmsh_22, "2 4 2 2 1", fmt::format("2 {} 2 2 1", type))),
                 AllOf(HasSubstr("element 2"), HasSubstr(name)));

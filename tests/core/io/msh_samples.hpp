@@ -45,7 +45,11 @@ class MshWriter : ByteWriter {
   using Size = std::uint64_t;
 
   Offset tag(std::size_t node) const { return 1 + static_cast<Offset>(node) * variant_.stride; }
-  static int type(int dimension) { return dimension == 1 ? 1 : dimension == 2 ? 2 : 4; }
+  static int type(const SampleBlock& block) {
+    constexpr int linear[] = {15, 1, 2, 4}, quadratic[] = {15, 8, 9, 11};
+    const bool second = !block.cells.empty() && static_cast<int>(block.cells[0].size()) > block.dimension + 1;
+    return (second ? quadratic : linear)[block.dimension];
+  }
 
   void write_entities() {
     out += "$Entities\n";
@@ -115,13 +119,13 @@ class MshWriter : ByteWriter {
     for (const SampleBlock& block : sample_.blocks)
       for (const int physical : block.physicals) {
         if (variant_.binary) {
-          put<Int>(type(block.dimension));
+          put<Int>(type(block));
           put<Int>(static_cast<Int>(block.cells.size()));
           put<Int>(2);
         }
         for (const auto& cell : block.cells) {
           put<Int>(++number);
-          if (!variant_.binary) out += fmt::format("{} 2 ", type(block.dimension));
+          if (!variant_.binary) out += fmt::format("{} 2 ", type(block));
           put<Int>(physical);
           put<Int>(block.tag);
           for (const Index v : cell) put<Int>(static_cast<Int>(tag(v)));
@@ -141,7 +145,7 @@ class MshWriter : ByteWriter {
     for (const SampleBlock& block : sample_.blocks) {
       put<Int>(block.dimension);
       put<Int>(block.tag);
-      put<Int>(type(block.dimension));
+      put<Int>(type(block));
       put<Size>(block.cells.size(), '\n');
       for (const auto& cell : block.cells) {
         put<Size>(++number);

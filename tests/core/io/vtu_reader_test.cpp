@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/mesh/structured.hpp"
+#include "curved_meshes.hpp"
 #include "tests/core/mesh/mesh_checks.hpp"
 #include "vtu_samples.hpp"
 
@@ -42,6 +43,12 @@ void expect_read_back(const Mesh<D>& mesh, VtuVariant variant) {
 
 TEST_P(Vtu, GivesBackAPlate) { expect_read_back(rectangle({0, 0}, {3, 2}, {3, 2}), GetParam()); }
 TEST_P(Vtu, GivesBackABrick) { expect_read_back(box({0, 0, 0}, {1, 2, 3}, {1, 2, 3}), GetParam()); }
+
+TEST_P(Vtu, QuadraticCellsAreCurved) {
+  const auto read = [&](const test::Sample& s) { return read_vtu(VtuWriter(s, GetParam()).write(), "file.vtu"); };
+  test::expect_curved<2>(rectangle({0, 0}, {3, 2}, {3, 2}), read, true);
+  test::expect_curved<3>(box({0, 0, 0}, {1, 2, 3}, {1, 2, 3}), read, true);
+}
 
 TEST_P(Vtu, CutOffAnywhereIsAnError) {
   const std::string file = VtuWriter(sample_of(rectangle({0, 0}, {1, 1}, {1, 1})), GetParam()).write();
@@ -106,7 +113,8 @@ TEST(VtuErrors, NameTheLineAndWhatIsWrong) {
   EXPECT_THAT(complaint("0 1 2", "0 1 x"), AllOf(HasSubstr("file.vtu:8:"), HasSubstr("'x'")));
   EXPECT_THAT(complaint("0 1 2", "0 1"), AllOf(HasSubstr("connectivity"), HasSubstr("2 numbers, expected 3")));
   EXPECT_THAT(complaint(">5<", ">9<"), AllOf(HasSubstr("cell 0"), HasSubstr("quadrilateral")));
-  EXPECT_THAT(complaint(">5<", ">22<"), HasSubstr("quadratic triangle"));
+  EXPECT_THAT(complaint(">5<", ">22<"), HasSubstr("cell 0 has 3 vertices, expected 6"));
+  EXPECT_THAT(complaint(">5<", ">25<"), HasSubstr("quadratic hexahedron"));
   EXPECT_THAT(complaint(">3<", ">-3<"), HasSubstr("offsets"));
   EXPECT_THAT(complaint("0 0 0 1 0 0", "0 nan 0 1 0 0"), AllOf(HasSubstr("point 0"), HasSubstr("nan")));
   EXPECT_THAT(complaint("NumberOfPoints=\"3\"", "NumberOfPoints=\"2000000000\""), HasSubstr("9 numbers"));

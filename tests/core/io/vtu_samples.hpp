@@ -60,7 +60,9 @@ class VtuWriter {
         connectivity.insert(connectivity.end(), cell.begin(), cell.end());
         offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
         groups.push_back(block.physicals[0]);
-        types.push_back(block.dimension == 1 ? 3 : block.dimension == 2 ? 5 : 10);
+        constexpr int linear[] = {1, 3, 5, 10}, quadratic[] = {1, 21, 22, 24};
+        const bool second = static_cast<int>(cell.size()) > block.dimension + 1;
+        types.push_back(static_cast<std::uint8_t>((second ? quadratic : linear)[block.dimension]));
       }
     std::string file = fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "

@@ -83,7 +83,7 @@ Mesh<3> hexagonal_prism() {
     }
   }
   mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
-  mesh.curves = {{.center = {0, 0, 0}, .radius = 0.5, .along_z = true}};
+  mesh.curves = {{.center = {0, 0, 0}, .radius = 0.5, .kind = Curve<3>::Kind::cylinder, .axis = {0, 0, 1}}};
   mesh.parts = {{"bottom", {}}, {"top", {}}, {"side", {}}};
   for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
     const auto at = [&](double z) {
@@ -343,7 +343,8 @@ TEST(Refine, MovesThatWouldInvertAnElementAreCutBack) {
 }
 
 TEST(Curve, ProjectionIsTheNearestPoint) {
-  const Curve<3> sphere{.center = {1, 2, 3}, .radius = 2}, cylinder{.center = {1, 2, 3}, .radius = 2, .along_z = true};
+  const Curve<3> sphere{.center = {1, 2, 3}, .radius = 2},
+      cylinder{.center = {1, 2, 3}, .radius = 2, .kind = Curve<3>::Kind::cylinder, .axis = {0, 0, 1}};
   const Point<3> on_sphere = project<3>(sphere, {1, 5, 7}), on_cylinder = project<3>(cylinder, {4, 6, 9});
   EXPECT_NEAR(on_sphere[1], 2 + 2 * 0.6, 1e-15);
   EXPECT_NEAR(on_sphere[2], 3 + 2 * 0.8, 1e-15);

@@ -26,7 +26,7 @@ Mesh<D> inscribed(std::vector<Point<D>> points, std::vector<std::array<Index, D 
   mesh.points = std::move(points);
   mesh.elements = std::move(elements);
   mesh.boundary = find_boundary<D>(mesh.vertices(), mesh.elements);
-  mesh.curves.push_back({{}, 1.0, false});
+  mesh.curves.push_back({{}, 1.0});
   for (Face<D>& face : mesh.boundary) face.curve = 0;
   return mesh;
 }

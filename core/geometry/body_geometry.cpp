@@ -1,0 +1,370 @@
+#include "core/geometry/body_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/base/dot.hpp"
+#include "core/geometry/recognise.hpp"
+#include "core/mesh/bends.hpp"
+#include "core/mesh/curve.hpp"
+#include "core/mesh/separate.hpp"
+#include "core/mesh/simplex.hpp"
+
+namespace signorini::geometry {
+namespace {
+
+// Of the size of a piece: what digits in a file round away, what is flat, and what "fit" takes for a shape.
+constexpr double rounding = 1e-6, flat = 1e-9, near = 1e-3;
+
+template <int D>
+Point<D> unit_normal(const Mesh<D>& mesh, const Face<D>& face) {
+  const auto& p = mesh.points;
+  const Point<D> u = difference<D>(p[face.vertices[1]], p[face.vertices[0]]);
+  Point<D> n;
+  if constexpr (D == 2)
+    n = {u[1], -u[0]};
+  else
+    n = cross(u, difference<D>(p[face.vertices[2]], p[face.vertices[0]]));
+  const double size = length<D>(n);
+  for (double& x : n) x /= size;
+  return n;
+}
+
+/// Of curved elements: see JointNormal. With the bends c of the edges, the derivative along edge ab at its end a is
+/// b - a + 4 c_ab, and that of face abc from the middle of ab towards c is c - (a + b) / 2 + 2 c_ac + 2 c_bc - 2 c_ab.
+template <int D>
+Point<D> curved_normal(const Mesh<D>& mesh, std::size_t f, int tip) {
+  const Face<D>& face = mesh.boundary[f];
+  const Simplex<D>& element = mesh.elements[face.element];
+  const auto bend = [&](int i, int j) {
+    const auto at = [&](int k) {
+      return static_cast<int>(std::ranges::find(element, face.vertices[k]) - element.begin());
+    };
+    return mesh.bends[face.element][edge_between<D>(at(i), at(j))];
+  };
+  const auto p = [&](int i) { return mesh.points[face.vertices[i]]; };
+  const auto plus = [](Point<D> a, double factor, const Point<D>& b) {
+    for (int k = 0; k < D; ++k) a[k] += factor * b[k];
+    return a;
+  };
+  Point<D> n;
+  if constexpr (D == 2) {
+    const Point<D> along = plus(difference<D>(p(1), p(0)), tip == 1 ? 4 : -4, bend(0, 1));
+    n = {along[1], -along[0]};
+  } else {
+    const int a = (tip + 1) % 3, b = (tip + 2) % 3;
+    Point<D> up = difference<D>(p(tip), midpoint<D>(p(a), p(b)));
+    up = plus(plus(plus(up, 2, bend(a, tip)), 2, bend(b, tip)), -2, bend(a, b));
+    n = cross(difference<D>(p(b), p(a)), up);
+  }
+  const double size = length<D>(n);
+  for (double& x : n) x /= size;
+  return n;
+}
+
+template <int D>
+class Chooser {
+ public:
+  Chooser(Mesh<D>& mesh, Surfaces surfaces, double crease) : mesh_(mesh), surfaces_(surfaces), crease_(crease) {
+    for (const Face<D>& face : mesh.boundary) faces_.push_back(face.vertices);
+  }
+
+  void run() {
+    if (!mesh_.bends.empty() && surfaces_ == Surfaces::automatic) return keep_elements();
+    mesh_.bends = {};
+    mesh_.curves.clear();
+    for (Face<D>& face : mesh_.boundary) face.curve = -1;
+    smooth_ = smooth_boundary<D>(mesh_.points, faces_, crease_);
+    for (const std::vector<Index>& piece : pieces()) choose(piece);
+    move_onto_shapes();
+    if (patches_) mesh_.patches = std::make_shared<const std::vector<CubicPatch<D>>>(std::move(smooth_.patches));
+    separate_curved_faces(mesh_);
+  }
+
+ private:
+  /// Curved faces that meet at an edge of the body are on different curves. Where all nodes are on a shape, that is
+  /// what they were put on.
+  void keep_elements() {
+    smooth_ = smooth_boundary<D>(mesh_.points, faces_, crease_,
+                                 [&](std::size_t face, int tip) { return curved_normal(mesh_, face, tip); });
+    mesh_.curves = {{.kind = CurveKind::elements}};  // what is not renumbered below
+    for (const std::vector<Index>& piece : pieces()) {
+      const auto curved = [&](Index f) { return mesh_.boundary[f].curve >= 0; };
+      if (std::ranges::none_of(piece, curved)) {
+        note(flat_kind(), piece, 0);
+        continue;
+      }
+      if (fit(piece)) continue;
+      note("second order", piece, off_of_elements(piece));
+      for (const Index f : piece)
+        if (curved(f)) mesh_.boundary[f].curve = static_cast<Index>(mesh_.curves.size());
+      mesh_.curves.push_back({.kind = Curve<D>::Kind::elements});
+    }
+  }
+
+  double off_of_elements(const std::vector<Index>& piece) const {
+    double most = 0;
+    for (const Index f : piece) {
+      const Face<D>& face = mesh_.boundary[f];
+      const Point<D> n = unit_normal(mesh_, face);
+      constexpr auto edges = simplex_edges<D>();
+      for (std::size_t k = 0; k < edges.size(); ++k) {
+        const auto on_face = [&](int i) {
+          return std::ranges::count(face.vertices, mesh_.elements[face.element][i]) > 0;
+        };
+        if (on_face(edges[k][0]) && on_face(edges[k][1]))
+          most = std::max(most, std::abs(dot(mesh_.bends[face.element][k], n)));
+      }
+    }
+    return most;
+  }
+
+  std::vector<std::vector<Index>> pieces() const {
+    std::vector<std::vector<Index>> out(static_cast<std::size_t>(smooth_.pieces));
+    for (std::size_t f = 0; f < faces_.size(); ++f) out[smooth_.piece[f]].push_back(static_cast<Index>(f));
+    return out;
+  }
+
+  static const char* flat_kind() { return D == 2 ? "line" : "plane"; }
+
+  double size_of(const std::vector<Index>& piece) const {
+    Point<D> low, high;
+    low.fill(infinity);
+    high.fill(-infinity);
+    for (const Index f : piece)
+      for (const Index v : faces_[f])
+        for (int k = 0; k < D; ++k) {
+          low[k] = std::min(low[k], mesh_.points[v][k]);
+          high[k] = std::max(high[k], mesh_.points[v][k]);
+        }
+    return length<D>(difference<D>(high, low));
+  }
+
+  void note(const std::string& kind, const std::vector<Index>& piece, double deviation,
+            const Curve<D>* curve = nullptr) {
+    SurfacePiece& out = mesh_.pieces.emplace_back(SurfacePiece{kind, static_cast<Index>(piece.size()), deviation});
+    out.size = size_of(piece);
+    if (!curve) return;
+    out.center.assign(curve->center.begin(), curve->center.end());
+    if (curve->kind != Curve<D>::Kind::round) out.axis.assign(curve->axis.begin(), curve->axis.end());
+    out.radius = curve->radius;
+    out.second = curve->second;
+  }
+
+  void choose(const std::vector<Index>& piece) {
+    const double size = size_of(piece);
+    if (const double off = off_plane(piece); off <= (surfaces_ == Surfaces::fit ? near : flat) * size)
+      return note(flat_kind(), piece, off);
+    if (surfaces_ == Surfaces::facets) return note("facets", piece, off_patches(piece));
+    if (surfaces_ == Surfaces::smooth) return make_smooth(piece);
+    std::vector<Index> left = piece;
+    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts}) fit_groups(left, by);
+    if (left.empty()) return;
+    if (surfaces_ == Surfaces::fit) return note("facets", left, off_patches(left));
+    make_smooth(left);
+  }
+
+  /// What faces of one group have in common, beside that they are connected.
+  enum class Grouping { none, flatness, parts };
+
+  /// Leaves those faces whose group is no shape.
+  void fit_groups(std::vector<Index>& faces, Grouping by) {
+    std::vector<Index> left;
+    for (const std::vector<Index>& group : groups(faces, by)) {
+      if (const double off = off_plane(group); off <= flat * size_of(group))
+        note(flat_kind(), group, off);
+      else if (!fit(group))
+        left.insert(left.end(), group.begin(), group.end());
+    }
+    faces = std::move(left);
+  }
+
+  std::vector<std::vector<Index>> groups(const std::vector<Index>& faces, Grouping by) {
+    if (parts_of_.empty()) {
+      parts_of_.resize(faces_.size());
+      for (std::size_t k = 0; k < mesh_.parts.size(); ++k)
+        for (const Index f : mesh_.parts[k].faces) parts_of_[f].push_back(static_cast<Index>(k));
+    }
+    std::map<std::array<Index, D - 1>, std::vector<Index>> at;
+    std::map<Index, bool> open;
+    for (const Index f : faces) {
+      open[f] = true;
+      for (int tip = 0; tip < D; ++tip) at[joint(f, tip)].push_back(f);
+    }
+    std::vector<std::vector<Index>> out;
+    const auto together = [&](Index f, Index g) {
+      return (by == Grouping::none || smooth_.flat[f] == smooth_.flat[g]) &&
+             (by != Grouping::parts || parts_of_[f] == parts_of_[g]);
+    };
+    for (const Index first : faces) {
+      if (!std::exchange(open[first], false)) continue;
+      std::vector<Index> group{first};
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const Index f = group[i];
+        for (int tip = 0; tip < D; ++tip)
+          for (const Index g : at[joint(f, tip)])
+            if (together(f, g) && std::exchange(open[g], false)) group.push_back(g);
+      }
+      out.push_back(std::move(group));
+    }
+    return out;
+  }
+
+  std::array<Index, D - 1> joint(Index f, int tip) const {
+    std::array<Index, D - 1> out;
+    for (int i = 0; i < D - 1; ++i) out[i] = faces_[f][(tip + 1 + i) % D];
+    return sorted(out);
+  }
+
+  double off_plane(const std::vector<Index>& piece) const {
+    Point<D> n{}, middle{};
+    double count = 0;
+    for (const Index f : piece) {
+      const Point<D> own = unit_normal(mesh_, mesh_.boundary[f]);
+      for (int k = 0; k < D; ++k) n[k] += own[k];
+      for (const Index v : faces_[f]) {
+        for (int k = 0; k < D; ++k) middle[k] += mesh_.points[v][k];
+        ++count;
+      }
+    }
+    for (double& x : middle) x /= count;
+    const double size = length<D>(n);
+    double most = 0;
+    for (const Index f : piece)
+      for (const Index v : faces_[f])
+        most = std::max(most, std::abs(dot(difference<D>(mesh_.points[v], middle), n)) / size);
+    return size > 0 ? most : infinity;
+  }
+
+  double off_patches(const std::vector<Index>& piece) const {
+    double most = 0;
+    for (const Index f : piece) most = std::max(most, bulge<D>(smooth_.patches[f]));
+    return most;
+  }
+
+  void make_smooth(const std::vector<Index>& piece) {
+    const double off = off_patches(piece);
+    bool any = false;
+    for (const Index f : piece) {
+      if (bulge<D>(smooth_.patches[f]) <= flat * size_of({f})) continue;
+      mesh_.boundary[f].curve = static_cast<Index>(mesh_.curves.size());
+      any = true;
+    }
+    note(any ? "smooth" : "facets", piece, off);
+    if (any) mesh_.curves.push_back({.kind = Curve<D>::Kind::patches});
+    patches_ = patches_ || any;
+  }
+
+  bool fit(const std::vector<Index>& piece) {
+    std::vector<Point<D>> points, normals;
+    std::set<Index> seen;
+    for (const Index f : piece)
+      for (int i = 0; i < D; ++i)
+        if (seen.insert(faces_[f][i]).second) {
+          points.push_back(mesh_.points[faces_[f][i]]);
+          normals.push_back(smooth_.normals[f][i]);
+        }
+    if (!mesh_.bends.empty()) add_middles(piece, points, normals);
+    const double size = size_of(piece);
+    const auto found =
+        recognise<D>(points, normals, rounding * size, (surfaces_ == Surfaces::fit ? near : rounding) * size);
+    if (!found || !is_along(found->curve, piece)) return false;
+    const auto number = static_cast<Index>(mesh_.curves.size());
+    mesh_.curves.push_back(found->curve);
+    for (const Index f : piece) mesh_.boundary[f].curve = number;
+    note(name(found->curve.kind), piece, found->deviation, &found->curve);
+    return true;
+  }
+
+  /// Of the edges of curved faces.
+  void add_middles(const std::vector<Index>& piece, std::vector<Point<D>>& points,
+                   std::vector<Point<D>>& normals) const {
+    constexpr auto edges = simplex_edges<D>();
+    for (const Index f : piece) {
+      const Face<D>& face = mesh_.boundary[f];
+      const Simplex<D>& element = mesh_.elements[face.element];
+      const auto on_face = [&](int i) { return std::ranges::count(face.vertices, element[i]) > 0; };
+      for (std::size_t k = 0; k < edges.size(); ++k) {
+        if (!on_face(edges[k][0]) || !on_face(edges[k][1])) continue;
+        Point<D> p = midpoint<D>(mesh_.points[element[edges[k][0]]], mesh_.points[element[edges[k][1]]]);
+        for (int d = 0; d < D; ++d) p[d] += mesh_.bends[face.element][k][d];
+        points.push_back(p);
+        normals.push_back(unit_normal(mesh_, face));
+      }
+    }
+  }
+
+  static const char* name(CurveKind kind) {
+    using enum CurveKind;
+    if (kind == round) return D == 2 ? "circle" : "sphere";
+    return kind == cylinder ? "cylinder" : kind == cone ? "cone" : "torus";
+  }
+
+  /// Whether faces lie along the shape, and it does not turn far over one: points alone may be on shapes that they do
+  /// not stand for.
+  bool is_along(const Curve<D>& curve, const std::vector<Index>& piece) const {
+    const double cosine = std::cos((D == 2 ? 0.6 : 0.8) * crease_);  // of a side, and of a triangle's longest
+    int side = 0;
+    return std::ranges::all_of(piece, [&](Index f) {
+      const Point<D> n = unit_normal(mesh_, mesh_.boundary[f]);
+      return std::ranges::all_of(faces_[f], [&](Index v) {
+        const auto off = height<D>(curve, mesh_.points[v]);
+        if (!off) return false;
+        const double along = dot(off->normal, n);
+        const int here = along > 0 ? 1 : -1;
+        if (side == 0) side = here;
+        return here == side && std::abs(along) >= cosine;
+      });
+    });
+  }
+
+  /// Vertices where shapes and planes meet go to all of them.
+  void move_onto_shapes() {
+    std::map<Index, std::vector<Index>> faces_at;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      for (const Index v : faces_[f]) faces_at[v].push_back(static_cast<Index>(f));
+    std::vector<Move<D>> moves;
+    for (const auto& [v, faces] : faces_at) {
+      std::vector<const Curve<D>*> shapes;
+      std::vector<Flat<D>> planes;
+      double near_by = 0;
+      for (const Index f : faces) {
+        const Index number = mesh_.boundary[f].curve;
+        if (number >= 0 && !mesh_.curves[number].is_shape()) continue;
+        near_by = std::max(near_by, size_of({f}));
+        if (number >= 0) {
+          if (std::ranges::count(shapes, &mesh_.curves[number]) == 0) shapes.push_back(&mesh_.curves[number]);
+        } else {
+          planes.push_back({mesh_.points[v], unit_normal(mesh_, mesh_.boundary[f])});
+        }
+      }
+      if (shapes.empty()) continue;
+      const Point<D> target = project<D>(shapes, planes, mesh_.points[v], near_by);
+      if (length<D>(difference<D>(target, mesh_.points[v])) > 1e-13 * near_by) moves.push_back({v, target});
+    }
+    move_vertices(mesh_, moves);
+  }
+
+  Mesh<D>& mesh_;
+  Surfaces surfaces_;
+  double crease_;
+  std::vector<std::array<Index, D>> faces_;
+  SmoothBoundary<D> smooth_;
+  std::vector<std::vector<Index>> parts_of_;
+  bool patches_ = false;
+};
+
+}  // namespace
+
+template <int D>
+void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease) {
+  Chooser<D>(mesh, surfaces, crease).run();
+}
+
+template void give_geometry(Mesh<2>&, Surfaces, double);
+template void give_geometry(Mesh<3>&, Surfaces, double);
+
+}  // namespace signorini::geometry

@@ -1,0 +1,412 @@
+#include "core/geometry/smooth_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "core/base/dot.hpp"
+#include "core/geometry/jet.hpp"
+#include "core/mesh/simplex.hpp"
+#include "core/mesh/subsimplices.hpp"
+
+namespace signorini::geometry {
+namespace {
+
+constexpr double coplanar = 1e-6;    // sine of the angle up to which faces are in one plane
+constexpr double least_rise = 0.25;  // cosine: how far a jet looks around the corner
+
+template <int D>
+Point<D> scaled(double factor, Point<D> p) {
+  for (double& x : p) x *= factor;
+  return p;
+}
+
+template <int D>
+void add(Point<D>& sum, double factor, const Point<D>& p) {
+  for (int k = 0; k < D; ++k) sum[k] += factor * p[k];
+}
+
+/// a / |a|, or zero where a is zero.
+template <int D>
+Point<D> unit(const Point<D>& a) {
+  const double l = length<D>(a);
+  return l > 0 ? scaled<D>(1 / l, a) : Point<D>{};
+}
+
+Point<2> area_normal(const std::array<Point<2>, 2>& p) {
+  const Point<2> d = difference<2>(p[1], p[0]);
+  return {d[1], -d[0]};
+}
+Point<3> area_normal(const std::array<Point<3>, 3>& p) {
+  return cross(difference<3>(p[1], p[0]), difference<3>(p[2], p[0]));
+}
+
+/// Numbers that have been found to be one.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : root_(n) { std::iota(root_.begin(), root_.end(), Index{0}); }
+  Index find(Index i) {
+    while (root_[i] != i) i = root_[i] = root_[root_[i]];
+    return i;
+  }
+  void join(Index i, Index j) { root_[find(i)] = find(j); }
+  /// Per number that of its group, from 0 in the order of the first ones.
+  std::vector<Index> numbered(Index& count) {
+    std::vector<Index> number(root_.size(), -1), out(root_.size());
+    count = 0;
+    for (std::size_t i = 0; i < root_.size(); ++i) {
+      Index& n = number[find(static_cast<Index>(i))];
+      if (n < 0) n = count++;
+      out[i] = n;
+    }
+    return out;
+  }
+
+ private:
+  std::vector<Index> root_;
+};
+
+template <int D>
+class Smoother {
+ public:
+  Smoother(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces, double crease,
+           const JointNormal<D>& joint_normal)
+      : points_(points), faces_(faces), cosine_(std::cos(crease)), joint_normal_(joint_normal) {
+    for (const auto& face : faces) normal_.push_back(unit<D>(area_normal(corners_of(face))));
+  }
+
+  SmoothBoundary<D> run() {
+    find_joints();
+    find_sides();
+    find_flats();
+    find_normals();
+    if constexpr (D == 3) find_crease_tangents();
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      out_.patches.push_back(patch(f));
+      auto& normals = out_.normals.emplace_back();
+      for (int i = 0; i < D; ++i) normals[i] = side_normal_[side_[f * D + i]];
+    }
+    out_.flat = std::move(flat_);
+    return std::move(out_);
+  }
+
+ private:
+  std::array<Point<D>, D> corners_of(const std::array<Index, D>& face) const {
+    std::array<Point<D>, D> p;
+    for (int i = 0; i < D; ++i) p[i] = points_[face[i]];
+    return p;
+  }
+
+  std::array<Index, D - 1> joint_of(std::size_t face, int tip) const {
+    std::array<Index, D - 1> out;
+    for (int i = 0; i < D - 1; ++i) out[i] = faces_[face][(tip + 1 + i) % D];
+    return sorted(out);
+  }
+
+  /// What faces have in common; joint `tip` of a face lies opposite to that corner.
+  void find_joints() {
+    const auto count = static_cast<Offset>(faces_.size() * D);
+    if constexpr (D == 2) {
+      for (Offset i = 0; i < count; ++i) joint_.push_back(joint_of(i / D, static_cast<int>(i % D))[0]);
+      joints_ = static_cast<Index>(points_.size());
+    } else {
+      const Numbering edges = number_subsimplices<2>(static_cast<Index>(points_.size()), count, [&](Offset i) {
+        return joint_of(static_cast<std::size_t>(i / D), static_cast<int>(i % D));
+      });
+      joint_ = edges.number;
+      joints_ = edges.distinct;
+    }
+    std::vector<std::array<Index, 2>> at(static_cast<std::size_t>(joints_), {-1, -1});
+    std::vector<int> faces_at(static_cast<std::size_t>(joints_), 0);
+    for (Offset i = 0; i < count; ++i)
+      if (const int k = faces_at[joint_[i]]++; k < 2) at[joint_[i]][k] = static_cast<Index>(i);
+    across_.assign(static_cast<std::size_t>(count), -1);
+    for (Index j = 0; j < joints_; ++j) {
+      if (faces_at[j] != 2) continue;
+      const auto [a, b] = at[j];
+      if (dot(normal_at(a), normal_at(b)) < cosine_) continue;
+      across_[a] = b;
+      across_[b] = a;
+    }
+  }
+
+  Point<D> normal_at(Index i) const {
+    return joint_normal_ ? joint_normal_(i / D, i % D) : normal_[static_cast<std::size_t>(i / D)];
+  }
+
+  /// Corners of faces that belong together: at one vertex, and not across a crease.
+  void find_sides() {
+    Groups sides(faces_.size() * D), pieces(faces_.size());
+    for (Index i = 0; i < static_cast<Index>(across_.size()); ++i) {
+      if (across_[i] < i) continue;
+      const Index f = i / D, g = across_[i] / D;
+      pieces.join(f, g);
+      for (int a = 0; a < D; ++a)
+        for (int b = 0; b < D; ++b)
+          if (faces_[f][a] == faces_[g][b]) sides.join(f * D + a, g * D + b);
+    }
+    out_.piece = pieces.numbered(out_.pieces);
+    side_ = sides.numbered(count_);
+    of_side_.resize(static_cast<std::size_t>(count_));
+    for (std::size_t i = 0; i < side_.size(); ++i) of_side_[side_[i]].push_back(static_cast<Index>(i));
+  }
+
+  /// Flat parts of more than one row of faces: those around a vertex all of whose faces are in a plane (D = 2: those
+  /// on two or more edges along a line).
+  void find_flats() {
+    flat_.assign(faces_.size(), 0);
+    for (const auto& corners : of_side_) {
+      const Point<D>& n = normal_[corners[0] / D];
+      const bool all = std::ranges::all_of(corners, [&](Index i) { return in_plane(normal_[i / D], n); });
+      if (all && (D == 3 ? is_inner(corners) : corners.size() == 2))
+        for (const Index i : corners) flat_[i / D] = 1;
+    }
+    std::vector<std::size_t> open;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      if (flat_[f]) open.push_back(f);
+    while (!open.empty()) {
+      const std::size_t f = open.back();
+      open.pop_back();
+      for (int tip = 0; tip < D; ++tip)
+        if (const Index other = across_[f * D + tip];
+            other >= 0 && !flat_[other / D] && in_plane(normal_[f], normal_[other / D])) {
+          flat_[other / D] = 1;
+          open.push_back(static_cast<std::size_t>(other / D));
+        }
+    }
+  }
+
+  bool in_plane(const Point<D>& a, const Point<D>& b) const {
+    return dot(a, b) > 0 && length<D>(difference<D>(a, b)) < coplanar;
+  }
+
+  /// Whether faces go all the way around a vertex without a crease.
+  bool is_inner(const std::vector<Index>& corners) const {
+    return std::ranges::all_of(corners, [&](Index i) {
+      for (int tip = 0; tip < D; ++tip)
+        if (tip != i % D && across_[i / D * D + tip] < 0) return false;
+      return true;
+    });
+  }
+
+  void find_normals() {
+    side_normal_.resize(static_cast<std::size_t>(count_));
+    side_flat_.resize(static_cast<std::size_t>(count_), 0);
+    for (Index s = 0; s < count_; ++s) side_normal_[s] = normal_of_side(s);
+  }
+
+  Point<D> normal_of_side(Index s) {
+    const auto& corners = of_side_[s];
+    Point<D> mean{}, in_plane_of{};
+    bool one_plane = false, planes = false;
+    for (const Index i : corners) {
+      const Index f = i / D;
+      add<D>(mean, angle_at(i), normal_[f]);
+      if (!flat_[f]) continue;
+      planes = planes || (one_plane && !in_plane(in_plane_of, normal_[f]));
+      one_plane = true;
+      in_plane_of = normal_[f];
+    }
+    mean = unit<D>(mean);
+    if (planes) return mean;
+    side_flat_[s] = one_plane;
+    if (one_plane) return in_plane_of;
+    if constexpr (D == 2)
+      if (const auto near_end = end_normal(corners)) return *near_end;
+    return jet_normal(s, jet_normal(s, mean));  // on one side of a crease the mean is turned away from it
+  }
+
+  /// The vertices from that of a side along a curve, at most so many, as far as no crease comes.
+  std::vector<Point<2>> walk(const std::vector<Index>& corners, bool forward, std::size_t most) const {
+    const int ahead = forward ? 1 : 0;  // the end of a face that is reached first, and the tip across from there
+    std::vector<Point<2>> out;
+    for (Index i : corners) {
+      if (i % 2 == ahead) continue;
+      for (Index f = i / 2; f >= 0 && out.size() < most;) {
+        out.push_back(points_[faces_[f][ahead]]);
+        const Index next = across_[2 * f + (1 - ahead)];
+        f = next < 0 ? -1 : next / 2;
+      }
+    }
+    return out;
+  }
+
+  /// Of a curve near its ends, where there are no two vertices on either side.
+  std::optional<Point<2>> end_normal(const std::vector<Index>& corners) const {
+    auto on = walk(corners, true, 3), back = walk(corners, false, 3);
+    if (on.size() >= 2 && back.size() >= 2) return {};
+    const bool reversed = back.size() > on.size();
+    if (reversed) std::swap(on, back);
+    if (on.size() < 2) return {};
+    std::vector<Point<2>> row{points_[faces_[corners[0] / D][corners[0] % D]]};
+    if (!back.empty()) row.insert(row.begin(), back[0]);
+    row.insert(row.end(), on.begin(), on.end());
+    const auto t = end_tangent(row, back.empty() ? 0 : 1);
+    if (!t) return {};
+    const double sign = reversed ? -1 : 1;
+    return Point<2>{sign * (*t)[1], -sign * (*t)[0]};
+  }
+
+  double angle_at(Index corner) const {
+    if constexpr (D == 2) {
+      return 1;
+    } else {
+      const auto p = corners_of(faces_[corner / D]);
+      const int k = corner % D;
+      const Point<3> u = difference<3>(p[(k + 1) % 3], p[k]), v = difference<3>(p[(k + 2) % 3], p[k]);
+      return std::atan2(length<3>(cross(u, v)), dot(u, v));
+    }
+  }
+
+  /// The vertices around that of a side, by so many rings of faces on its side of creases.
+  std::vector<Index> around(Index side, const Point<D>& up, int rings) const {
+    std::vector<Index> faces, sides{side}, vertices;
+    const auto insert = [](std::vector<Index>& into, Index i) {
+      if (std::ranges::find(into, i) != into.end()) return false;
+      into.push_back(i);
+      return true;
+    };
+    for (std::size_t first = 0, last = 1; rings > 0; --rings, first = last, last = sides.size())
+      for (std::size_t k = first; k < last; ++k)
+        for (const Index i : of_side_[sides[k]]) {
+          const Index f = i / D;
+          if (flat_[f] || dot(normal_[f], up) < least_rise || !insert(faces, f)) continue;
+          for (int corner = 0; corner < D; ++corner) {
+            insert(vertices, faces_[f][corner]);
+            insert(sides, side_[f * D + corner]);
+          }
+        }
+    std::erase(vertices, vertex_of(side));
+    std::ranges::sort(vertices);
+    return vertices;
+  }
+
+  Index vertex_of(Index side) const { return faces_[of_side_[side][0] / D][of_side_[side][0] % D]; }
+
+  /// Of the highest polynomial that there are vertices enough for around a side; `up` where there are none.
+  Point<D> jet_normal(Index side, const Point<D>& up) const {
+    const Point<D>& center = points_[vertex_of(side)];
+    for (int degree = highest_jet<D>; degree >= 2; --degree)
+      for (int rings = 2; rings <= (D == 2 ? 4 : 3); ++rings) {
+        const std::vector<Index> vertices = around(side, up, rings);
+        if (vertices.size() < points_for_jet<D>(degree)) continue;
+        std::vector<Point<D>> near;
+        for (const Index v : vertices) near.push_back(difference<D>(points_[v], center));
+        if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree); n && dot(*n, up) >= cosine_) return *n;
+        break;
+      }
+    return up;
+  }
+
+  /// Along creases and borders: the tangent of the circle through three vertices that follow each other; within the
+  /// planes of flat parts.
+  void find_crease_tangents() {
+    std::vector<std::vector<std::pair<Index, Index>>> ends(points_.size());  // joint and other end
+    is_crease_.assign(static_cast<std::size_t>(joints_), 0);
+    for (Index i = 0; i < static_cast<Index>(across_.size()); ++i) {
+      if (across_[i] >= 0 || is_crease_[joint_[i]]++) continue;
+      const auto [a, b] = joint_of(i / D, i % D);
+      ends[a].push_back({joint_[i], b});
+      ends[b].push_back({joint_[i], a});
+    }
+    crease_tangent_.assign(points_.size(), {});
+    for (std::size_t v = 0; v < ends.size(); ++v) {
+      if (ends[v].size() != 2) continue;
+      const Point<D> in = difference<D>(points_[v], points_[ends[v][0].second]),
+                     on = difference<D>(points_[ends[v][1].second], points_[v]);
+      const double a = length<D>(in), b = length<D>(on);
+      if (dot(in, on) < cosine_ * a * b) continue;
+      Point<D> t = scaled<D>(b / a, in);
+      add<D>(t, a / b, on);
+      crease_tangent_[v] = unit<D>(t);
+    }
+    for (std::size_t i = 0; i < side_.size(); ++i) {
+      const std::size_t f = i / D;
+      Point<D>& t = crease_tangent_[faces_[f][i % D]];
+      if (!side_flat_[side_[i]] || t == Point<D>{}) continue;
+      add<D>(t, -dot(t, side_normal_[side_[i]]), side_normal_[side_[i]]);
+      t = unit<D>(t);
+    }
+  }
+
+  /// The unit direction in which an edge of a face leaves its end a, turned to the other end b.
+  Point<D> direction(std::size_t f, int a, int b, const Point<D>& chord) const {
+    if constexpr (D == 3) {
+      const int tip = 3 - a - b;
+      if (is_crease_[joint_[f * D + tip]]) {
+        const auto turned = [&](Point<D> t) { return dot(t, chord) < 0 ? scaled<D>(-1, t) : t; };
+        if (const Point<D> t = crease_tangent_[faces_[f][a]]; t != Point<D>{}) return turned(t);
+        Point<D> t = crease_tangent_[faces_[f][b]];
+        if (t == Point<D>{}) return chord;
+        t = turned(t);
+        Point<D> mirrored = scaled<D>(2 * dot(t, chord), chord);
+        add<D>(mirrored, -1, t);
+        return mirrored;
+      }
+    }
+    const Point<D>& n = side_normal_[side_[f * D + a]];
+    Point<D> t = chord;
+    add<D>(t, -dot(chord, n), n);
+    return length<D>(t) > least_rise ? unit<D>(t) : chord;
+  }
+
+  CubicPatch<D> patch(std::size_t f) const {
+    const auto corner = corners_of(faces_[f]);
+    std::array<std::array<Point<D>, D>, D> tangent{};
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b) {
+        if (a == b) continue;
+        const Point<D> edge = difference<D>(corner[b], corner[a]);
+        const double size = length<D>(edge);
+        const Point<D> chord = scaled<D>(1 / size, edge), t = direction(f, a, b, chord);
+        // So long that arcs of circles come out best: 4 tan(angle / 4) radii, the angle that of the arc.
+        tangent[a][b] = scaled<D>(2 * size / (1 + std::max(0.0, dot(t, chord))), t);
+      }
+    return patch_with_tangents<D>(corner, tangent);
+  }
+
+  std::span<const Point<D>> points_;
+  const std::vector<std::array<Index, D>>& faces_;
+  double cosine_;
+  const JointNormal<D>& joint_normal_;
+  std::vector<Point<D>> normal_;  // of the flat faces
+  std::vector<Index> joint_;      // per face and tip
+  Index joints_ = 0, count_ = 0;
+  std::vector<Index> across_;  // per face and tip, the face and tip beyond; -1 at creases and borders
+  std::vector<Index> side_;    // per face and corner
+  std::vector<std::vector<Index>> of_side_;
+  std::vector<std::uint8_t> flat_, is_crease_, side_flat_;
+  std::vector<Point<D>> side_normal_, crease_tangent_;
+  SmoothBoundary<D> out_;
+};
+
+}  // namespace
+
+template <int D>
+SmoothBoundary<D> smooth_boundary(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
+                                  double crease, const JointNormal<D>& joint_normal) {
+  return Smoother<D>(points, faces, crease, joint_normal).run();
+}
+
+// A patch lies in the convex hull of its control points, the flat one in that of the same points on the face.
+template <int D>
+double bulge(const CubicPatch<D>& patch) {
+  std::array<Point<D>, D> corner;
+  std::copy_n(patch.control.begin(), D, corner.begin());
+  const CubicPatch<D> flat = flat_patch<D>(corner);
+  double largest = 0;
+  for (std::size_t k = D; k < CubicPatch<D>::size; ++k)
+    largest = std::max(largest, length<D>(difference<D>(patch.control[k], flat.control[k])));
+  return largest;
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                                                                     \
+  template SmoothBoundary<D> smooth_boundary<D>(std::span<const Point<D>>, const std::vector<std::array<Index, D>>&, \
+                                                double, const JointNormal<D>&);                                      \
+  template double bulge<D>(const CubicPatch<D>&);
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini::geometry

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "core/mesh/cubic_patch.hpp"
+
+namespace signorini::geometry {
+
+/// Faces that meet at a larger angle meet at an edge of the body (2D: a corner): 35 degrees.
+inline constexpr double default_crease = 35 * std::numbers::pi / 180;
+
+/// A smooth surface (2D: a curve) through the vertices of flat faces that keeps creases: cubic patches, one per face,
+/// that have edges in common where faces have, and vertex normals in common but across creases.
+///
+/// Normals are those of local polynomials through the vertex (jets: Cazals and Pouget, Estimating differential
+/// quantities using polynomial fitting of osculating jets, 2005), fitted to the vertices around it on its side of
+/// creases; flat parts of more than a row of faces stay flat. An edge is the cubic curve that leaves its ends in the
+/// tangent planes, on a sphere with exact normals up to the sixth power of its length. Between patches normals differ
+/// by the third power.
+template <int D>
+struct SmoothBoundary {
+  std::vector<CubicPatch<D>> patches;  ///< per face
+  std::vector<Index> piece;            ///< per face the smooth piece it belongs to, from 0
+  Index pieces = 0;
+  std::vector<std::uint8_t> flat;                ///< per face whether it is of a flat part
+  std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
+};
+
+/// The unit normal of a curved face where it meets a neighbour in all its corners but `tip`; what a mesh knows of it.
+template <int D>
+using JointNormal = std::function<Point<D>(std::size_t face, int tip)>;
+
+/// @param faces oriented alike: normals to the left hand (D = 2: to the right) of the order of the corners
+/// @param crease angle between normals in radians, from 0 to pi
+/// @param joint_normal in place of the flat faces' normals
+template <int D>
+SmoothBoundary<D> smooth_boundary(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
+                                  double crease, const JointNormal<D>& joint_normal = {});
+
+/// The largest distance between a patch and its flat face, from above.
+template <int D>
+double bulge(const CubicPatch<D>& patch);
+
+}  // namespace signorini::geometry

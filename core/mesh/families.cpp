@@ -1,0 +1,78 @@
+#include "core/mesh/families.hpp"
+
+#include "core/mesh/simplex.hpp"
+
+namespace signorini {
+namespace {
+
+constexpr double least = 0.05;
+
+template <int D>
+constexpr auto edges = simplex_edges<D>();
+
+/// By how much a midpoint is off the middle.
+template <int D>
+Point<D> bend(const Mesh<D>& mesh, const Family<D>& family, std::size_t k) {
+  const auto [a, b] = edges<D>[k];
+  return difference<D>(mesh.points[family[D + 1 + k]], midpoint<D>(mesh.points[family[a]], mesh.points[family[b]]));
+}
+
+/// The smallest determinant at a node, relative to that of the flat element.
+template <int D>
+double least_determinant(const Mesh<D>& mesh, const Family<D>& family) {
+  std::array<Point<D>, edges<D>.size()> bends;
+  bool curved = false;
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    bends[k] = bend(mesh, family, k);
+    curved = curved || bends[k] != Point<D>{};
+  }
+  if (!curved) return 1;
+  std::array<Point<D>, D> flat;
+  for (int i = 0; i < D; ++i) flat[i] = difference<D>(mesh.points[family[i + 1]], mesh.points[family[0]]);
+  const double whole = determinant<D>(flat);
+  double smallest = infinity;
+  for (std::size_t node = 0; node < family.size(); ++node) {
+    std::array<double, D + 1> x{};
+    if (node <= D)
+      x[node] = 1;
+    else
+      for (const int end : edges<D>[node - D - 1]) x[end] = 0.5;
+    std::array<Point<D>, D + 1> by{};  // derivatives by barycentric coordinates, of the bends
+    for (std::size_t k = 0; k < bends.size(); ++k)
+      for (int i = 0; i < D; ++i) {
+        by[edges<D>[k][0]][i] += 4 * x[edges<D>[k][1]] * bends[k][i];
+        by[edges<D>[k][1]][i] += 4 * x[edges<D>[k][0]] * bends[k][i];
+      }
+    auto map = flat;
+    for (int row = 0; row < D; ++row)
+      for (int i = 0; i < D; ++i) map[row][i] += by[row + 1][i] - by[0][i];
+    smallest = std::min(smallest, determinant<D>(map) / whole);
+  }
+  return smallest;
+}
+
+}  // namespace
+
+template <int D>
+Index straighten_families(Mesh<D>& mesh) {
+  Index count = 0;
+  for (bool settled = false; !settled;) {
+    settled = true;
+    for (const Family<D>& family : mesh.families) {
+      if (least_determinant(mesh, family) >= least) continue;
+      for (std::size_t k = 0; k < edges<D>.size(); ++k) {
+        if (bend(mesh, family, k) == Point<D>{}) continue;
+        const auto [a, b] = edges<D>[k];
+        mesh.points[family[D + 1 + k]] = midpoint<D>(mesh.points[family[a]], mesh.points[family[b]]);
+        ++count;
+        settled = false;
+      }
+    }
+  }
+  return count;
+}
+
+template Index straighten_families(Mesh<2>&);
+template Index straighten_families(Mesh<3>&);
+
+}  // namespace signorini

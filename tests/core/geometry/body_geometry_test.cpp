@@ -1,0 +1,258 @@
+// What the boundaries of meshes from files are taken for: shapes that the program has meshed itself are found again.
+#include "core/geometry/body_geometry.hpp"
+
+#include "core/mesh/build.hpp"
+#include "core/mesh/curve.hpp"
+#include "core/mesh/refine.hpp"
+#include "core/mesh/separate.hpp"
+#include "geometry_checks.hpp"
+
+namespace signorini {
+namespace {
+
+using geometry::give_geometry;
+using geometry::Surfaces;
+
+template <int D, class Shape>
+Mesh<D> meshed(const Shape& shape, double size) {
+  Mesh<D> mesh = geometry::engine().mesh(shape, test::constant<D>(size));
+  separate_curved_faces(mesh);
+  return mesh;
+}
+
+/// As a file has it.
+template <int D>
+Mesh<D> without_geometry(Mesh<D> mesh) {
+  mesh.curves.clear();
+  for (Face<D>& face : mesh.boundary) face.curve = -1;
+  return mesh;
+}
+
+template <int D>
+std::multiset<std::string> kinds(const Mesh<D>& mesh) {
+  std::multiset<std::string> out;
+  for (const SurfacePiece& piece : mesh.pieces) out.insert(piece.kind);
+  return out;
+}
+
+template <int D>
+void expect_found_again(const Mesh<D>& known, const std::multiset<std::string>& expected) {
+  Mesh<D> mesh = without_geometry(known);
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), expected);
+  const Mesh<D> a = hierarchy(known, 2).finest(), b = hierarchy(mesh, 2).finest();
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t v = 0; v < a.points.size(); ++v)
+    EXPECT_LT(length<D>(difference<D>(a.points[v], b.points[v])), 1e-9) << "vertex " << v;
+}
+
+TEST(BodyGeometry, FindsTheShapesAgainThatTheProgramMeshes) {
+  using Kinds = std::multiset<std::string>;
+  expect_found_again(meshed<2>(geometry::Shape2(geometry::Disk{{1, -2}, 0.7}), 0.2), Kinds{"circle"});
+  expect_found_again(meshed<2>(geometry::Shape2(geometry::Disk{{1, -2}, 0.7, true}), 0.2), Kinds{"circle", "line"});
+  expect_found_again(meshed<3>(geometry::Shape3(geometry::Ball{{1, -2, 3}, 0.7}), 0.25), Kinds{"sphere"});
+  expect_found_again(meshed<3>(geometry::Shape3(geometry::Ball{{1, -2, 3}, 0.7, true}), 0.25),
+                     Kinds{"sphere", "plane"});
+  expect_found_again(meshed<3>(geometry::Shape3(geometry::Cylinder{{1, -2, 3}, 0.7, 1.5}), 0.3),
+                     Kinds{"cylinder", "plane", "plane"});
+}
+
+TEST(BodyGeometry, FacetsStayFacets) {
+  const Mesh<3> ball = meshed<3>(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1}), 0.3);
+  Mesh<3> mesh = without_geometry(ball);
+  give_geometry(mesh, Surfaces::facets);
+  EXPECT_EQ(kinds(mesh), std::multiset<std::string>{"facets"});
+  EXPECT_TRUE(mesh.curves.empty());
+  EXPECT_GT(mesh.pieces[0].deviation, 1e-3);
+}
+
+/// The largest distance of the boundary's vertices from the unit sphere or circle after refinement.
+template <int D>
+double off_unit_sphere(const Mesh<D>& mesh) {
+  const Mesh<D> fine = hierarchy(mesh, 2).finest();
+  double most = 0;
+  for (const Face<D>& face : fine.boundary)
+    for (const Index v : face.vertices) most = std::max(most, std::abs(length<D>(fine.points[v]) - 1));
+  return most;
+}
+
+TEST(BodyGeometry, SmoothSurfacesAreFarNearerThanFacets) {
+  Mesh<3> mesh = without_geometry(meshed<3>(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1}), 0.3));
+  const double facets = off_unit_sphere(mesh);
+  give_geometry(mesh, Surfaces::smooth);
+  EXPECT_EQ(kinds(mesh), std::multiset<std::string>{"smooth"});
+  EXPECT_LT(off_unit_sphere(mesh), facets / 20);
+  test::expect_consistent(hierarchy(mesh, 2).finest());
+}
+
+TEST(BodyGeometry, RoundedDigitsAreFittedAutomaticallyRoughOnesOnRequest) {
+  const Mesh<3> ball = without_geometry(meshed<3>(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1}), 0.3));
+  const auto rough = [&](double by) {
+    Mesh<3> mesh = ball;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      for (double& x : mesh.points[v]) x *= 1 + by * std::sin(7.0 * static_cast<double>(v));
+    return mesh;
+  };
+  Mesh<3> rounded = rough(1e-7), off = rough(5e-4), fitted = rough(5e-4);
+  give_geometry(rounded, Surfaces::automatic);
+  EXPECT_EQ(kinds(rounded), std::multiset<std::string>{"sphere"});
+  EXPECT_LT(off_unit_sphere(rounded), 1e-7);
+  give_geometry(off, Surfaces::automatic);
+  EXPECT_EQ(kinds(off), std::multiset<std::string>{"smooth"});
+  give_geometry(fitted, Surfaces::fit);
+  EXPECT_EQ(kinds(fitted), std::multiset<std::string>{"sphere"});
+  EXPECT_NEAR(fitted.pieces[0].deviation, 5e-4, 1e-4);
+  EXPECT_NEAR(fitted.pieces[0].radius, 1, 1e-4);
+  const Mesh<3> fine = hierarchy(fitted, 1).finest();  // coarsest vertices have been moved onto it as well
+  for (const Face<3>& face : fine.boundary)
+    for (const Index v : face.vertices) EXPECT_NEAR(height<3>(fine.curves[0], fine.points[v])->distance, 0, 1e-12);
+}
+
+// The intersections with planes that are not perpendicular to the axis are ellipses.
+TEST(BodyGeometry, MidpointsWhereShapesMeetAreOnBoth) {
+  Mesh<3> mesh = without_geometry(meshed<3>(geometry::Shape3(geometry::Cylinder{{0, 0, 0}, 1, 2}), 0.4));
+  for (Point<3>& p : mesh.points) p[2] += 0.4 * p[0];
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"cylinder", "plane", "plane"}));
+  const Mesh<3> fine = hierarchy(mesh, 2).finest();
+  int met = 0;
+  for (const char* part : {"top", "side"})
+    for (const Index f : faces_of(fine, part, "test"))
+      for (const Index v : fine.boundary[f].vertices) {
+        const Point<3>& p = fine.points[v];
+        if (std::string(part) == "side") {
+          EXPECT_NEAR(std::hypot(p[0], p[1]), 1, 1e-12);
+          met += std::abs(p[2] - 0.4 * p[0] - 1) < 1e-12;
+        } else {
+          EXPECT_NEAR(p[2] - 0.4 * p[0], 1, 1e-12);
+        }
+      }
+  EXPECT_GT(met, 50);
+}
+
+/// Between two concentric circles, polar cells cut into triangles.
+Mesh<2> ring(int around, int across, double inner, double outer) {
+  RawMesh<2> raw;
+  for (int j = 0; j <= across; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around, r = inner + (outer - inner) * j / across;
+      raw.points.push_back({r * std::cos(a), r * std::sin(a)});
+    }
+  for (int j = 0; j < across; ++j)
+    for (int i = 0; i < around; ++i) {
+      const Index a = j * around + i, b = j * around + (i + 1) % around;
+      raw.elements.push_back({a, a + around, b + around});
+      raw.elements.push_back({a, b + around, b});
+    }
+  return build_mesh<2>(std::move(raw), "test");
+}
+
+TEST(BodyGeometry, CornersByTheirAngle) {
+  Mesh<2> sixteen = ring(16, 2, 1, 2), eight = ring(8, 2, 1, 2), rounded = ring(8, 2, 1, 2);
+  give_geometry(sixteen, Surfaces::automatic);
+  EXPECT_EQ(kinds(sixteen), (std::multiset<std::string>{"circle", "circle"}));
+  give_geometry(eight, Surfaces::automatic);  // 45 degrees
+  EXPECT_EQ(kinds(eight).count("line"), 16u);
+  give_geometry(rounded, Surfaces::automatic, 50 * std::numbers::pi / 180);
+  EXPECT_EQ(kinds(rounded), (std::multiset<std::string>{"circle", "circle"}));
+}
+
+// A straight and a round side that run into each other smoothly are one smooth piece, but two groups.
+TEST(BodyGeometry, GroupsThatAreShapesAreFittedOneByOne) {
+  RawMesh<2> raw;
+  const int n = 8;
+  std::vector<Point<2>> outline{{-1, 1}};
+  for (int i = 0; i <= n; ++i) {
+    const double a = std::numbers::pi / 2 * (1 - 2.0 * i / n);
+    outline.push_back({std::cos(a), std::sin(a)});
+  }
+  outline.push_back({-1, -1});
+  raw.points = outline;
+  raw.points.push_back({-0.2, 0});
+  const auto last = static_cast<Index>(outline.size());
+  FaceGroup<2> bow{"bow", {}}, sides{"sides", {}};
+  for (Index i = 0; i < last; ++i) {
+    const Index next = (i + 1) % last;
+    raw.elements.push_back({last, next, i});
+    if (next != 0) (i == 0 || next == last - 1 ? sides : bow).faces.push_back({i, next});
+  }
+  raw.groups = {bow, sides};
+  Mesh<2> mesh = build_mesh<2>(raw, "test"), alone = mesh;
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"circle", "line", "line", "line"}));
+  for (const SurfacePiece& piece : mesh.pieces)
+    if (piece.kind == "circle") {
+      EXPECT_NEAR(piece.radius, 1, 1e-12);
+    }
+  alone.parts.clear();
+  give_geometry(alone, Surfaces::automatic);  // a single edge may be part of anything
+  EXPECT_EQ(kinds(alone), (std::multiset<std::string>{"smooth", "line"}));
+}
+
+// Lines and bows of a stadium run into each other smoothly; lines of several edges tell them apart.
+TEST(BodyGeometry, LinesThatRunIntoBowsAreFound) {
+  RawMesh<2> raw;
+  std::vector<Point<2>>& p = raw.points;
+  const int n = 10;
+  for (const double side : {1.0, -1.0}) {
+    for (int i = 0; i < n; ++i) {
+      const double a = std::numbers::pi * (i / double(n) - 0.5);
+      p.push_back({side * (2 + std::cos(a)), side * std::sin(a)});
+    }
+    for (int i = 0; i < 4; ++i) p.push_back({side * (2 - i), side});
+  }
+  const auto last = static_cast<Index>(p.size());
+  p.push_back({0, 0});
+  for (Index i = 0; i < last; ++i) raw.elements.push_back({last, i, (i + 1) % last});
+  Mesh<2> mesh = build_mesh<2>(raw, "test");
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"circle", "circle", "line", "line"}));
+  const Mesh<2> fine = hierarchy(mesh, 2).finest();
+  for (const Face<2>& face : fine.boundary)
+    for (const Index v : face.vertices) {
+      const Point<2>& x = fine.points[v];
+      const double off = std::abs(x[0]) <= 2 ? std::abs(x[1]) : std::hypot(std::abs(x[0]) - 2, x[1]);
+      EXPECT_NEAR(off, 1, 1e-14);
+    }
+}
+
+TEST(BodyGeometry, SecondOrderElementsAreTheGeometryUnlessToldOtherwise) {
+  RawMesh<2> raw{.points = {{0, 0}, {1, 0}, {0, 1}, {std::sqrt(0.5), std::sqrt(0.5)}},
+                 .elements = {{0, 1, 2}},
+                 .middle = {{-1, -1, 3}},
+                 .label = {},
+                 .groups = {}};
+  Mesh<2> mesh = build_mesh<2>(raw, "test"), facets = mesh;
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"second order", "line", "line"}));  // three points are no circle
+  EXPECT_EQ(std::ranges::count(hierarchy(mesh, 1).finest().points, raw.points[3]), 1);
+  give_geometry(facets, Surfaces::facets);
+  EXPECT_EQ(std::ranges::count(hierarchy(facets, 1).finest().points, raw.points[3]), 0);
+}
+
+// Refinement then goes on along the circle, not along the parabolas of the elements.
+TEST(BodyGeometry, SecondOrderElementsWhoseNodesAreOnAShapeStandForIt) {
+  const Mesh<2> flat = without_geometry(meshed<2>(geometry::Shape2(geometry::Disk{{0, 0}, 1}), 0.5));
+  RawMesh<2> raw;
+  raw.points = flat.points;
+  raw.elements = flat.elements;
+  raw.middle.assign(flat.elements.size(), {-1, -1, -1});
+  for (const Face<2>& face : flat.boundary)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [i, j] = simplex_edges<2>()[k];
+      const Simplex<2>& e = flat.elements[face.element];
+      if (sorted(std::array{e[i], e[j]}) != sorted(face.vertices)) continue;
+      Point<2> m = midpoint<2>(flat.points[e[i]], flat.points[e[j]]);
+      const double l = length<2>(m);
+      raw.middle[face.element][k] = static_cast<Index>(raw.points.size());
+      raw.points.push_back({m[0] / l, m[1] / l});
+    }
+  Mesh<2> mesh = build_mesh<2>(raw, "test"), elements = mesh;
+  EXPECT_GT(off_unit_sphere(elements), 1e-5);
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), std::multiset<std::string>{"circle"});
+  EXPECT_LT(off_unit_sphere(mesh), 1e-14);
+}
+
+}  // namespace
+}  // namespace signorini

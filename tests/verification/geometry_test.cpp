@@ -1,0 +1,174 @@
+// Bodies from meshes and obstacles from triangles: results converge to those of the true geometry.
+#include <map>
+
+#include "core/geometry/geometry.hpp"
+#include "core/mesh/build.hpp"
+#include "mesh_file.hpp"
+#include "run.hpp"
+#include "scene_text.hpp"
+
+namespace signorini::test {
+namespace {
+
+/// A quarter of a ring, radii 1 and 2, with cells of 15 degrees.
+Mesh<2> quarter_ring() {
+  constexpr Index around = 6, across = 4;
+  RawMesh<2> raw;
+  for (Index j = 0; j <= across; ++j)
+    for (Index i = 0; i <= around; ++i) {
+      const double a = pi / 2 * i / around, r = 1 + 1.0 * j / across;
+      raw.points.push_back({i == around ? 0 : r * std::cos(a), r * std::sin(a)});
+    }
+  raw.groups = {{"inner", {}}, {"outer", {}}, {"bottom", {}}, {"left", {}}};
+  const auto at = [&](Index i, Index j) { return j * (around + 1) + i; };
+  for (Index j = 0; j < across; ++j)
+    for (Index i = 0; i < around; ++i) {
+      raw.elements.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      raw.elements.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  for (Index i = 0; i < around; ++i) {
+    raw.groups[0].faces.push_back({at(i, 0), at(i + 1, 0)});
+    raw.groups[1].faces.push_back({at(i, across), at(i + 1, across)});
+  }
+  for (Index j = 0; j < across; ++j) {
+    raw.groups[2].faces.push_back({at(0, j), at(0, j + 1)});
+    raw.groups[3].faces.push_back({at(around, j), at(around, j + 1)});
+  }
+  return build_mesh<2>(std::move(raw), "test");
+}
+
+/// Under an internal pressure of 0.01 in a rigid bore that it just fills.
+SceneText ring_in_bore(const std::string& file, const std::string& keys) {
+  return {
+      .body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3\n{}", file, keys),
+      .fixes = {"on = \"bottom\"\nvalue = [\"free\", 0]", "on = \"left\"\nvalue = [0, \"free\"]"},
+      .loads = {"on = \"inner\"\nvalue = [\"-0.01*nx\", \"-0.01*ny\"]"},
+      .obstacle = "type = \"contact\"\non = \"outer\"\nshape = \"sphere\"\ncenter = [0, 0]\nradius = 2\ninside = true"};
+}
+
+// Lame: with no displacement at r = b, sigma_rr = A (1 + (1 - 2 nu) b^2 / r^2), which is -p at r = a.
+constexpr double bore_pressure = 0.01 * 2 * 0.7 / (1 + 0.4 * 4);
+
+Errors errors_of_the_pressure(const std::string& file, const std::string& keys, int refinements) {
+  Errors errors;
+  for (int k = 1; k <= refinements; ++k) {
+    const auto r = run<2, 2>(ring_in_bore(file, keys), {uniform(k)});
+    errors.add(std::abs(r.contact().max_pressure / bore_pressure - 1));
+    show("{}: {} nodes, pressure {:+.2e} off, order {:.2f}\n", keys, r.nodes().size(),
+         r.contact().max_pressure / bore_pressure - 1, errors.last_order());
+  }
+  return errors;
+}
+
+// The largest pressure is that of the worst node: first order for linear elements, second for quadratic ones.
+TEST(Geometry, RingInABoreConvergesAtTheOrderOfItsElements) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("ring.msh", msh(quarter_ring()));
+  const Errors facets = errors_of_the_pressure(file, "geometry = \"facets\"", 3);
+  EXPECT_GT(facets.value.back(), 1);
+  for (const char* geometry : {"auto", "fit", "smooth"}) {
+    const Errors linear = errors_of_the_pressure(file, fmt::format("geometry = \"{}\"", geometry), 4);
+    linear.expect_falling();
+    EXPECT_GT(linear.last_order(), 0.8);
+    EXPECT_LT(linear.value.back(), 0.005);
+    const Errors quadratic = errors_of_the_pressure(file, fmt::format("order = 2\ngeometry = \"{}\"", geometry), 3);
+    EXPECT_LT(quadratic.value.back(), 2e-4);
+    if (geometry != std::string("smooth")) {
+      EXPECT_GT(quadratic.mean_order(), 1.9);
+    }
+  }
+}
+
+TEST(Geometry, AnImportedHalfBallIsTheOneThatTheProgramMeshes) {
+  const TemporaryFolder folder;
+  const Mesh<3> mesh = geometry::engine().mesh(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1, true}),
+                                               [](const Point<3>&) { return 0.3; });
+  const std::string rest = "young = 1\npoisson = 0.3\n";
+  SceneText scene{.body = "shape = \"half_ball\"\ncenter = [0, 0, 0]\nradius = 1\nsize = 0.3\n" + rest,
+                  .fixes = {"on = \"flat\"\nvalue = [0, 0, -0.02]"},
+                  .obstacle =
+                      "type = \"contact\"\non = \"curved\"\nshape = \"plane\"\npoint = [0, 0, -1]\n"
+                      "normal = [0, 0, 1]"};
+  const auto meshed = run<3, 3>(scene, {uniform(2)});
+  const std::string from_file = fmt::format("mesh = \"{}\"\n", folder.write("ball.msh", msh(mesh))) + rest;
+  const double pressure = meshed.contact().max_pressure, force = meshed.contact().force[2];
+  const auto off = [&](const std::string& geometry) {
+    scene.body = from_file + "geometry = \"" + geometry + "\"\n";
+    const auto imported = run<3, 3>(scene, {uniform(2)});
+    show("{}: pressure {:+.2e}, force {:+.2e}\n", geometry, imported.contact().max_pressure / pressure - 1,
+         imported.contact().force[2] / force - 1);
+    return std::max(std::abs(imported.contact().max_pressure / pressure - 1),
+                    std::abs(imported.contact().force[2] / force - 1));
+  };
+  EXPECT_LT(off("auto"), 1e-6);
+  EXPECT_LT(off("fit"), 1e-6);
+  EXPECT_LT(off("smooth"), 0.02);
+  EXPECT_GT(off("facets"), 0.1);
+}
+
+/// A sphere of radius 1 around (0, 0, -1), by divisions of an octahedron: edges of about 1.6 / 2^divisions.
+std::string sphere_off(int divisions) {
+  std::vector<Point<3>> points;
+  std::map<std::array<long, 3>, std::size_t> number;
+  const auto vertex = [&](Point<3> p) {
+    const double l = norm<3>(p);
+    for (double& x : p) x /= l;
+    const auto [entry, fresh] =
+        number.try_emplace({std::lround(1e9 * p[0]), std::lround(1e9 * p[1]), std::lround(1e9 * p[2])}, points.size());
+    if (fresh) points.push_back({p[0], p[1], p[2] - 1});
+    return entry->second;
+  };
+  std::string faces;
+  int count = 0;
+  const int n = 1 << divisions;
+  for (const double sx : {-1.0, 1.0})
+    for (const double sy : {-1.0, 1.0})
+      for (const double sz : {-1.0, 1.0})
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; i + j < n; ++j)
+            for (int kind = 0; kind < (i + j + 1 < n ? 2 : 1); ++kind) {
+              const auto at = [&](int a, int b) {
+                // Turned, for no vertex is to be where the sphere is touched.
+                const double x = sx * a, y = sy * b, z = sz * (n - a - b), c = std::cos(0.4), s = std::sin(0.4);
+                return vertex({x, c * y - s * z, s * y + c * z});
+              };
+              std::array<std::size_t, 3> t = kind == 0 ? std::array{at(i, j), at(i + 1, j), at(i, j + 1)}
+                                                       : std::array{at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+              if (sx * sy * sz < 0) std::swap(t[1], t[2]);
+              faces += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+              ++count;
+            }
+  std::string out = fmt::format("OFF\n{} {} 0\n", points.size(), count);
+  for (const Point<3>& p : points) out += fmt::format("{:.17g} {:.17g} {:.17g}\n", p[0], p[1], p[2]);
+  return out + faces;
+}
+
+/// A block pressed on a ball from above.
+SceneText block_on(const std::string& obstacle) {
+  return {.body =
+              "shape = \"box\"\nfrom = [-0.24, -0.24, 0]\nto = [0.24, 0.24, 0.24]\ncells = [4, 4, 2]\nyoung = 1\n"
+              "poisson = 0.3",
+          .fixes = {"on = \"top\"\nvalue = [0, 0, -0.01]"},
+          .obstacle = "type = \"contact\"\non = \"bottom\"\n" + obstacle,
+          .refinements = 3};
+}
+
+TEST(Geometry, ATriangulatedSphereIsASphere) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("sphere.off", sphere_off(5));
+  const auto exact = run<3, 3>(block_on("shape = \"sphere\"\ncenter = [0, 0, -1]\nradius = 1"));
+  const auto smooth = run<3, 3>(block_on(fmt::format("shape = \"surface\"\nfile = \"{}\"", file)));
+  const auto facets =
+      run<3, 3>(block_on(fmt::format("shape = \"surface\"\nfile = \"{}\"\ngeometry = \"facets\"", file)));
+  const auto off = [&](const auto& r) { return r.contact().max_pressure / exact.contact().max_pressure - 1; };
+  show("smooth {:+.2e}, facets {:+.2e}, force {:+.2e}, {:+.2e}\n", off(smooth), off(facets),
+       smooth.contact().force[2] / exact.contact().force[2] - 1,
+       facets.contact().force[2] / exact.contact().force[2] - 1);
+  const double force = exact.contact().force[2];
+  EXPECT_LT(std::abs(off(smooth)), 1e-3);
+  EXPECT_NEAR(smooth.contact().force[2], force, 1e-4 * force);
+  EXPECT_GT(std::abs(facets.contact().force[2] - force), 0.02 * force);
+}
+
+}  // namespace
+}  // namespace signorini::test
