@@ -87,12 +87,12 @@ class TractionRecovery {
         faces_.around(k, {rings_at_edge, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
     const Vector around = mean(k);
     if (some.size() < enough<D>) return around;
-    const auto fit = polynomial_value<D - 1, D>(samples_.around(k, some, [&](Index s, bool) {
+    const auto fit = polynomial_values<1>(samples_.around(k, some, [&](Index s, bool) {
       const double value = left(s, direction);
       return value * value;
     }));
     if (!fit) return around;
-    const double rest = between_means(k, std::sqrt(std::max(*fit, 0.0)), [&](Index j) { return left(j, direction); });
+    const double rest = between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left(j, direction); });
     const double along = limit(k, faces_.node(k).recovered) - rest - dot(around, direction);
     Vector out = around;
     for (int i = 0; i < B; ++i) out[i] += along * direction[i];
