@@ -76,12 +76,12 @@ all nodes that the obstacle acts on, whether they press or not: pick them by `on
 the motion since the last step. An obstacle whose `point`, `center`,
 `normal` or `axis` depends on `t` drags the body with it: what counts is the motion along the obstacle relative to it. (From
 one step to the next it turns the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape
-`expression` and `surface` do not drag.) The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
+`expression` and `surface` do not drag; where an `expression` moves a warning says so.) The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
 3 where it sticks. All keys of the report and the columns of `steps.csv` are in [solver.md](solver.md), "Steps". Some things
 to know:
 
-- The bound counts on all picked faces, the field `tangential_traction` is force over those that face the obstacle. At the
+- The bound counts on all picked faces, the field `tangential_traction` goes by the area of those that face the obstacle. At the
   edge of what is picked it may be larger than the bound.
 - Nodes all of whose components are prescribed have no friction; they count in `nodes` alone.
 - With `coulomb` a fix must not prescribe the displacement along the obstacle's normal, and no other obstacle may hold the

@@ -41,7 +41,10 @@ struct SurfaceVertex {
 };
 
 /// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for
-/// k < directions. Directions are unit vectors, linearly independent of each other.
+/// k < directions. Directions are unit vectors, linearly independent of each other. That is all of it: the kernel's
+/// line searches and coarse corrections keep within these bounds and ask for nothing else. Several obstacles at a
+/// vertex make a polyhedron of their bounds. Sets that are none, such as balls and cones, are refused
+/// (core/fem/admissible_sets.hpp): bound them from outside by planes, one obstacle for each.
 template <int B>
 struct LocalConstraint {
   int directions = 0;
@@ -53,7 +56,8 @@ struct LocalConstraint {
 /// An obstacle type: everything nonlinear about a problem, all of it local to one vector. The kernel knows no more than
 /// this, and calls it once per sweep and segment, never per vector. Several threads may call it at a time, for vectors
 /// that the matrix does not couple. Implementations come from plugins; they derive from BoxObstacle
-/// (core/sdk/box_obstacle.hpp) unless their admissible set is no box.
+/// (core/sdk/box_obstacle.hpp), or from FunctionalObstacle where they add to the energy. One that derives from this
+/// interface itself has a sweep of its own, on the same sets: see LocalConstraint.
 template <int B>
 class Obstacle {
  public:

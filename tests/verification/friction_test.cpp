@@ -125,6 +125,26 @@ TEST(Tresca, ScenesMayBeTurnedAndScaled) {
   EXPECT_EQ(other.summary().iterations, first.summary().iterations);
 }
 
+// Friction where a second obstacle holds the same vertices along another direction.
+TEST(Tresca, InACornerItIsSolvedToRounding) {
+  SceneText plane = block2(with_friction(on_plane, "0.004"), 3);
+  plane.fixes = {"on = \"top\"\nvalue = [-0.01, -0.03]"};
+  plane.obstacle +=
+      "\n[[obstacle]]\nbody = \"b\"\ntype = \"contact\"\non = \"left\"\nshape = \"plane\"\npoint = [0, 0]\n"
+      "normal = [1, 0.3]";
+  SceneText space = block3(with_friction(on_floor, "0.004"), 2);
+  space.fixes = {"on = \"top\"\nvalue = [-0.01, 0.005, -0.03]"};
+  space.obstacle +=
+      "\n[[obstacle]]\nbody = \"b\"\ntype = \"contact\"\non = \"left\"\nshape = \"plane\"\npoint = [0, 0, 0]\n"
+      "normal = [1, 0.1, 0.3]";
+  const auto in_plane = run<2, 2>(plane, {"solver.tolerance=1e-12"});
+  const auto in_space = run<3, 3>(space, {"solver.tolerance=1e-12"});
+  EXPECT_FALSE(in_plane.problem().constraints.facet.empty()) << "no test";
+  EXPECT_FALSE(in_space.problem().constraints.facet.empty()) << "no test";
+  EXPECT_LE(in_plane.summary().iterations, 30);
+  EXPECT_LE(in_space.summary().iterations, 30);
+}
+
 // Pushed there and back in steps, the block keeps some of the way, and friction works both ways.
 TEST(Tresca, OpposesTheMotionSinceTheLastStep) {
   SceneText scene = block2(with_friction(on_plane, "0.004"), 2);
