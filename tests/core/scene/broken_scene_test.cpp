@@ -78,6 +78,8 @@ const std::vector<Broken> broken = {
     {ball, "0.3", "-1", {"scene.toml:11: body.0.poisson", "(-1, 0.5)", "found -1"}},
     {ball, "\"elasticity\"", "\"elastic\"", {"scene.toml:9: body.0.equation", "did you mean 'elasticity'?"}},
     {ball, "order    = 1", "order = 3", {"scene.toml:12: body.0.order", "[1, 2]", "found 3"}},
+    {ball, "order    = 1", "geometry = \"fit\"", {"scene.toml:12:", "'geometry' has no meaning beside 'shape'"}},
+    {ball, "order    = 1", "crease = 30", {"scene.toml:12:", "'crease' has no meaning beside 'shape'"}},
     {ball, "order    = 1", "diffusion = 1", {"scene.toml:12:", "'diffusion' has no meaning", "elasticity"}},
     {ball, "order    = 1", "plane = \"stress\"", {"scene.toml:12: body.0.plane", "2D"}},
     {ball, "name     = \"ball\"", "name = \"\"", {"scene.toml:4: body.0.name", "empty"}},
