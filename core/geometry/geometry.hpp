@@ -72,7 +72,8 @@ class Engine {
   /// its faces.
   /// @param crease the distance is that to the smooth surface through the vertices, see smooth_boundary(); without, to
   ///   the triangles
-  virtual std::unique_ptr<DistanceFunction> surface(const std::string& file, std::optional<double> crease = {}) const = 0;
+  virtual std::unique_ptr<DistanceFunction> surface(const std::string& file,
+                                                    std::optional<double> crease = {}) const = 0;
 };
 
 /// The CGAL engine, loading its library on first use. Throws Error(Exit::plugin) when the library is missing.

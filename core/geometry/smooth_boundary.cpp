@@ -13,9 +13,9 @@
 namespace signorini::geometry {
 namespace {
 
-constexpr double coplanar = 1e-6;    // sine of the angle up to which faces are in one plane
+constexpr double coplanar = 1e-6;        // sine of the angle up to which faces are in one plane
 constexpr double same_plane = 1 - 2e-4;  // cosine, of a degree
-constexpr double least_rise = 0.25;  // cosine: how far a jet looks around the corner
+constexpr double least_rise = 0.25;      // cosine: how far a jet looks around the corner
 
 template <int D>
 Point<D> scaled(double factor, Point<D> p) {
@@ -294,6 +294,7 @@ class Smoother {
         const std::vector<Index> vertices = around(side, up, rings);
         if (vertices.size() < points_for_jet<D>(degree)) continue;
         std::vector<Point<D>> near;
+        near.reserve(vertices.size());
         for (const Index v : vertices) near.push_back(difference<D>(points_[v], center));
         if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree); n && dot(*n, up) >= cosine_) return *n;
         break;

@@ -22,10 +22,10 @@ inline constexpr double default_crease = 35 * std::numbers::pi / 180;
 /// by the third power.
 template <int D>
 struct SmoothBoundary {
-  std::vector<CubicPatch<D>> patches;       ///< per face
-  std::vector<Index> piece;                 ///< per face the smooth piece it belongs to, from 0
+  std::vector<CubicPatch<D>> patches;  ///< per face
+  std::vector<Index> piece;            ///< per face the smooth piece it belongs to, from 0
   Index pieces = 0;
-  std::vector<std::uint8_t> flat;  ///< per face whether it is of a flat part
+  std::vector<std::uint8_t> flat;                ///< per face whether it is of a flat part
   std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
 };
 

@@ -24,8 +24,8 @@ template <int Corners>
 struct FileCells {
   std::vector<std::array<Index, Corners>> vertices;
   std::vector<MiddleNodes<Corners>> middle;  ///< empty where all cells are of first order
-  std::vector<Offset> label;  ///< number in the file
-  std::vector<Index> group;   ///< geometric entity or group it belongs to, counted from 0
+  std::vector<Offset> label;                 ///< number in the file
+  std::vector<Index> group;                  ///< geometric entity or group it belongs to, counted from 0
 
   void add(const std::array<Index, Corners>& v, Offset number, Index where,
            const MiddleNodes<Corners>& between = no_middle_nodes<Corners>()) {
@@ -37,7 +37,9 @@ struct FileCells {
     label.push_back(number);
     group.push_back(where);
   }
-  MiddleNodes<Corners> middle_of(std::size_t c) const { return middle.empty() ? no_middle_nodes<Corners>() : middle[c]; }
+  MiddleNodes<Corners> middle_of(std::size_t c) const {
+    return middle.empty() ? no_middle_nodes<Corners>() : middle[c];
+  }
 };
 
 /// How a format orders the nodes of a second-order cell's edges, which follow its corners: per edge of simplex_edges.

@@ -62,8 +62,8 @@ struct SurfacePiece {
   double radius = 0, second = 0;         ///< likewise
 };
 
-/// By how much the midpoints of an element's edges are off the middle between their ends, in the order of simplex_edges:
-/// those of the quadratic map that makes the element curved.
+/// By how much the midpoints of an element's edges are off the middle between their ends, in the order of
+/// simplex_edges: those of the quadratic map that makes the element curved.
 template <int D>
 using Bends = std::array<Point<D>, D*(D + 1) / 2>;
 
@@ -75,9 +75,10 @@ struct Mesh {
   std::vector<Face<D>> boundary;                   ///< every boundary face, once
   std::vector<Part> parts;                         ///< named parts; all faces together always answer to "boundary"
   std::vector<Curve<D>> curves;
-  /// Per boundary face of the coarsest mesh, for faces on curves of the kind `patches`; shared by all refinements of it.
+  /// Per boundary face of the coarsest mesh, for faces on curves of the kind `patches`; shared by all refinements of
+  /// it.
   std::shared_ptr<const std::vector<CubicPatch<D>>> patches;
-  std::vector<Bends<D>> bends;  ///< per element; empty: all are straight, or the mesh is not to be refined
+  std::vector<Bends<D>> bends;       ///< per element; empty: all are straight, or the mesh is not to be refined
   std::vector<SurfacePiece> pieces;  ///< of the coarsest mesh of a body whose geometry was looked for
   std::vector<Index> region;         ///< per element the material it is of, -1: the body's own; empty: all of them
   std::vector<Family<D>> families;   ///< all elements once more, as children; none where they are not

@@ -102,7 +102,9 @@ TEST(Bends, QuadraticElementsThatWouldBeTurnedInsideOutAreStraightened) {
 }
 
 TEST(Bends, NodesTooFarAwayToCountAreRefused) {
-  EXPECT_THAT(test::input_error_of([] { build_mesh<2>(triangle({1.7e308, -1.7e308}), "file.msh"); }),
+  EXPECT_THAT(test::input_error_of([] {
+                build_mesh<2>(triangle({1.7e308, -1.7e308}), "file.msh");
+              }),
               testing::HasSubstr("too far away"));
 }
 
