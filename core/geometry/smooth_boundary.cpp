@@ -13,8 +13,9 @@
 namespace signorini::geometry {
 namespace {
 
-constexpr double coplanar = 1e-6;    // sine of the angle up to which faces are in one plane
-constexpr double least_rise = 0.25;  // cosine: how far a jet looks around the corner
+constexpr double coplanar = 1e-6;        // sine of the angle up to which faces are in one plane
+constexpr double same_plane = 1 - 2e-4;  // cosine, of a degree
+constexpr double least_rise = 0.25;      // cosine: how far a jet looks around the corner
 
 template <int D>
 Point<D> scaled(double factor, Point<D> p) {
@@ -214,7 +215,8 @@ class Smoother {
     if (one_plane) return in_plane_of;
     if constexpr (D == 2)
       if (const auto near_end = end_normal(corners)) return *near_end;
-    return jet_normal(s, jet_normal(s, mean));  // on one side of a crease the mean is turned away from it
+    const Point<D> first = jet_normal(s, mean);
+    return dot(first, mean) < same_plane ? jet_normal(s, first) : first;  // beside creases the mean is turned away
   }
 
   /// The vertices from that of a side along a curve, at most so many, as far as no crease comes.
@@ -292,6 +294,7 @@ class Smoother {
         const std::vector<Index> vertices = around(side, up, rings);
         if (vertices.size() < points_for_jet<D>(degree)) continue;
         std::vector<Point<D>> near;
+        near.reserve(vertices.size());
         for (const Index v : vertices) near.push_back(difference<D>(points_[v], center));
         if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree); n && dot(*n, up) >= cosine_) return *n;
         break;

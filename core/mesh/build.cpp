@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
@@ -52,7 +53,11 @@ std::vector<Bends<D>> find_bends(const RawMesh<D>& raw, std::string_view place) 
                                        fmt::join(b, ", ")));
       through[edge] = m;
       const Point<D> off = difference<D>(raw.points[m], midpoint<D>(a, b));
-      if (!(length<D>(off) > straight * length<D>(difference<D>(a, b)))) continue;
+      const double far = length<D>(off);
+      if (!std::isfinite(far))
+        input_error(place, fmt::format("the edge from ({}) to ({}) goes through ({}), which is too far away",
+                                       fmt::join(a, ", "), fmt::join(b, ", "), fmt::join(raw.points[m], ", ")));
+      if (far <= straight * length<D>(difference<D>(a, b))) continue;
       bend[edge] = off;
       curved = true;
     }

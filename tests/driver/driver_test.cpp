@@ -238,5 +238,23 @@ TEST(Driver, goes_on_after_it_was_ended) {
   expect_as_new(driver);
 }
 
+TEST(Driver, TellsWhatTheBoundaryOfAMeshIsTakenFor) {
+  const std::filesystem::path scenes = std::filesystem::path(SIGNORINI_SOURCE_DIR) / "apps/scenes";
+  Driver driver(read_scene(scenes / "lever.toml"));
+  const Report& report = driver.solve();
+  ASSERT_EQ(report.geometry.size(), 1u);
+  EXPECT_EQ(report.geometry[0].body, "lever");
+  EXPECT_EQ(report.geometry[0].straightened, 0);
+  std::vector<double> radii;
+  for (const SurfacePiece& piece : report.geometry[0].pieces)
+    if (piece.kind == "circle") radii.push_back(std::round(1e6 * piece.radius) / 1e6);
+  std::ranges::sort(radii);
+  EXPECT_EQ(radii, (std::vector<double>{5, 9, 10}));  // hole, and the rounded ends
+  const auto json = to_json(report)["geometry"][0];
+  EXPECT_EQ(json["pieces"].size(), 5u);
+  EXPECT_EQ(json["straightened"], 0);
+  EXPECT_TRUE(to_json(Driver(scene_of(scalar)).solve())["geometry"].empty());
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -101,6 +101,13 @@ TEST(Bends, QuadraticElementsThatWouldBeTurnedInsideOutAreStraightened) {
   EXPECT_EQ(straighten_families(fine.levels.back()), 0);
 }
 
+TEST(Bends, NodesTooFarAwayToCountAreRefused) {
+  EXPECT_THAT(test::input_error_of([] {
+                build_mesh<2>(triangle({1.7e308, -1.7e308}), "file.msh");
+              }),
+              testing::HasSubstr("too far away"));
+}
+
 TEST(Bends, ElementsThatDoNotAgreeOnAnEdgeAreRefused) {
   RawMesh<2> raw{.points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.6, 0.6}, {0.5, 0.6}},
                  .elements = {{0, 1, 2}, {1, 3, 2}},

@@ -87,6 +87,8 @@ const std::vector<Broken> broken = {
      "cells = [2, 2]",
      "cells = [2, 2]\npressure = \"none\"",
      {"scene.toml:7: body.0.pressure", "no meaning"}},
+    {ball, "order    = 1", "geometry = \"fit\"", {"scene.toml:12:", "'geometry' has no meaning beside 'shape'"}},
+    {ball, "order    = 1", "crease = 30", {"scene.toml:12:", "'crease' has no meaning beside 'shape'"}},
     {ball, "order    = 1", "diffusion = 1", {"scene.toml:12:", "'diffusion' has no meaning", "elasticity"}},
     {ball, "order    = 1", "plane = \"stress\"", {"scene.toml:12: body.0.plane", "2D"}},
     {ball, "name     = \"ball\"", "name = \"\"", {"scene.toml:4: body.0.name", "empty"}},
