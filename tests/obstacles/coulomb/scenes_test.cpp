@@ -240,7 +240,7 @@ void expect_refused(const std::string& scene, const std::string& what) {
 TEST(Coulomb, ABlockStaysOnAnInclineUpToTheAngleOfFriction) {
   const double angle = 0.35, weight = 0.01;
   const auto outcome = [&](double friction) {
-    SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 1);
+    SceneText scene = block2(coulomb(on_plane, fmt::format("{}", friction)), 2);
     scene.fixes.clear();
     scene.loads = {fmt::format("value = [{}, {}]", weight * std::sin(angle), -weight * std::cos(angle))};
     Driver driver(parse_scene(std::string(scene), "test.toml", "."));
@@ -250,8 +250,11 @@ TEST(Coulomb, ABlockStaysOnAnInclineUpToTheAngleOfFriction) {
     }
     return step.summary.outcome;
   };
-  EXPECT_EQ(outcome(1.01 * std::tan(angle)), Outcome::converged);
-  EXPECT_EQ(outcome(0.99 * std::tan(angle)), Outcome::stuck);
+  for (const double off : {0.01, 0.003, 0.001}) {
+    SCOPED_TRACE(off);
+    EXPECT_EQ(outcome((1 + off) * std::tan(angle)), Outcome::converged);
+    EXPECT_EQ(outcome((1 - off) * std::tan(angle)), Outcome::stuck);
+  }
 }
 
 // Pressed and sheared a little beyond what friction bears it slides off, ever farther.
