@@ -113,7 +113,7 @@ TEST_F(Scenes, HertzProgramComparesACylinderWithinThreePercent) {
 }
 
 TEST_F(Scenes, ARubberCylinderIsWithinOnePercentOfHertz) {
-  const auto r = solve("rubber_cylinder_2d.toml", {"refine.uniform=2"});
+  const auto r = solve("rubber_cylinder_2d.toml", {});
   expect_hertz("rubber_cylinder_2d.toml", 0.01);
   EXPECT_LE(r.at("iterations"), 18);
   EXPECT_TRUE(r.at("warnings").empty());
