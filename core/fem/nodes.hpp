@@ -160,7 +160,8 @@ class Nodes {
 
   /// What is known of the nodes, `count` numbers each, at the vertices.
   std::vector<double> per_vertex(std::vector<double> of_nodes, int count) const {
-    return of_vertex_.empty() ? of_nodes : picked(of_nodes, of_vertex_, count);
+    if (of_vertex_.empty()) return of_nodes;
+    return picked(of_nodes, of_vertex_, count);
   }
 
  private:

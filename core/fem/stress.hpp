@@ -29,9 +29,8 @@ std::vector<Stress> element_stress(const Nodes<D>& nodes, const Model<D>& model,
 /// finite elements are best at some points inside, and jump between elements. Polynomials of the elements' degree are
 /// fitted by least squares to what the elements around a node have at these points. At the boundary, where values
 /// outside of the samples are asked for, quadratic ones are fitted over two layers of elements; for linear elements to
-/// the nodes inside. Where materials meet each has its own fit as at a boundary, and the mean of them is given. No
-/// component leaves the range of the samples by more than its width, for at corners stresses may be singular. Where too
-/// few elements are around it is the mean of the samples.
+/// the nodes inside. Where materials meet each has its own fit as at a boundary, and the mean of them is given. Where
+/// too few elements are around linear polynomials take their place, then the mean of the samples.
 ///
 /// Errors: O(h^2) of linear elements, O(h^3) of quadratic ones on straight edges, up to the boundary, where the
 /// solution is smooth.

@@ -92,7 +92,8 @@ class TractionRecovery {
       return value * value;
     }));
     if (!fit) return around;
-    const double rest = between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left(j, direction); });
+    const double rest =
+        between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left(j, direction); });
     const double along = limit(k, faces_.node(k).recovered) - rest - dot(around, direction);
     Vector out = around;
     for (int i = 0; i < B; ++i) out[i] += along * direction[i];

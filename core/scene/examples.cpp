@@ -119,8 +119,9 @@ young = 5
 poisson = 0.4
 ```
 
-A volume belongs to one material. Stresses in the VTU are averages at the nodes, between materials too. A body without a
-mesh file takes an expression: `young = "x < 1 ? 5 : 210000"`.
+A volume belongs to one material. Stresses in the VTU are recovered at the nodes ([how](pressures.md#stresses)), for each
+material by itself. Where materials meet the VTU has the mean of them. A body without a mesh file takes an expression:
+`young = "x < 1 ? 5 : 210000"`.
 )";
 
 constexpr const char* steps_details = R"(
