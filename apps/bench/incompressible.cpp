@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "apps/bench/problems.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
 
@@ -17,7 +20,7 @@ struct Measured {
   int cycles = 0;
 };
 
-struct Problem {
+struct Pressed {
   const char* title;
   std::string text;
   int refinements;  ///< of quadratic elements; the reference has as many more as `finer`
@@ -116,27 +119,11 @@ distance = "abs(x) < 0.501 ? y : y + 1"
 normal = [0, 1]
 )toml";
 
-const std::string ball_3d = R"toml(
-[[body]]
-name = "b"
-shape = "half_ball"
-center = [0, 0, 0]
-radius = 1.0
-size = "0.045 + 0.35 * sqrt(x^2 + y^2 + (z + 1)^2)"
-young = 1
-poisson = 0.3
-[[fix]]
-body = "b"
-on = "flat"
-value = [0, 0, -0.011]
-[[obstacle]]
-type = "contact"
-body = "b"
-on = "curved"
-shape = "plane"
-point = [0, 0, -1]
-normal = [0, 0, 1]
-)toml";
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file).rdbuf();
+  return out.str();
+}
 
 /// E = 250, a total shear force of 100 on the right side of 16; the plane is far away.
 const std::string cook = R"toml(
@@ -180,7 +167,7 @@ Measured solve(const std::string& text, const Element& element, double poisson, 
   return out;
 }
 
-void print_errors(const Problem& problem) {
+void print_errors(const Pressed& problem) {
   fmt::print("### {}\n\n| poisson |", problem.title);
   for (const Element& element : elements) fmt::print(" {} |", element.name);
   fmt::print("\n| --- |");
@@ -248,7 +235,7 @@ void print_incompressible(bool quick) {
   print_errors({"A block pressed on a parabola, 2D", pressed_2d, 2, quick ? 1 : 2});
   print_errors({"A flat punch, 2D", punch_2d, 1, quick ? 1 : 2});
   print_errors({"A block pressed on a paraboloid, 3D", pressed_3d, 1 - less});
-  print_errors({"A ball on a plane, 3D", ball_3d, 1 - less});
+  print_errors({"A ball on a plane, 3D", text_of(scene_file("ball_on_plane.toml")), 1 - less});
   print_cook(4 - less);
   print_cycles("block in 2D", pressed_2d, 6 - 2 * less);
   print_cycles("block in 3D", pressed_3d, 3 - less);
