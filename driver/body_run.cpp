@@ -13,6 +13,7 @@
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/problem.hpp"
+#include "driver/touching_bodies.hpp"
 
 namespace signorini {
 namespace {
@@ -38,7 +39,8 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
         return hierarchy;
       }()),
       probes_(locate_probes(hierarchy_.finest(), scene, body)),
-      solver_(hierarchy_, scene.solver, registry, progress, times, nodes_of(hierarchy_, scene.bodies[body].order)) {
+      solver_(hierarchy_, solver_options(scene, scene.bodies[body]), registry, progress, times,
+              nodes_of(hierarchy_, scene.bodies[body].order)) {
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
 }
 

@@ -12,6 +12,7 @@
 #include "core/scene/specs.hpp"
 #include "driver/materials.hpp"
 #include "driver/numbers.hpp"
+#include "driver/touching_bodies.hpp"
 
 namespace signorini {
 namespace {
@@ -67,6 +68,11 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   if (scene.shape && !type.takes_shape)
     input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
   if (!scene.shape && type.takes_shape) expect_shape(scene, type);
+  if (!scene.other.empty() && !type.takes_body)
+    input_error(scene.source.of("other"),
+                fmt::format("the obstacle type '{}' acts on one body, expected no 'other'", scene.type));
+  if (scene.other.empty() && type.takes_body)
+    input_error(origin, fmt::format("missing key 'other': the obstacle type '{}' acts between two bodies", scene.type));
   std::shared_ptr<const DistanceFunction> shape;
   if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
   auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},
@@ -89,35 +95,47 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
 }
 
 template <int B>
-Fix<B> fix(const Scene::Fix& scene) {
-  Fix<B> result{scene.on, {}, scene.frame};
-  std::copy_n(scene.value.begin(), B, result.value.begin());
+Fix<B> fix(const Scene::Body& body, const Scene::Fix& given) {
+  Fix<B> result{on_mesh_of(body, given.body, given.on), {}, given.frame};
+  std::copy_n(given.value.begin(), B, result.value.begin());
   return result;
 }
 
 template <int B>
-Load<B> load(const Scene::Load& scene) {
-  Load<B> result{scene.on, {}};
-  std::copy_n(scene.value.begin(), B, result.value.begin());
+Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& given) {
+  Load<B> result{given.on, {}};
+  std::copy_n(given.value.begin(), B, result.value.begin());
+  if (given.on) result.on = on_mesh_of(body, given.body, *given.on);
+  if (given.on || body.parts.empty()) return result;
+  const auto part = std::ranges::find(body.parts, given.body, &Scene::Body::name) - body.parts.begin();
+  const auto [first, count] = regions_of_part(scene, body, static_cast<std::size_t>(part));
+  result.regions = {first, first + count - 1};
   return result;
 }
+
 }  // namespace
 
 template <int B>
 Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   Model<B> model;
-  model.diffusion = coefficient(scene, body, body.diffusion, &Scene::Material::diffusion);
-  model.young = coefficient(scene, body, body.young, &Scene::Material::young);
-  model.poisson = coefficient(scene, body, body.poisson, &Scene::Material::poisson);
+  model.diffusion = coefficient(scene, body, &Scene::Body::diffusion, &Scene::Material::diffusion);
+  model.young = coefficient(scene, body, &Scene::Body::young, &Scene::Material::young);
+  model.poisson = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
   model.plane = body.plane;
   model.pressure = body.pressure.value_or(Pressure::none);
   model.t = t;
   model.origin = body.source.table;
-  for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(scene.fixes[k]));
-  for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene.loads[k]));
-  for (const int k : numbers_of(scene.obstacles, body))
-    model.obstacles.push_back(create_obstacle<B>(scene.obstacles[k], dimension, registry, t));
+  for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(body, scene.fixes[k]));
+  for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene, body, scene.loads[k]));
+  for (const int k : numbers_of(scene.obstacles, body)) {
+    const Scene::Obstacle& obstacle = scene.obstacles[k];
+    ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, t));
+    if (term.on) term.on = on_mesh_of(body, obstacle.body, *term.on);
+    if (!obstacle.other.empty())
+      term.other = on_mesh_of(body, obstacle.other,
+                              obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
+  }
   return model;
 }
 

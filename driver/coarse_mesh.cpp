@@ -12,12 +12,14 @@
 #include "core/geometry/body_geometry.hpp"
 #include "core/io/mesh_file.hpp"
 #include "core/io/surface_complaint.hpp"
+#include "core/mesh/join.hpp"
 #include "core/mesh/meridian.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
 #include "driver/materials.hpp"
 #include "driver/memory.hpp"
 #include "driver/mesh_warnings.hpp"
+#include "driver/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -105,15 +107,30 @@ int dimension_of(const Scene& scene) {
 }
 
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
-                      const Progress& progress) {
-  const Scene::Body& given = scene.bodies[body];
+Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::vector<std::string>* warnings,
+                const Progress& progress) {
   Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, given.shape);
   if constexpr (D == 2)
     if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
   if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))
     geometry::give_geometry(mesh, file->reading.surfaces, file->reading.crease);
   return mesh;
+}
+
+template <int D>
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
+                      const Progress& progress) {
+  const Scene::Body& given = scene.bodies[body];
+  if (given.parts.empty()) return mesh_of<D>(scene, given, block, warnings, progress);
+  std::vector<Mesh<D>> meshes;
+  std::vector<std::string> names;
+  std::vector<int> materials;
+  for (const Scene::Body& part : given.parts) {
+    meshes.push_back(mesh_of<D>(scene, part, block, warnings, progress));
+    names.push_back(part.name);
+    materials.push_back(static_cast<int>(numbers_of(scene.materials, part).size()));
+  }
+  return join(std::move(meshes), names, materials);
 }
 
 template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);

@@ -11,7 +11,8 @@ namespace signorini {
 /// 2 or 3; where only a mesh file tells it, the scene is checked against it.
 int dimension_of(const Scene& scene);
 
-/// The coarsest mesh of a body: structured, meshed from its shape, or read from its file.
+/// The coarsest mesh of a body: structured, meshed from its shape, or read from its file. Of one with parts those of
+/// all of them.
 /// @param block unknowns per vertex, to refuse meshes that would not fit into memory
 /// @param warnings where there are any, what is odd about the mesh is added
 template <int D>

@@ -98,7 +98,7 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
     ContactReport& report = reports.emplace_back(totals(results.contact.obstacles[k], results.deformed[k]));
     report.penetration_between_nodes = results.between_nodes[k];
     report.obstacle = numbers[k];
-    report.body = scene.bodies[body].name;
+    report.body = scene.obstacles[numbers[k]].body;
     if (B == 1) continue;
     const std::array<double, 3> about = reference_point(scene.obstacles[numbers[k]], t);
     report.moment_about.assign(about.begin(), about.begin() + D);

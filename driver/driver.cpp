@@ -13,6 +13,7 @@
 #include "driver/contact_warnings.hpp"
 #include "driver/merge.hpp"
 #include "driver/problem.hpp"
+#include "driver/touching_bodies.hpp"
 
 namespace signorini {
 
@@ -31,15 +32,21 @@ Driver::Driver(Scene scene, const Progress& progress)
 
 Driver::~Driver() = default;
 
+/// The scene may have changed, but for its bodies.
+void Driver::prepare() {
+  if (bodies_.empty()) report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
+  solved_ = with_touching_bodies(scene_);
+  if (bodies_.empty()) build_bodies();
+}
+
 void Driver::build_bodies() {
-  report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
   PromisedMemory promised;
-  const std::size_t bodies = scene_.bodies.size();
+  const std::size_t bodies = solved_.bodies.size();
   for (std::size_t body = 0; body < bodies; ++body)
     dispatch(
-        scene_,
+        solved_,
         [&]<int D, int B>() {
-          bodies_.emplace_back(std::make_unique<BodyRun<D, B>>(scene_, body, registry_, progress_, report_.time,
+          bodies_.emplace_back(std::make_unique<BodyRun<D, B>>(solved_, body, registry_, progress_, report_.time,
                                                                mesh_warnings_, bodies > 1 ? &promised : nullptr));
         },
         body);
@@ -47,7 +54,7 @@ void Driver::build_bodies() {
     std::as_const(*this).visit(body, [&](const auto& run) {
       const auto& meshes = run.hierarchy();
       if (const auto& pieces = meshes.levels.front().pieces; !pieces.empty())
-        report_.geometry.push_back({scene_.bodies[body].name, pieces, meshes.straightened});
+        report_.geometry.push_back({solved_.bodies[body].name, pieces, meshes.straightened});
     });
 }
 
@@ -59,7 +66,7 @@ const Report& Driver::solve(const std::function<void()>& done) {
   report_.interrupted = false;
   report_.error.clear();
   if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
-  if (bodies_.empty()) build_bodies();
+  prepare();
   report_.warnings = mesh_warnings_;
   const int count = report_.planned_steps = scene_.steps.count();
   try {
@@ -131,7 +138,7 @@ bool Driver::may_be_cut(const Advance& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
-    if (!report.bodies[body].summary.converged() && uses_t(scene_, scene_.bodies[body])) return true;
+    if (!report.bodies[body].summary.converged() && uses_t(solved_, solved_.bodies[body])) return true;
   return false;
 }
 
@@ -156,7 +163,7 @@ void Driver::add_step(StepReport report) {
 StepReport Driver::solve_step(const Advance& by, std::vector<std::string>& warnings) {
   std::vector<StepReport> reports;
   for (std::size_t body = 0; body < bodies(); ++body) {
-    if (bodies() > 1) progress_.phase(fmt::format("body '{}'", scene_.bodies[body].name));
+    if (bodies() > 1) progress_.phase(fmt::format("body '{}'", solved_.bodies[body].name));
     reports.push_back(visit(body, [&](auto& run) { return run.solve(by.to, warnings); }));
   }
   StepReport report = merged(scene_, std::move(reports));
@@ -177,7 +184,7 @@ void Driver::finish() {
 }
 
 void Driver::start_from(std::size_t body, std::vector<double> u) {
-  if (bodies_.empty()) build_bodies();
+  prepare();
   visit(body, [&](auto& run) { run.start_from(std::move(u)); });
 }
 

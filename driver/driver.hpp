@@ -22,6 +22,7 @@ namespace signorini {
 ///     force = driver.solve().last().contact[0].force[2];
 ///
 /// Meshes, levels and matrices are kept between steps and solves as far as they stay the same.
+/// Bodies that may touch each other are solved as one, and count as one here: see with_touching_bodies().
 /// Errors are Error, with the program's exit status and a message that names the place in the scene.
 class Driver {
  public:
@@ -77,6 +78,7 @@ class Driver {
   using AnyRun = std::variant<Run<2, 1>, Run<3, 1>, Run<2, 2>, Run<3, 3>>;
 
   static const Progress& waiting();
+  void prepare();
   void build_bodies();
   void begin();
   bool advance(const Advance& by, const std::function<void()>& done);
@@ -89,6 +91,7 @@ class Driver {
   void finish();
 
   Scene scene_;
+  Scene solved_;  // the same with_touching_bodies()
   const Progress& progress_;
   Registry registry_;
   std::vector<std::string> mesh_warnings_;

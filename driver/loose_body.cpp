@@ -13,6 +13,7 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/force_split.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/connected.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
 
@@ -111,6 +112,12 @@ Eigen::VectorXd along_bounds(const Eigen::VectorXd& work, const Eigen::VectorXd&
   return (along * (along.transpose() * work)).normalized();
 }
 
+/// Per node the body it belongs to; empty where there is one.
+template <int D, int B>
+std::vector<Index> bodies_of(const Nodes<D>& nodes, const Model<B>& model) {
+  return is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>();
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -118,7 +125,7 @@ LooseBody<D, B>::LooseBody(const Nodes<D>& nodes, const Model<B>& model, const D
     : nodes_(nodes),
       model_(model),
       discretization_(discretization),
-      motions_(nodes, model.plane),
+      motions_(nodes, model.plane, bodies_of(nodes, model)),
       free_(motions_.free(discretization.problem)) {
   if (free_.cols() > 0) add_work();
 }
@@ -127,7 +134,7 @@ LooseBody<D, B>::LooseBody(const Nodes<D>& nodes, const Model<B>& model, const D
 template <int D, int B>
 void LooseBody<D, B>::add_work() {
   const std::vector<double> loads = load_vector<D, B>(nodes_, model_);
-  typename Motions::Row work = Motions::Row::Zero();
+  typename Motions::Row work = Motions::Row::Zero(motions_.count());
   for (Index p = 0; p < nodes_.size(); ++p) {
     const double* b = loads.data() + Offset{p} * B;
     const auto here = motions_.along(p, b);
@@ -163,7 +170,7 @@ auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Ro
       if (lower == -infinity && upper == infinity) continue;
       const Index p = problem.constraints.vector[slot];
       const double value = x[Offset{p} * B + k];
-      add(p, motions_.along(problem.frames, p, k) * free_, lower - value, upper - value);
+      add(p, motions_.along(problem, p, k) * free_, lower - value, upper - value);
     }
   each_polyhedron([&](Index slot) {
     const Constraints<B>& c = problem.constraints;
@@ -173,7 +180,7 @@ auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Ro
       double direction[B], value = 0;
       block::product<B>(problem.frames.dual_at(p), face.normal, direction);
       for (int k = 0; k < B; ++k) value += face.normal[k] * x[Offset{p} * B + k];
-      add(p, motions_.along(p, direction) * free_, face.lower - value, face.upper - value);
+      add(p, motions_.along(problem, p, direction) * free_, face.lower - value, face.upper - value);
     }
   });
   return out;
@@ -295,7 +302,7 @@ void LooseBody<D, B>::add_pressed(Index slot, const std::vector<double>& x, std:
   const ForceSplit split = split_force<B>(directions, force);
   for (std::size_t k = 0; k < directions.size(); ++k) {
     forces.push_back(split.part[k]);
-    rows.push_back(motions_.along(p, directions[k].data()) * free_);
+    rows.push_back(motions_.along(problem, p, directions[k].data()) * free_);
   }
 }
 
@@ -319,7 +326,7 @@ Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
       const double force = Ax[k] - b;
       if (!c.has_facets(slot)) {
         forces.push_back(below && above ? std::abs(force) : below ? force : -force);
-        rows.push_back(motions_.along(problem.frames, p, k) * free_);
+        rows.push_back(motions_.along(problem, p, k) * free_);
       }
       terms = std::max(terms, std::abs(b) + problem.A.diagonal(p)[k * (B + 1)] * size);
     }
@@ -362,8 +369,8 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
                                               const Eigen::MatrixXd& costless) const {
   const Eigen::MatrixXd basis = free_ * costless;
   const std::vector<double> u = to_global(discretization_.problem, x), mass = node_volumes(nodes_, model_.plane);
-  Eigen::Matrix<double, Motions::modes, Motions::modes> H = decltype(H)::Zero();
-  typename Motions::Motion h = Motions::Motion::Zero();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(motions_.count(), motions_.count());
+  typename Motions::Motion h = Motions::Motion::Zero(motions_.count());
   for (Index p = 0; p < nodes_.size(); ++p)
     for (int i = 0; i < B; ++i) {
       double axis[B] = {};
@@ -410,7 +417,7 @@ std::vector<double> LooseBody<D, B>::as_prescribed() const {
   if (motion.isZero(0) && free_.cols() == 0) return {};
   std::vector<double> out(problem.start.size());
   for (Index p = 0; p < nodes_.size(); ++p)
-    for (int k = 0; k < B; ++k) out[Offset{p} * B + k] = motions_.along(problem.frames, p, k) * motion;
+    for (int k = 0; k < B; ++k) out[Offset{p} * B + k] = motions_.along(problem, p, k) * motion;
   return out;
 }
 
@@ -466,7 +473,7 @@ void LooseBody<D, B>::add(const Eigen::VectorXd& motion, std::vector<double>& x)
   for (Index p = 0; p < nodes_.size(); ++p)
     for (int k = 0; k < B; ++k) {
       if (problem.fixed[p] >> k & 1u) continue;
-      const double by = motions_.along(problem.frames, p, k) * motion;
+      const double by = motions_.along(problem, p, k) * motion;
       if (std::abs(by) > rounding * size) x[Offset{p} * B + k] += by;
     }
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <span>
+
 #include "core/base/error.hpp"
 #include "driver/numbers.hpp"
 
@@ -41,21 +43,26 @@ std::vector<Index> regions(const Scene& scene, const Scene::Body& body, const Me
   return out;
 }
 
-Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
+Field coefficient(const Scene& scene, const Scene::Body& body, Field Scene::Body::*own,
                   std::optional<Field> Scene::Material::*others) {
-  std::vector<Field> of_region{own};
-  std::string text = own.text();
-  bool uses_t = own.uses_t();
-  for (const int k : numbers_of(scene.materials, body)) {
-    const Scene::Material& material = scene.materials[k];
-    of_region.push_back((material.*others).value_or(own));
-    text += fmt::format("; {}: {}", material.volume, of_region.back().text());
-    uses_t = uses_t || of_region.back().uses_t();
+  std::vector<Field> of_region;
+  std::string text;
+  bool uses_t = false;
+  const auto add = [&](const Field& field, const std::string& of) {
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", of, field.text());
+    uses_t = uses_t || field.uses_t();
+    of_region.push_back(field);
+  };
+  const std::span<const Scene::Body> bodies = body.parts.empty() ? std::span(&body, 1) : std::span(body.parts);
+  for (const Scene::Body& part : bodies) {
+    add(part.*own, part.name);
+    for (const int k : numbers_of(scene.materials, part))
+      add((scene.materials[k].*others).value_or(part.*own), scene.materials[k].volume);
   }
-  if (of_region.size() == 1) return own;
-  const auto value = [of_region](const Site& site) {
-    const auto number = static_cast<unsigned>(site.region + 1);
-    return of_region[number](site);
+  if (of_region.size() == 1) return body.*own;
+  const int first = body.parts.empty() ? -1 : 0;  // the region of a body's own material
+  const auto value = [of_region, first](const Site& site) {
+    return of_region[static_cast<std::size_t>(site.region - first)](site);
   };
   return {value, text, body.source.table, false, uses_t};
 }

@@ -13,10 +13,10 @@ namespace signorini {
 template <int D>
 std::vector<Index> regions(const Scene& scene, const Scene::Body& body, const Mesh<D>& mesh, const FileGroups& groups);
 
-/// A coefficient of a body with its materials', told apart by Site::region.
-/// @param own of the body
-/// @param others where the materials have it
-Field coefficient(const Scene& scene, const Scene::Body& body, const Field& own,
+/// A coefficient of a body, or of its parts, with that of its materials, told apart by Site::region.
+/// @param own where bodies have it
+/// @param others where materials have it
+Field coefficient(const Scene& scene, const Scene::Body& body, Field Scene::Body::*own,
                   std::optional<Field> Scene::Material::*others);
 
 }  // namespace signorini

@@ -50,8 +50,7 @@ Balance forces(const DiscreteProblem<B>& problem, const std::vector<double>& x) 
 template <int B>
 void prescribe_anew(Discretization<B>& discretization) {
   DiscreteProblem<B>& problem = discretization.problem;
-  problem.b = discretization.load;
-  rotate(problem.b, problem.frames);
+  problem.b = local_forces(problem, discretization.load);
   prescribe(problem, discretization.prescribed);
 }
 

@@ -165,6 +165,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   spaces_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
+  pairings_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
 }
 
@@ -179,7 +180,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     solution.discretization = std::move(*renewed);
   } else {
     changed_[level] = true;
-    solution.discretization = discretize<D, B>(nodes_[level], model);
+    solution.discretization = discretize<D, B>(nodes_[level], model, pairings_[level]);
     Assemblies& count = times_.assemblies;
     ++count.stiffness, ++count.load, ++count.constraints;
   }
@@ -195,6 +196,26 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   return solution;
 }
 
+/// Where bodies may touch each other, unknowns are jumps, and interpolation is one between jumps.
+template <int D, int B>
+void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
+  if constexpr (D == B) {
+    if (!is_paired(model)) return;
+    const Stopwatch watch;
+    bool changed = false;
+    for (std::size_t level = first_; level < nodes_.size(); ++level) {
+      auto now = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
+      changed = changed || !pairings_[level] || *now->jumps != *pairings_[level]->jumps;
+      pairings_[level] = std::move(now);
+    }
+    for (std::size_t k = first_; k < hierarchy_.refinements.size() && changed; ++k)
+      prolongations_[number(k)] =
+          between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]), *pairings_[k + 1]->jumps,
+                        *pairings_[k]->jumps);
+    times_.setup += watch.elapsed();
+  }
+}
+
 /// From what the last solve left, if that is all there.
 template <int D, int B>
 std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>& model, std::size_t level) {
@@ -206,7 +227,7 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
     problem.A = std::move(galerkin_[number(level)].A);
     problem.fixed = std::move(galerkin_[number(level)].off);
   }
-  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization);
+  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization, pairings_[level]);
   changed_[level] = !assembled.same_matrix();
   times_.assemblies.stiffness += assembled.stiffness;
   times_.assemblies.load += assembled.load;
@@ -486,6 +507,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   for (auto& of_level : now_) of_level = {};
   for (auto& of_level : numbers_now_) of_level = {};
+  pair_levels(model);
   Solution<B> coarse;
   if (options_.start == "nested") coarse = solve_coarser_meshes(model);
   if (!continued_ && first_ < finest) choose_levels_below(model);

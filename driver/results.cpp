@@ -55,12 +55,35 @@ std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
   return reports;
 }
 
+/// Adds the forces of the tables that belong to a body, times `sign`; numbers[k] is the table of forces[k].
+template <int B, class Table>
+void add_forces(const std::vector<std::array<double, B>>& forces, const std::vector<int>& numbers,
+                const std::vector<Table>& tables, std::string Table::*of, const std::string& body, double sign,
+                std::vector<double>& total) {
+  total.resize(B);
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    for (int i = 0; i < B; ++i)
+      if (tables[numbers[k]].*of == body) total[i] += sign * forces[k][i];
+}
+
+/// Of a body, or of its parts: what touches one of them pushes the other one back.
 template <int B>
-std::vector<double> total(const std::vector<std::array<double, B>>& forces) {
-  std::vector<double> total(B);
-  for (const auto& force : forces)
-    for (int i = 0; i < B; ++i) total[i] += force[i];
-  return total;
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Forces<B>& forces) {
+  std::vector<std::string> names{body.name};
+  if (!body.parts.empty()) names.clear();
+  for (const Scene::Body& part : body.parts) names.push_back(part.name);
+  const std::vector<int> obstacles = numbers_of(scene.obstacles, body);
+  std::vector<BalanceReport> out;
+  for (const std::string& name : names) {
+    BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
+    add_forces(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name, 1,
+               balance.applied);
+    add_forces(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name, 1,
+               balance.reactions);
+    add_forces(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
+    add_forces(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
+  }
+  return out;
 }
 
 template <int D>
@@ -84,11 +107,12 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0}};
-  report.balance = {{body.name, total<B>(forces.applied), total<B>(forces.reactions), total<B>(forces.contact)}};
+  report.balance = balances(scene, body, forces);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
-    report.probes.push_back({probes.names[k], body.name, {value.begin(), value.end()}});
+    const auto probe = std::ranges::find(scene.probes, probes.names[k], &Scene::Probe::name);
+    report.probes.push_back({probes.names[k], probe->body, {value.begin(), value.end()}});
   }
   return report;
 }
@@ -97,7 +121,7 @@ template <int D>
 std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
-  const Field ratio = coefficient(scene, body, body.poisson, &Scene::Material::poisson);
+  const Field ratio = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
   double poisson = ratio.constant().value_or(0);
   if (!ratio.constant())
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) poisson = std::max(poisson, ratio(site_in(mesh, e, 1)));

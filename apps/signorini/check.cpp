@@ -88,7 +88,9 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
   std::vector<std::set<Index>> candidates(numbers.size());
   std::vector<FunctionalNumbers<B>> functionals;
-  for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals))
+  std::shared_ptr<const PairedBodies<B>> pairing;
+  if constexpr (D == B) pairing = pair_bodies(nodes, model, collect_fixes(nodes, model));
+  for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals, pairing.get()))
     candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k)
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
@@ -156,12 +158,13 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   if (pressures > 0)
     fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
   print_contacts(nodes, scene, scene.bodies[body], model);
-  const std::size_t first = first_mesh(hierarchy, scene.solver, B, order);
-  const bool factorised = factorised_meshes(hierarchy, scene.solver, B) > 0;
-  const auto below = factorised ? std::nullopt : coarsening_below(scene.solver, B, hierarchy.levels[first].vertices());
+  const Scene::Solver options = solver_options(scene, scene.bodies[body]);
+  const std::size_t first = first_mesh(hierarchy, options, B, order);
+  const bool factorised = factorised_meshes(hierarchy, options, B) > 0;
+  const auto below = factorised ? std::nullopt : coarsening_below(options, B, hierarchy.levels[first].vertices());
   const bool functional =
       std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
-  print_solver(scene.solver, below, first == 0, B, free_unknowns(nodes, model), functional || pressures > 0);
+  print_solver(options, below, first == 0, B, free_unknowns(nodes, model), functional || pressures > 0);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
   print_warnings(model_warnings(scene, nodes, model, body));
@@ -169,12 +172,14 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
 }  // namespace
 
 void check_command(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const Scene scene = read_scene(file, overrides);
+  Scene scene = read_scene(file, overrides);
   Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
   fmt::print("{}: {}\ndimension: {}\n", file.string(), scene.title, dimension_of(scene));
   for (const auto& plugin : plugins) fmt::print("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
+  scene.dimension = dimension_of(scene);
+  scene = with_touching_bodies(scene);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.bodies.size() > 1) fmt::print("body '{}'\n", scene.bodies[body].name);
     fmt::print("equation: {}\n",

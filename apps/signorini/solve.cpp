@@ -10,6 +10,7 @@
 #include "apps/signorini/output.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
+#include "driver/touching_bodies.hpp"
 
 namespace signorini {
 namespace {
@@ -19,7 +20,7 @@ class ResultFiles {
  public:
   /// Keeps references to both.
   ResultFiles(Driver& driver, AtomicFiles& files)
-      : driver_(driver), files_(files), vtu_(files, scene().bodies.size()) {}
+      : driver_(driver), files_(files), vtu_(files, with_touching_bodies(scene()).bodies.size()) {}
 
   /// After a step or a part of one. The last one, after which none follows, is written in finish().
   void add_step() {

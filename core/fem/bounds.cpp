@@ -69,8 +69,13 @@ template <int D, int B>
 class Collector {
  public:
   Collector(const Nodes<D>& nodes, const Model<B>& model, std::vector<Bound<B>>& bounds,
-            std::vector<FunctionalNumbers<B>>& functionals)
-      : nodes_(nodes), model_(model), bounds_(bounds), functionals_(functionals), constraints_(batch) {}
+            std::vector<FunctionalNumbers<B>>& functionals, const PairedBodies<B>* pairing)
+      : nodes_(nodes),
+        model_(model),
+        bounds_(bounds),
+        functionals_(functionals),
+        pairing_(pairing),
+        constraints_(batch) {}
 
   void collect(Index obstacle) {
     obstacle_ = obstacle;
@@ -79,17 +84,33 @@ class Collector {
     const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
     functional_ = of.nonlinearity() != nullptr;
     needs_numbers_ = of.descriptor().data > 0;
-    candidates.each(nodes_, [this](Index p, const Point<D>& normal, double measure) { push(p, normal, measure); });
+    if (model_.obstacles[obstacle].other)
+      collect_paired(candidates);
+    else
+      candidates.each(nodes_, [&](Index p, const Point<D>& normal, double measure) { push(p, normal, measure); });
     flush();
   }
 
  private:
-  void push(Index p, const Point<D>& normal, double measure) {
+  /// The nodes that the other body is in front of.
+  void collect_paired(const Candidates<D>& candidates) {
+    auto next = std::ranges::find(pairing_->nodes, obstacle_, &PairedNode<B>::obstacle);
+    candidates.each(nodes_, [&](Index p, const Point<D>& normal, double measure) {
+      if (next == pairing_->nodes.end() || next->obstacle != obstacle_ || next->node != p) return;
+      push(p, normal, measure, &*next++);
+    });
+  }
+
+  void push(Index p, const Point<D>& normal, double measure, const PairedNode<B>* pair = nullptr) {
     SurfaceVertex v{};
     v.measure = measure;
     v.vertex = nodes_.vertex(p);
     std::copy_n(nodes_.at(p).data(), D, v.position);
     std::copy_n(normal.data(), D, v.normal);
+    if (pair) {
+      v.gap = pair->gap;
+      std::copy_n(pair->away.data(), B, v.away);
+    }
     numbers_.push_back(p);
     if (vertices_.emplace_back(v); vertices_.size() == batch) flush();
   }
@@ -165,6 +186,7 @@ class Collector {
   const Model<B>& model_;
   std::vector<Bound<B>>& bounds_;
   std::vector<FunctionalNumbers<B>>& functionals_;
+  const PairedBodies<B>* pairing_;
   Index obstacle_ = 0;
   bool functional_ = false, needs_numbers_ = false;
   bool rules_ = false;  // its functional acts at the vertex, all of whose directions are coordinates then
@@ -177,9 +199,9 @@ class Collector {
 
 template <int D, int B>
 std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& model,
-                                     std::vector<FunctionalNumbers<B>>& numbers) {
+                                     std::vector<FunctionalNumbers<B>>& numbers, const PairedBodies<B>* pairing) {
   std::vector<Bound<B>> bounds;
-  Collector<D, B> collector(nodes, model, bounds, numbers);
+  Collector<D, B> collector(nodes, model, bounds, numbers, pairing);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k) collector.collect(static_cast<Index>(k));
   if (model.obstacles.size() > 1)
     std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
@@ -395,10 +417,14 @@ void BoundCombiner<D, B>::no_solution(Index obstacle, Index vertex, const std::s
                                              position(nodes_, vertex), why));
 }
 
-template std::vector<Bound<1>> collect_bounds(const Nodes<2>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
-template std::vector<Bound<1>> collect_bounds(const Nodes<3>&, const Model<1>&, std::vector<FunctionalNumbers<1>>&);
-template std::vector<Bound<2>> collect_bounds(const Nodes<2>&, const Model<2>&, std::vector<FunctionalNumbers<2>>&);
-template std::vector<Bound<3>> collect_bounds(const Nodes<3>&, const Model<3>&, std::vector<FunctionalNumbers<3>>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                   \
+  template std::vector<Bound<B>> collect_bounds(const Nodes<D>&, const Model<B>&, std::vector<FunctionalNumbers<B>>&, \
+                                                const PairedBodies<B>*);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 template class BoundCombiner<2, 1>;
 template class BoundCombiner<3, 1>;
 template class BoundCombiner<2, 2>;

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/fem/fixes.hpp"
+#include "core/fem/paired_bodies.hpp"
 
 namespace signorini {
 
@@ -24,9 +25,11 @@ struct FunctionalNumbers {
 /// functional comes with them. An obstacle that fails is an Error with its code; a bound that no number satisfies is an
 /// Error(Exit::no_solution).
 /// @param numbers of each functional are appended, see Bound::data
+/// @param pairing pair_bodies() of both; null where the model has no obstacle between bodies
 template <int D, int B>
 std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& model,
-                                     std::vector<FunctionalNumbers<B>>& numbers);
+                                     std::vector<FunctionalNumbers<B>>& numbers,
+                                     const PairedBodies<B>* pairing = nullptr);
 
 /// One direction of a local constraint and the obstacles its two bounds come from.
 template <int B>

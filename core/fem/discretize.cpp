@@ -49,14 +49,35 @@ std::optional<Frames<B>> change(const Frames<B>& old, const Frames<B>& now, cons
 }
 
 template <int D, int B>
+std::shared_ptr<const PairedBodies<B>> pair_bodies(const Nodes<D>& nodes, const Model<B>& model,
+                                             const std::vector<FixedDirections<B>>& fixes) {
+  if constexpr (D == B)
+    return signorini::pair_bodies<D>(nodes, model, fixes);
+  else
+    return nullptr;
+}
+
+/// Whether the unknowns mean the same.
+template <int B>
+bool same_jumps(const DiscreteProblem<B>& a, const DiscreteProblem<B>& b) {
+  if (a.jumps == b.jumps) return true;
+  return a.jumps && b.jumps && *a.jumps == *b.jumps;
+}
+
+template <int D, int B>
 class Discretizer {
  public:
-  Discretizer(const Nodes<D>& nodes, const Model<B>& model)
+  Discretizer(const Nodes<D>& nodes, const Model<B>& model, std::shared_ptr<const PairedBodies<B>> pairing)
       : nodes_(nodes),
         model_(model),
         fixes_(collect_fixes(nodes, model)),
-        bounds_(collect_bounds(nodes, model, functionals_)),
+        pairing_(pairing ? std::move(pairing) : pair_bodies(nodes, model, fixes_)),
+        bounds_(collect_bounds(nodes, model, functionals_, pairing_.get())),
         combiner_(nodes, model, bounds_, fixes_) {
+    if (pairing_) {
+      problem().jumps = pairing_->jumps;
+      refuse_other_bounds();
+    }
     bound_coefficients(nodes, fixes_, bounds_);
     const auto n = static_cast<std::size_t>(nodes.size());
     problem().fixed.assign(n, 0);
@@ -109,6 +130,7 @@ class Discretizer {
   void assemble_stiffness() {
     problem().A = stiffness(nodes_, model_);
     check_stiffness(nodes_, model_, problem().A);
+    if (problem().jumps) transform(*problem().jumps, problem().A);
     rotate(problem().A, problem().frames);
     keep_prescribed_rows();
   }
@@ -125,7 +147,7 @@ class Discretizer {
   /// Takes over the matrix, turned to the frames of now; false where it is that of other prescribed components.
   bool take_stiffness(Discretization<B>& last, bool& turn) {
     const DiscreteProblem<B>& old = last.problem;
-    if (old.fixed != problem().fixed) return false;
+    if (old.fixed != problem().fixed || !same_jumps(old, problem())) return false;
     const std::optional<Frames<B>> turned = change(old.frames, problem().frames, problem().fixed);
     if (!turned) return false;
     problem().A = std::move(last.problem.A);
@@ -139,8 +161,7 @@ class Discretizer {
   void assemble_load() { out_.load = load_vector<D, B>(nodes_, model_, &out_.applied); }
 
   void place_load() {
-    problem().b = out_.load;
-    rotate(problem().b, problem().frames);
+    problem().b = local_forces(problem(), out_.load);
     out_.prescribed.take_load(problem().b);
   }
 
@@ -345,10 +366,27 @@ class Discretizer {
     }
   }
 
+  /// A bound of what one body does is none of a jump.
+  void refuse_other_bounds() const {
+    for (const Bound<B>& bound : bounds_)
+      if (!model_.obstacles[bound.obstacle].other && std::ranges::binary_search(pairing_->jumps->vector, bound.vertex))
+        input_error(model_.obstacles[bound.obstacle].origin,
+                    fmt::format("acts at ({}), where {} lets the body touch another one, which is not available in "
+                                "this version; expected faces apart from those, or the two bodies of that obstacle "
+                                "exchanged",
+                                fmt::join(nodes_.at(bound.vertex), ", "), origin_of_pair(bound.vertex)));
+  }
+
+  const std::string& origin_of_pair(Index node) const {
+    const auto found = std::ranges::find(pairing_->nodes, node, &PairedNode<B>::node);
+    return model_.obstacles[found->obstacle].origin;
+  }
+
   const Nodes<D>& nodes_;
   const Model<B>& model_;
   Discretization<B> out_;
   std::vector<FixedDirections<B>> fixes_;
+  std::shared_ptr<const PairedBodies<B>> pairing_;
   std::vector<char> own_;                          // per slot: ruled by the kernel's own obstacle
   std::vector<FunctionalNumbers<B>> functionals_;  // see Bound::data
   std::vector<Bound<B>> bounds_, held_;
@@ -358,42 +396,36 @@ class Discretizer {
 }  // namespace
 
 template <int D, int B>
-Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model) {
-  return Discretizer<D, B>(nodes, model).discretize();
+Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model, std::shared_ptr<const PairedBodies<B>> pairing) {
+  return Discretizer<D, B>(nodes, model, std::move(pairing)).discretize();
 }
 
 template <int D, int B>
-Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last) {
+Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last,
+                std::shared_ptr<const PairedBodies<B>> pairing) {
   Assembled assembled;
-  last = Discretizer<D, B>(nodes, model).renew(std::move(last), before, assembled);
+  last = Discretizer<D, B>(nodes, model, std::move(pairing)).renew(std::move(last), before, assembled);
   return assembled;
 }
 
 template <int B>
 std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x) {
-  for (Index p = 0; p < static_cast<Index>(problem.frames.slot.size()); ++p)
-    if (const double* Q = problem.frames.at(p)) {
-      double v[B];
-      block::product<B>(Q, x.data() + Offset{p} * B, v);
-      std::copy_n(v, B, x.data() + Offset{p} * B);
-    }
+  out_of_frames(problem.frames, x);
+  if (problem.jumps) to_displacements(*problem.jumps, x);
   return x;
 }
 
 template <int B>
 std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<double> u) {
-  for (Index p = 0; p < static_cast<Index>(problem.frames.slot.size()); ++p)
-    if (const double* N = problem.frames.dual_at(p)) {
-      double v[B];
-      block::transposed_product<B>(N, u.data() + Offset{p} * B, v);
-      std::copy_n(v, B, u.data() + Offset{p} * B);
-    }
+  if (problem.jumps) to_jumps(*problem.jumps, u);
+  into_frames(problem.frames, u);
   return u;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                        \
-  template Discretization<B> discretize(const Nodes<D>&, const Model<B>&); \
-  template Assembled renew(const Nodes<D>&, const Model<B>&, const Model<B>&, Discretization<B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                            \
+  template Discretization<B> discretize(const Nodes<D>&, const Model<B>&, std::shared_ptr<const PairedBodies<B>>);  \
+  template Assembled renew(const Nodes<D>&, const Model<B>&, const Model<B>&, Discretization<B>&,              \
+                           std::shared_ptr<const PairedBodies<B>>);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -56,8 +56,10 @@ struct Discretization {
 /// Error(Exit::input) for selections without faces, fields that are not finite or out of range, inverted elements;
 /// Error(Exit::no_solution) for obstacles that contradict the fixed boundary or each other along one direction;
 /// Error(Exit::plugin) for obstacles whose sweeps admit something else than their bounds: check_admissible_sets().
+/// @param pairing pair_bodies() of both, where that is known already
 template <int D, int B>
-Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model);
+Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model,
+                             std::shared_ptr<const PairedBodies<B>> pairing = nullptr);
 
 /// What of a discretization had to be assembled.
 struct Assembled {
@@ -72,9 +74,10 @@ struct Assembled {
 /// prescribed, or where a frame has changed that some are prescribed in; the load vector where loads may differ (see
 /// Field::same()). Errors as above; then nothing is left of `last`.
 template <int D, int B>
-Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last);
+Assembled renew(const Nodes<D>& nodes, const Model<B>& before, const Model<B>& model, Discretization<B>& last,
+                std::shared_ptr<const PairedBodies<B>> pairing = nullptr);
 
-/// Global coordinates of a vector field given in the local ones, and back; B per vector.
+/// Global coordinates of the displacements, or values, given by unknowns in the local ones, and back; B per vector.
 template <int B>
 std::vector<double> to_global(const DiscreteProblem<B>& problem, std::vector<double> x);
 template <int B>

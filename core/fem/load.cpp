@@ -59,8 +59,11 @@ void integrate(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load
 template <int D, int P, int B>
 void add_body_force(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Loaded<B>& out) {
   const auto measure = [](const auto& corner, const Point<D>&) { return linear_element(corner).measure; };
-  for (const auto& vertices : nodes.template elements<P>())
-    integrate<D, D, P>(nodes, model, load, vertices, measure, out);
+  const auto& elements = nodes.template elements<P>();
+  const auto [first, last] = load.regions;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    if (first < 0 || (nodes.region(e) >= first && nodes.region(e) <= last))
+      integrate<D, D, P>(nodes, model, load, elements[e], measure, out);
 }
 
 template <int D, int P, int B>

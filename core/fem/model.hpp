@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -40,6 +41,7 @@ template <int B>
 struct Load {
   std::optional<Selection> on;
   std::array<Field, B> value;
+  std::array<Index, 2> regions = {-1, -1};  ///< of a body force: the first and the last that it acts in; -1: all
 };
 
 /// An obstacle and the vertices it may touch: those of the selected faces, or all when `on` is empty.
@@ -54,6 +56,8 @@ struct ObstacleTerm {
   std::shared_ptr<const DistanceFunction> shape_before = {};
   /// Where it has any: they know what the obstacle wrongly asked of them.
   std::shared_ptr<const Settings> settings = {};
+  /// Of an obstacle between two bodies the faces of the second one, the master; those of `on` are the slave's.
+  std::optional<Selection> other = {};
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
@@ -70,5 +74,11 @@ struct Model {
   bool follows = false;         ///< another load step: friction counts from the solution of the last one
   std::string origin = "body";  ///< of the body, for messages: "scene.toml:3: body.0"
 };
+
+/// Whether parts of the model may touch each other.
+template <int B>
+bool is_paired(const Model<B>& model) {
+  return std::ranges::any_of(model.obstacles, [](const ObstacleTerm<B>& term) { return term.other.has_value(); });
+}
 
 }  // namespace signorini

@@ -6,6 +6,7 @@
 #include "core/algebra/energy_along.hpp"
 #include "core/algebra/random_vector.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/solver/local_coordinates.hpp"
 #include "core/solver/weights.hpp"
 
 namespace signorini {
@@ -75,13 +76,14 @@ template std::vector<Prolongation> prolongations(const MeshHierarchy<3>&, const 
 template <int B>
 std::vector<double> interpolate(const DiscreteProblem<B>& coarse, const std::vector<double>& x,
                                 const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
-  const std::vector<double> u = to_global(coarse, x);
+  std::vector<double> u = x;
+  out_of_frames(coarse.frames, u);
   std::vector<double> out(Offset{prolongation.fine()} * B);
   weights::with<B>(prolongation, [&](const auto& weight) {
     for (Index p = 0; p < prolongation.fine(); ++p)
       weights::interpolate<B>(prolongation, weight, p, u.data(), out.data() + Offset{p} * B);
   });
-  if (!prolongation.local) out = to_local(fine, std::move(out));
+  if (!prolongation.local) into_frames(fine.frames, out);
   for (std::size_t k = 0; k < out.size(); ++k)
     if (fine.fixed[k / B] >> (k % B) & 1) out[k] = fine.start[k];
   return out;

@@ -9,28 +9,36 @@
 
 namespace signorini {
 
+inline constexpr int most_bodies = 16;  ///< of one problem
+
 /// Motions without energy as combinations of modes. Elasticity (B = D): the translations along the axes, then the
 /// rotations (3D: about x, y and z) about the middle of the body as they move points at a distance of half its size,
-/// all of them in units of length. Diffusion (B = 1): the constant.
+/// all of them in units of length. Diffusion (B = 1): the constant. Of several bodies that are one problem each has
+/// modes of its own: first the translations of all of them, then their rotations.
 template <int D, int B>
 class RigidMotions {
  public:
-  static constexpr int modes = B == 1 ? 1 : D * (D + 1) / 2;
-  static constexpr int translations = B == 1 ? 1 : D;
-  using Motion = Eigen::Matrix<double, modes, 1>;
-  using Row = Eigen::Matrix<double, 1, modes>;
+  static constexpr int modes = B == 1 ? 1 : D * (D + 1) / 2;  ///< of one body
+  static constexpr int translations = B == 1 ? 1 : D;         ///< among them
+  using Motion = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, modes * most_bodies, 1>;
+  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, modes * most_bodies>;
 
   /// Keeps a reference. An axisymmetric elastic body has the translation along the axis alone: the other modes have
   /// energy, move nothing here and are never free.
-  explicit RigidMotions(const Nodes<D>& nodes, Plane plane = Plane::strain);
+  /// @param of_node per node the number of its body; empty: there is one
+  explicit RigidMotions(const Nodes<D>& nodes, Plane plane = Plane::strain, std::vector<Index> of_node = {});
 
-  /// Half the longest extent of the body.
+  /// Half the longest extent of a body.
   double size() const { return size_; }
+  /// Of all bodies.
+  int count() const { return modes * static_cast<int>(bodies_.size()); }
 
   /// How much each mode moves the node p along d.
   Row along(Index p, const double* d) const;
+  /// The same of the unknowns of a problem, where these are jumps by how much it moves p more than the other body.
+  Row along(const DiscreteProblem<B>& problem, Index p, const double* d) const;
   /// The same along local component k of the node.
-  Row along(const Frames<B>& frames, Index p, int k) const;
+  Row along(const DiscreteProblem<B>& problem, Index p, int k) const;
 
   /// Those that the prescribed values leave free: an orthonormal basis, one per column, none where they hold the body.
   Eigen::MatrixXd free(const DiscreteProblem<B>& problem) const;
@@ -44,11 +52,21 @@ class RigidMotions {
   std::vector<Motion> simple_basis(const Eigen::MatrixXd& space) const;
 
  private:
-  std::string at(const Point<D>& from_middle) const;
+  struct Body {
+    Point<D> low, high, middle{};
+    double size = 0;
+  };
+  using One = Eigen::Matrix<double, modes, 1>;
+
+  void add(Index p, const double* d, double factor, Row& row) const;
+  One part(const Motion& motion, std::size_t body) const;
+  std::string at(const Body& body, const Point<D>& from_middle) const;
+  std::string describe(const Body& body, const One& motion) const;
 
   const Nodes<D>& nodes_;
   bool axial_;  // no motion but along the axis
-  Point<D> middle_{};
+  std::vector<Index> of_node_;
+  std::vector<Body> bodies_;
   double size_ = 0;
 };
 

@@ -19,17 +19,18 @@ void check_unique(const std::vector<Table>& tables) {
   }
 }
 
+void refuse_unknown_body(const Scene& scene, const std::string& body, const std::string& place) {
+  std::vector<std::string> names;
+  for (const Scene::Body& known : scene.bodies) names.push_back(known.name);
+  if (std::ranges::find(names, body) != names.end()) return;
+  const std::string near = did_you_mean(body, names);
+  input_error(place, fmt::format("there is no body {}{}", in_quotes(body),
+                                 near.empty() ? fmt::format(" (bodies: {})", fmt::join(names, ", ")) : near));
+}
+
 template <class Table>
 void check_bodies(const Scene& scene, const std::vector<Table>& tables) {
-  std::vector<std::string> names;
-  for (const Scene::Body& body : scene.bodies) names.push_back(body.name);
-  for (const Table& table : tables)
-    if (std::find(names.begin(), names.end(), table.body) == names.end()) {
-      const std::string near = did_you_mean(table.body, names);
-      input_error(table.source.of("body"),
-                  fmt::format("there is no body {}{}", in_quotes(table.body),
-                              near.empty() ? fmt::format(" (bodies: {})", fmt::join(names, ", ")) : near));
-    }
+  for (const Table& table : tables) refuse_unknown_body(scene, table.body, table.source.of("body"));
 }
 
 bool scalar(const Scene& scene, const std::string& body) {
@@ -68,11 +69,41 @@ void check_fixes(const Scene& scene) {
   }
 }
 
+/// Bodies that touch each other: elastic ones, alike but for mesh and material.
+void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
+  if (obstacle.other.empty()) {
+    for (const char* key : {"other_on", "other_where"})
+      if (obstacle.source.given(key))
+        input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the body it is of", key));
+    return;
+  }
+  const std::string& place = obstacle.source.of("other");
+  refuse_unknown_body(scene, obstacle.other, place);
+  const Scene::Body &slave = scene.body(obstacle.body), &master = scene.body(obstacle.other);
+  for (const Scene::Body* body : {&slave, &master})
+    if (body->equation != Scene::Equation::elasticity)
+      input_error(place, fmt::format("body '{}' has equation = 'diffusion'; expected two elastic bodies", body->name));
+  if (obstacle.shape) input_error(obstacle.source.of("shape"), "'shape' has no meaning beside 'other'");
+  if (slave.name == master.name)
+    input_error(place, "a body that touches itself is not available in this version; expected another body");
+  if (slave.plane != master.plane)
+    input_error(place, fmt::format("bodies '{}' and '{}' differ in 'plane'; bodies that touch have the same",
+                                   slave.name, master.name));
+  for (const Scene::Body* body : {&slave, &master})
+    if (body->order != 1)
+      input_error(body->source.of(body->source.given("order") ? "order" : "poisson"),
+                  fmt::format("body '{}' has quadratic elements; bodies that touch each other have linear ones in this "
+                              "version: expected order = 1",
+                              body->name));
+}
+
 // Without normals (inside the body) only a scalar unknown can meet an obstacle.
 void check_obstacles(const Scene& scene) {
-  for (const Scene::Obstacle& obstacle : scene.obstacles)
+  for (const Scene::Obstacle& obstacle : scene.obstacles) {
     if (!obstacle.on && !scalar(scene, obstacle.body))
       input_error(obstacle.source.table, "neither 'on' nor 'where' is given, expected one of them");
+    check_other(scene, obstacle);
+  }
 }
 
 template <class Table>
@@ -80,9 +111,13 @@ bool any_of(const std::vector<Table>& tables, const Scene::Body& body) {
   return std::any_of(tables.begin(), tables.end(), [&](const Table& table) { return table.body == body.name; });
 }
 
+bool is_touched(const Scene& scene, const Scene::Body& body) {
+  return std::ranges::any_of(scene.obstacles, [&](const auto& obstacle) { return obstacle.other == body.name; });
+}
+
 void check_held(const Scene& scene, const std::string& place) {
   for (const Scene::Body& body : scene.bodies)
-    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body))
+    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body) && !is_touched(scene, body))
       input_error(scene.bodies.size() == 1 ? place : body.source.table,
                   "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
 }

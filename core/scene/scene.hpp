@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -59,6 +60,12 @@ struct Scene {
     int order = 1;                     ///< of the elements
     std::optional<Pressure> pressure;  ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
+    std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/touching_bodies.hpp
+
+    /// Whether a table for that body is for this one, or for one of its parts.
+    bool answers_to(std::string_view body) const {
+      return body == name || std::ranges::any_of(parts, [&](const Body& part) { return part.name == body; });
+    }
   };
 
   /// Of a physical group of elements, in place of the body's own. What the body's equation has no use for is empty.
@@ -111,6 +118,8 @@ struct Scene {
     std::string type;  ///< the id of an obstacle plugin
     std::string body;
     std::optional<Selection> on;
+    std::string other;  ///< the second body; empty: it acts on one
+    std::optional<Selection> other_on;
     std::string shape_name;  ///< the key `shape`; empty without
     std::optional<ObstacleShape> shape;
     RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate

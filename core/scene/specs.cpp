@@ -104,9 +104,9 @@ constexpr KeySpec obstacle[] = {
     {"on", text, "", "", "", on_help},
     {"where", condition, "", "", "", where_help},
     {"shape", text, "", "", "", "one of the obstacle shapes below, for plugins that want a rigid obstacle"},
-    {"other", text, "", "", every_value, "name of the second body"},
-    {"other_on", text, "", "", every_value, "part of the second body"},
-    {"other_where", condition, "", "", every_value, "faces of the second body"},
+    {"other", text, "", "", "", "name of the second body, for types that act between two elastic bodies"},
+    {"other_on", text, "", "", "", "part of the second body; by default all of its boundary"},
+    {"other_where", condition, "", "", "", "the same by an expression, as `where`"},
 };
 
 constexpr KeySpec plane_obstacle[] = {
@@ -225,7 +225,7 @@ const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view nam
 std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }
 std::vector<std::string> names_of(std::span<const ShapeSpec> all) { return names(all); }
 
-bool is_later_obstacle(std::string_view type) { return type == "elastic" || type == "elastic_coulomb"; }
+bool is_later_obstacle(std::string_view type) { return type == "elastic_coulomb"; }
 
 std::vector<std::string> all_names(const TableSpec& table) {
   std::vector<std::string> all = names_of(table.keys);

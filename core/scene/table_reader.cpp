@@ -201,11 +201,12 @@ std::vector<double> TableReader::ascending(std::string_view key) const {
   return all;
 }
 
-std::optional<Selection> TableReader::selection() const {
-  if (given("on") && given("where"))
-    input_error(origin("where"), "both 'on' and 'where' are given, expected one of them");
-  if (given("on")) return Selection{text("on"), std::nullopt, origin("on")};
-  if (given("where")) return Selection{std::nullopt, field("where"), origin("where")};
+std::optional<Selection> TableReader::selection(const std::string& prefix) const {
+  const std::string on = prefix + "on", where = prefix + "where";
+  if (given(on) && given(where))
+    input_error(origin(where), fmt::format("both '{}' and '{}' are given, expected one of them", on, where));
+  if (given(on)) return Selection{text(on), std::nullopt, origin(on)};
+  if (given(where)) return Selection{std::nullopt, field(where), origin(where)};
   return std::nullopt;
 }
 

@@ -52,7 +52,8 @@ class TableReader {
   /// Not empty.
   std::vector<double> ascending(std::string_view key) const;
   /// What `on` or `where` pick; nothing when neither is given, an error when both are.
-  std::optional<Selection> selection() const;
+  /// @param prefix of these keys: "other_"
+  std::optional<Selection> selection(const std::string& prefix = "") const;
 
   const std::string& origin() const { return table_.origin; }
   const std::string& origin(std::string_view key) const;

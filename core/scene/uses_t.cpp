@@ -53,9 +53,10 @@ bool any(const Scene::Obstacle& obstacle) {
 
 bool uses_t(const Scene& scene, const Scene::Body& body) {
   const auto in = [&](const auto& tables) {
-    return std::ranges::any_of(tables, [&](const auto& table) { return table.body == body.name && any(table); });
+    return std::ranges::any_of(tables, [&](const auto& table) { return body.answers_to(table.body) && any(table); });
   };
-  return any(body) || in(scene.materials) || in(scene.fixes) || in(scene.loads) || in(scene.obstacles);
+  const bool parts = std::ranges::any_of(body.parts, [](const Scene::Body& part) { return any(part); });
+  return any(body) || parts || in(scene.materials) || in(scene.fixes) || in(scene.loads) || in(scene.obstacles);
 }
 
 }  // namespace signorini

@@ -38,6 +38,11 @@ struct SurfaceVertex {
   /// vertices of a scalar one. Zero where no functional asks for it.
   double measure = 0;
   long vertex = -1;  ///< its number in the mesh; -1: a node that is no vertex
+  /// Of types that act between bodies, see ObstacleType::takes_body; zero for others: the mean distance of the other
+  /// body near the node, and the unit normal that points from there towards this one. The unknowns are then what this
+  /// body moves more than the other one.
+  double gap = 0;
+  double away[3] = {};
 };
 
 /// What an obstacle demands of the unknowns v at one vertex: lower[k] <= direction[k] . v <= upper[k] for

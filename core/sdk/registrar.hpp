@@ -17,6 +17,9 @@ struct ObstacleType {
   Obstacle<1>* (*create1)(const Settings& settings, Status& status) noexcept;
   Obstacle<2>* (*create2)(const Settings& settings, Status& status) noexcept;
   Obstacle<3>* (*create3)(const Settings& settings, Status& status) noexcept;
+  /// The keys `other`, `other_on`... name a second elastic body, and the obstacle acts between the two: assemble() is
+  /// given SurfaceVertex::gap and away.
+  bool takes_body = false;
 };
 
 /// Where a plugin registers what it provides. Nothing becomes visible before all of it succeeded.

@@ -8,6 +8,7 @@
 #include "core/algebra/block_matrix.hpp"
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/polyhedron.hpp"
+#include "core/solver/jumps.hpp"
 
 namespace signorini {
 
@@ -163,6 +164,8 @@ struct DiscreteProblem {
   /// The coarser levels' matrices where they are known from before, coarsest first, one for each prolongation; with
   /// frames only for Rotate::all. Not owned.
   std::span<const GalerkinMatrix<B>> galerkin;
+  /// Where bodies may touch each other: unknowns that are jumps, and global coordinates mean those; null: none.
+  std::shared_ptr<const Jumps<B>> jumps;
   FollowingLoad<B>* following = nullptr;  ///< a part of b that follows the solution; null: none. Not owned
   std::vector<Segment<B>> segments;       ///< cover all vectors in ascending order; empty when there is no obstacle
   /// Whether a factorisation of A costs no more than some cycles, so that A needs no coarser level.

@@ -62,6 +62,33 @@ void rotate(std::vector<double>& b, const Frames<B>& frames) {
     }
 }
 
+template <int B>
+void out_of_frames(const Frames<B>& frames, std::vector<double>& x) {
+  for (Index p = 0; p < static_cast<Index>(frames.slot.size()); ++p)
+    if (const double* Q = frames.at(p)) {
+      double v[B];
+      block::product<B>(Q, x.data() + Offset{p} * B, v);
+      std::copy_n(v, B, x.data() + Offset{p} * B);
+    }
+}
+
+template <int B>
+void into_frames(const Frames<B>& frames, std::vector<double>& x) {
+  for (Index p = 0; p < static_cast<Index>(frames.slot.size()); ++p)
+    if (const double* N = frames.dual_at(p)) {
+      double v[B];
+      block::transposed_product<B>(N, x.data() + Offset{p} * B, v);
+      std::copy_n(v, B, x.data() + Offset{p} * B);
+    }
+}
+
+template <int B>
+std::vector<double> local_forces(const DiscreteProblem<B>& problem, std::vector<double> forces) {
+  if (problem.jumps) transform_forces(*problem.jumps, forces);
+  rotate(forces, problem.frames);
+  return forces;
+}
+
 // Row p of A v for the prescribed values v is known: free components lose it, fixed ones get their values.
 template <int B>
 void prescribe(DiscreteProblem<B>& problem, Index p, const double* Av) {
@@ -96,6 +123,9 @@ void eliminate(DiscreteProblem<B>& problem, std::span<const Index> vectors) {
   template void rotate(BlockMatrix<B>&, const Frames<B>&);            \
   template void rotate(std::vector<double>&, const Frames<B>&);       \
   template void prescribe(DiscreteProblem<B>&, Index, const double*); \
+  template void out_of_frames(const Frames<B>&, std::vector<double>&);  \
+  template void into_frames(const Frames<B>&, std::vector<double>&);    \
+  template std::vector<double> local_forces(const DiscreteProblem<B>&, std::vector<double>); \
   template void eliminate(DiscreteProblem<B>&);                       \
   template void eliminate(DiscreteProblem<B>&, std::span<const Index>);
 SIGNORINI_INSTANTIATE(1)

@@ -12,6 +12,16 @@ void rotate(BlockMatrix<B>& A, const Frames<B>& frames);
 template <int B>
 void rotate(std::vector<double>& b, const Frames<B>& frames);
 
+/// Unknowns in global coordinates, and back; B per vector.
+template <int B>
+void out_of_frames(const Frames<B>& frames, std::vector<double>& x);
+template <int B>
+void into_frames(const Frames<B>& frames, std::vector<double>& x);
+
+/// Forces on displacements in global coordinates as those on the problem's unknowns.
+template <int B>
+std::vector<double> local_forces(const DiscreteProblem<B>& problem, std::vector<double> forces);
+
 /// Makes the rows and columns of fixed components those of the identity, symmetrically, and b that of the problem for
 /// the others, with the prescribed values of `start` in the fixed ones. Fills in what the energy loses by it:
 /// prescribed_energy, prescribed_work, coupled and coupling.

@@ -1,0 +1,166 @@
+#include "core/fem/paired_bodies.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/fem/element.hpp"
+#include "core/fem/select.hpp"
+#include "core/mortar/couple.hpp"
+
+namespace signorini {
+namespace {
+
+template <int D>
+std::vector<std::array<Index, D>> faces_of(const Mesh<D>& mesh, const Selection& selection, double t) {
+  std::vector<std::array<Index, D>> out;
+  for (const Index f : select_faces(mesh, selection, t)) out.push_back(mesh.boundary[f].vertices);
+  return out;
+}
+
+/// Diagonal of the box around the mesh.
+template <int D>
+double extent(const Mesh<D>& mesh) {
+  double square = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    const auto [low, high] = std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
+    square += (high[i] - low[i]) * (high[i] - low[i]);
+  }
+  return std::sqrt(square);
+}
+
+template <int D>
+double longest_edge(const Mesh<D>& mesh, const std::array<Index, D>& face) {
+  double longest = 0;
+  for (const Index a : face)
+    for (const Index b : face) {
+      Point<D> edge = mesh.points[a];
+      for (int i = 0; i < D; ++i) edge[i] -= mesh.points[b][i];
+      longest = std::max(longest, std::sqrt(dot(edge, edge)));
+    }
+  return longest;
+}
+
+template <int D>
+void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<std::array<Index, D>>& slave,
+                 const DeepestOverlap<D>& deepest) {
+  if (deepest.slave_face < 0 || deepest.depth <= longest_edge(mesh, slave[deepest.slave_face])) return;
+  input_error(term.origin, fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
+                                       "element; expected bodies apart from each other, or touching",
+                                       deepest.depth, fmt::join(deepest.place, ", ")));
+}
+
+/// Couples one obstacle after the other.
+template <int D>
+class Coupler {
+ public:
+  Coupler(const Nodes<D>& nodes, const Model<D>& model, const std::vector<FixedDirections<D>>& fixes)
+      : nodes_(nodes), model_(model), fixes_(fixes), slave_of_(nodes.size(), -1), master_of_(nodes.size(), -1) {}
+
+  void add(Index obstacle) {
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
+    const Mesh<D>& mesh = nodes_.mesh();
+    const auto slave = faces_of(mesh, *term.on, model_.t), master = faces_of(mesh, *term.other, model_.t);
+    const SurfaceFaces<D> of_slave{mesh.points, slave, term.origin}, of_master{mesh.points, master, term.origin};
+    const MortarCoupling<D> found = couple(of_slave, of_master, {.reach = extent(mesh)});
+    refuse_deep<D>(mesh, term, slave, found.deepest);
+    if (found.nodes() == 0)
+      input_error(term.origin, "no face of one body is in front of the other one's, opposite to it; expected sides that "
+                               "can touch");
+    for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
+  }
+
+  std::shared_ptr<const PairedBodies<D>> take() {
+    std::ranges::sort(rows_, {}, &Row::node);
+    auto jumps = std::make_shared<Jumps<D>>();
+    for (const Row& row : rows_) {
+      jumps->vector.push_back(row.node);
+      jumps->column.insert(jumps->column.end(), row.column.begin(), row.column.end());
+      jumps->weight.insert(jumps->weight.end(), row.weight.begin(), row.weight.end());
+      jumps->row.push_back(static_cast<Offset>(jumps->column.size()));
+      jumps->project.insert(jumps->project.end(), row.project.begin(), row.project.end());
+    }
+    out_.jumps = std::move(jumps);
+    return std::make_shared<const PairedBodies<D>>(std::move(out_));
+  }
+
+ private:
+  struct Row {
+    Index node;
+    std::vector<Index> column;
+    std::vector<double> weight;
+    std::array<double, D * D> project;
+  };
+
+  void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
+    const Index p = nodes_.of_vertex(found.node[k]);
+    const FixedDirections<D>* fixed = fixed_at(p);
+    if (fixed && fixed->count == D) return;
+    take_side(slave_of_, master_of_, p, obstacle);
+    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
+    for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
+    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(fixed)});
+    for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
+      row.column.push_back(nodes_.of_vertex(found.column[j]));
+      row.weight.push_back(found.value[j]);
+      take_side(master_of_, slave_of_, row.column.back(), obstacle);
+    }
+  }
+
+  const FixedDirections<D>* fixed_at(Index p) const {
+    const auto found = std::ranges::lower_bound(fixes_, p, {}, &FixedDirections<D>::vertex);
+    return found != fixes_.end() && found->vertex == p ? &*found : nullptr;
+  }
+
+  /// Onto what is not prescribed.
+  static std::array<double, D * D> projector(const FixedDirections<D>* fixed) {
+    std::array<double, D * D> out{};
+    for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
+    for (int k = 0; fixed && k < fixed->count; ++k)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j) out[i * D + j] -= fixed->direction[k][i] * fixed->direction[k][j];
+    return out;
+  }
+
+  /// A node is on one slave side, or on master sides.
+  void take_side(std::vector<Index>& side, const std::vector<Index>& other, Index p, Index obstacle) {
+    const bool twice = &side == &slave_of_ && side[p] >= 0 && side[p] != obstacle;
+    if (twice || other[p] >= 0)
+      input_error(model_.obstacles[obstacle].origin,
+                  fmt::format("at ({}) {} lets the same body touch another one, {}, which is not available in this "
+                              "version; expected faces apart from each other{}",
+                              fmt::join(nodes_.at(p), ", "), model_.obstacles[twice ? side[p] : other[p]].origin,
+                              twice ? "as the slave both times" : "as the slave there and the master here, or so",
+                              twice ? "" : ", or the two bodies of one of them exchanged"));
+    side[p] = obstacle;
+  }
+
+  const Nodes<D>& nodes_;
+  const Model<D>& model_;
+  const std::vector<FixedDirections<D>>& fixes_;
+  std::vector<Index> slave_of_, master_of_;  // per node: obstacle, -1: none
+  std::vector<Row> rows_;
+  PairedBodies<D> out_;
+};
+
+}  // namespace
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
+                                                   const std::vector<FixedDirections<D>>& fixes) {
+  if (!is_paired(model)) return nullptr;
+  Coupler<D> coupler(nodes, model, fixes);
+  for (std::size_t k = 0; k < model.obstacles.size(); ++k)
+    if (model.obstacles[k].other) coupler.add(static_cast<Index>(k));
+  return coupler.take();
+}
+
+template std::shared_ptr<const PairedBodies<2>> pair_bodies(const Nodes<2>&, const Model<2>&,
+                                                            const std::vector<FixedDirections<2>>&);
+template std::shared_ptr<const PairedBodies<3>> pair_bodies(const Nodes<3>&, const Model<3>&,
+                                                            const std::vector<FixedDirections<3>>&);
+
+}  // namespace signorini

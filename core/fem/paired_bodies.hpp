@@ -1,0 +1,35 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "core/fem/fixes.hpp"
+#include "core/solver/jumps.hpp"
+
+namespace signorini {
+
+/// A node of a slave side with a part of the master's side in front of it.
+template <int B>
+struct PairedNode {
+  Index node;
+  Index obstacle;              ///< number in Model::obstacles
+  std::array<double, B> away;  ///< unit normal from the master to the slave
+  double gap;                  ///< mean distance, weighted by the node's dual basis function
+};
+
+/// The sides of a model's bodies that may touch each other, coupled by mortar on one mesh.
+template <int B>
+struct PairedBodies {
+  std::vector<PairedNode<B>> nodes;  ///< of one obstacle after the other, each by ascending node
+  std::shared_ptr<const Jumps<B>> jumps;
+};
+
+/// Nodes whose displacement is prescribed completely are left out. Null where the model has no obstacle between bodies.
+/// Error(Exit::input) that names the obstacle: no face of one side in front of the other, a node on several sides, or
+/// sides that have faces in common; bodies that overlap at the start by more than an element.
+/// @param fixes collect_fixes() of both
+template <int D>
+std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
+                                             const std::vector<FixedDirections<D>>& fixes);
+
+}  // namespace signorini
