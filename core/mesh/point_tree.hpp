@@ -1,13 +1,14 @@
 #pragma once
 #include <algorithm>
-#include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.hpp"
 
 namespace signorini {
 
-/// A balanced tree of points, to find those near something.
+/// A balanced tree of points, or of boxes around them, to find those near something.
 template <int D>
 class PointTree {
  public:
@@ -16,9 +17,13 @@ class PointTree {
     Point<D> low, high;
   };
 
-  /// Keeps a reference to `points`; holds those whose numbers are given. O(n log n).
-  PointTree(const std::vector<Point<D>>& points, std::vector<Index> numbers)
-      : points_(points), numbers_(std::move(numbers)) {
+  /// Refers to `points`; holds those whose numbers are given. O(n log n).
+  PointTree(std::span<const Point<D>> points, std::vector<Index> numbers) : PointTree(points, {}, std::move(numbers)) {}
+
+  /// Holds boxes.
+  /// @param half per point half the widths of the box whose middle it is; empty: all are zero. Referred to as well
+  PointTree(std::span<const Point<D>> points, std::span<const Point<D>> half, std::vector<Index> numbers)
+      : points_(points), half_(half), numbers_(std::move(numbers)) {
     if (!numbers_.empty()) build(0, numbers_.size());
   }
 
@@ -40,8 +45,9 @@ class PointTree {
     Box box{points_[numbers_[first]], points_[numbers_[first]]};
     for (std::size_t i = first; i < last; ++i)
       for (int k = 0; k < D; ++k) {
-        box.low[k] = std::min(box.low[k], points_[numbers_[i]][k]);
-        box.high[k] = std::max(box.high[k], points_[numbers_[i]][k]);
+        const double middle = points_[numbers_[i]][k], half = half_.empty() ? 0 : half_[numbers_[i]][k];
+        box.low[k] = std::min(box.low[k], middle - half);
+        box.high[k] = std::max(box.high[k], middle + half);
       }
     return box;
   }
@@ -76,7 +82,7 @@ class PointTree {
     search(node.right, may_hold, visit);
   }
 
-  const std::vector<Point<D>>& points_;
+  std::span<const Point<D>> points_, half_;
   std::vector<Index> numbers_;
   std::vector<Node> nodes_;
 };

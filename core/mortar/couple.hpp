@@ -1,0 +1,87 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/crew.hpp"
+#include "core/base/types.hpp"
+
+namespace signorini {
+
+/// One side of a contact: linear faces, segments (D = 2) or triangles (D = 3).
+template <int D>
+struct SurfaceFaces {
+  std::span<const Point<D>> points;                  ///< of the whole mesh; only those that faces name are looked at
+  std::span<const std::array<Index, D>> faces = {};  ///< by numbers of points, the normal pointing outwards
+  std::string_view place = "surface";                ///< what messages call it
+};
+
+/// Along what the distance from the slave to the master is measured.
+enum class Pairing {
+  normal,   ///< the slave face's normal
+  closest,  ///< the mean normal of the master where a slave face sees it: towards its closest point
+};
+
+struct CoupleOptions {
+  Pairing pairing = Pairing::normal;
+  double reach = 0;               ///< faces farther apart do not see each other; the user's unit of length
+  std::optional<double> depth{};  ///< how deep an overlap is looked for; none: `reach`
+  double offset = 0;              ///< what is added to every gap
+  /// A node that the master covers less than this part of its area of is left alone.
+  double least_cover = 1e-10;
+};
+
+/// Where slave and master overlap most.
+template <int D>
+struct DeepestOverlap {
+  double depth = 0;  ///< 0: nowhere. Without `CoupleOptions::offset`
+  Point<D> place{};  ///< on the slave
+  Index slave_face = -1, master_face = -1;
+};
+
+/// Two surfaces coupled by a mortar method with dual basis functions ψ on the slave. Per slave node p
+///
+///     ∫ ψ_p (u_S − u_M) = D_p (u_p − sum over q of M̂_pq u_q)
+///
+/// where the integral is over what the master covers of the slave, and q are nodes of the master. Rows of M̂ sum to one.
+/// A force λ_p D_p on slave node p has −λ_p D_p M̂_pq on master node q as its counterpart. Not to overlap is, to first
+/// order, n_p'(u_p − sum M̂_pq u_q) <= gap_p.
+template <int D>
+struct MortarCoupling {
+  std::vector<Index> node;       ///< slave nodes with a partner, ascending; what follows is per entry of it
+  std::vector<double> weight;    ///< D_p = ∫ ψ_p = ∫ φ_p over what is covered; positive
+  std::vector<Point<D>> normal;  ///< outer one of the slave, the mean over the node's faces as covered; of length 1
+  std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
+  std::vector<Offset> row{0};    ///< node.size() + 1: positions of the rows of M̂
+  std::vector<Index> column;     ///< master nodes, ascending in a row
+  std::vector<double> value;
+
+  std::vector<Index> alone;  ///< slave nodes without a partner, ascending
+  DeepestOverlap<D> deepest;
+  Index lumped = 0;   ///< slave faces covered in a strip so thin that ψ is constant across it
+  Index layered = 0;  ///< slave faces that see masters behind each other; the nearest counts
+
+  Index nodes() const { return static_cast<Index>(node.size()); }
+};
+
+/// Couples a slave to a master surface. Slave faces are cut exactly where edges of the master are, as seen along one
+/// direction per slave face (Puso, Laursen: A mortar segment-to-segment contact method for large deformation solid
+/// mechanics, 2004), so that all integrals are those of polynomials and exact. The ψ are biorthogonal to the trace
+/// basis over what is covered of each slave face (Wohlmuth 2000; Cichosz, Bischoff: Consistent treatment of boundaries
+/// with mortar contact formulations using dual Lagrange multipliers, 2011): rows of M̂ reproduce linear functions on
+/// flat interfaces, overhanging ones included.
+///
+/// Faces pair whose normals are within 60 degrees of opposite. Where both surfaces have the same points (the same
+/// memory), as parts of one body have, faces that share a node do not pair, and nodes of both are left alone.
+///
+/// The result does not depend on the number of threads; on the order of nodes and faces by rounding only.
+/// Work is linear in the number of faces, times a logarithm for the search.
+/// Error(Exit::input) for a face with a node that does not exist or is not finite, or without area, and for options out
+/// of range.
+/// @param crew threads to share the work; none: the calling one
+template <int D>
+MortarCoupling<D> couple(const SurfaceFaces<D>& slave, const SurfaceFaces<D>& master, const CoupleOptions& options,
+                         Crew* crew = nullptr);
+
+}  // namespace signorini

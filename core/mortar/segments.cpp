@@ -1,0 +1,214 @@
+#include "core/mortar/segments.hpp"
+
+#include <cmath>
+#include <numeric>
+
+namespace signorini::mortar {
+namespace {
+
+// Cosine of the angle up to which normals count as opposite: 60 degrees, less rounding.
+constexpr double facing = 0.5 - 1e-9;
+// Pieces of less than this part of their face are rounding.
+constexpr double rounding = 1e-14;
+// Up to this part of a face, what segments cover together is the face: they do not overlap.
+constexpr double whole = 1e-9;
+// The direction towards the closest points is known when a step changes it by less than this angle: distances then are
+// known up to the square of it.
+constexpr double settled = 1e-4;
+constexpr int most_steps = 8;
+
+template <int K>
+std::array<double, 2> range(const Affine<K>& f, const Piece<K>& piece) {
+  std::array<double, 2> out{infinity, -infinity};
+  for (int i = 0; i < piece.count; ++i) {
+    const double value = f(piece.corner[i]);
+    out = {std::min(out[0], value), std::max(out[1], value)};
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int D>
+bool SegmentFinder<D>::find(Index face) {
+  layered_ = false;
+  look(face, slave_.normal[face]);
+  if (options_.pairing == Pairing::closest)
+    for (int step = 0; step < most_steps && !segments_.empty(); ++step) {
+      const Point<D> next = mean_direction();
+      if (length<D>(difference<D>(next, frame_.direction)) < settled) break;
+      look(face, next);
+    }
+  if (segments_.empty() || !in_reach()) return false;
+  part_layers();
+  return true;
+}
+
+template <int D>
+void SegmentFinder<D>::look(Index face, const Point<D>& direction) {
+  segments_.clear();
+  frame_ = FaceFrame<D>(slave_.corner[face], direction);
+  low_ = high_ = frame_.corner[0];
+  for (const Point<K>& y : frame_.corner)
+    for (int k = 0; k < K; ++k) {
+      low_[k] = std::min(low_[k], y[k]);
+      high_[k] = std::max(high_[k], y[k]);
+    }
+  // A face in reach with one corner counts as a whole: the master may be farther off elsewhere, but by no more than the
+  // face is long as long as it rises by no more than 45 degrees.
+  front_ = options_.reach / frame_.size + 1;
+  behind_ = options_.depth.value_or(options_.reach) / frame_.size + 1;
+  const auto [lowest, highest] = std::ranges::minmax(frame_.corner_height);
+  const auto may_hold = [&](const typename PointTree<D>::Box& box) {
+    for (int k = 0; k < D; ++k) {
+      double middle = 0, half = 0;
+      for (int i = 0; i < D; ++i) {
+        middle += frame_.axis[k][i] * (0.5 * (box.low[i] + box.high[i]) - frame_.origin[i]);
+        half += std::abs(frame_.axis[k][i]) * (0.5 * (box.high[i] - box.low[i]));
+      }
+      const double from = k < K ? low_[std::min(k, K - 1)] : lowest - behind_;
+      const double to = k < K ? high_[std::min(k, K - 1)] : highest + front_;
+      if (middle + half < from || middle - half > to) return false;
+    }
+    return true;
+  };
+  tree_.search(may_hold, [&](Index other) { consider(face, other); });
+}
+
+template <int D>
+bool SegmentFinder<D>::shares_node(Index face, Index other) const {
+  for (const Index v : slave_.faces[face])
+    for (const Index w : master_.faces[other])
+      if (v == w) return true;
+  return false;
+}
+
+// Adds the segment of a master face, if there is one.
+template <int D>
+void SegmentFinder<D>::consider(Index face, Index other) {
+  const Point<D>& normal = master_.normal[other];
+  if (-dot(normal, slave_.normal[face]) < facing || -dot(normal, frame_.direction) < facing) return;
+  if (one_numbering_ && shares_node(face, other)) return;
+  std::array<Point<K>, D> corner;
+  std::array<double, D> height;
+  for (int i = 0; i < D; ++i) height[i] = frame_.map(master_.corner[other][i], corner[i]);
+  for (int k = 0; k < K; ++k) {
+    double low = corner[0][k], high = low;
+    for (int i = 1; i < D; ++i) low = std::min(low, corner[i][k]), high = std::max(high, corner[i][k]);
+    if (high <= low_[k] || low >= high_[k]) return;
+  }
+  Segment<D> out{other, barycentric<K>(corner), -frame_.height, Piece<K>(frame_.corner)};
+  for (const Affine<K>& f : out.shape) {
+    out.piece = clipped(out.piece, f);
+    if (out.piece.empty()) return;
+  }
+  if (measure(out.piece) <= rounding * frame_.area) return;
+  for (int i = 0; i < D; ++i) out.gap.add(height[i], out.shape[i]);
+  const auto [least, most] = range(out.gap, out.piece);
+  if (least <= front_ && most >= -behind_) segments_.push_back(out);
+}
+
+template <int D>
+bool SegmentFinder<D>::in_reach() const {
+  return std::ranges::any_of(segments_, [&](const Segment<D>& s) {
+    const auto [least, most] = range(s.gap, s.piece);
+    return least <= front_ - 1 && most >= 1 - behind_;
+  });
+}
+
+// Against the master's normal, its mean over what is seen.
+template <int D>
+Point<D> SegmentFinder<D>::mean_direction() const {
+  Point<D> sum{};
+  for (const Segment<D>& s : segments_) {
+    const double area = measure(s.piece);
+    for (int k = 0; k < D; ++k) sum[k] -= area * master_.normal[s.master][k];
+  }
+  const double norm = length<D>(sum);
+  for (double& c : sum) c /= norm;
+  return sum;
+}
+
+// Where masters lie behind each other only what is nearest counts. Faces that hang together by edges, all facing the
+// slave, do not; neither do segments that together are just the face.
+template <int D>
+void SegmentFinder<D>::part_layers() {
+  double sum = 0;
+  for (const Segment<D>& s : segments_) sum += measure(s.piece);
+  if (std::abs(sum - frame_.area) <= whole * frame_.area) return;
+  if (sum < frame_.area && in_one_sheet()) return;
+  const double left = split_by_nearness();
+  layered_ = sum - left > whole * frame_.area;
+  if (layered_) segments_.swap(nearest_);
+}
+
+template <int D>
+bool SegmentFinder<D>::in_one_sheet() {
+  if (segments_.size() == 1) return true;
+  edges_.clear();
+  sheet_.resize(segments_.size());
+  std::iota(sheet_.begin(), sheet_.end(), Index{0});
+  for (Index s = 0; s < static_cast<Index>(segments_.size()); ++s) {
+    const auto& nodes = master_.faces[segments_[s].master];
+    for (int opposite = 0; opposite < D; ++opposite) {
+      std::array<Index, K> edge;
+      for (int i = 0, k = 0; i < D; ++i)
+        if (i != opposite) edge[k++] = nodes[i];
+      edges_.emplace_back(sorted(edge), s);
+    }
+  }
+  std::sort(edges_.begin(), edges_.end());
+  const auto root = [this](Index s) {
+    while (sheet_[s] != s) s = sheet_[s] = sheet_[sheet_[s]];
+    return s;
+  };
+  auto sheets = static_cast<Index>(segments_.size());
+  for (std::size_t e = 1; e < edges_.size(); ++e) {
+    if (edges_[e].first != edges_[e - 1].first) continue;
+    const Index a = root(edges_[e - 1].second), b = root(edges_[e].second);
+    if (a != b) sheet_[a] = b, --sheets;
+  }
+  return sheets == 1;
+}
+
+/// Makes nearest_ of the segments: what is nearer takes its part of the face first.
+/// @return the measure of what they cover
+template <int D>
+double SegmentFinder<D>::split_by_nearness() {
+  nearest_.clear();
+  away_.clear();
+  for (const Segment<D>& s : segments_) {
+    const auto [least, most] = range(s.gap, s.piece);
+    away_.push_back(std::abs(least + most));
+  }
+  order_.resize(segments_.size());
+  std::iota(order_.begin(), order_.end(), Index{0});
+  std::ranges::sort(order_, [this](Index a, Index b) {
+    return away_[a] != away_[b] ? away_[a] < away_[b] : segments_[a].master < segments_[b].master;
+  });
+  double covered = 0;
+  rest_.assign(1, Piece<K>(frame_.corner));
+  for (const Index s : order_) {
+    next_.clear();
+    for (Piece<K> inside : rest_) {
+      for (const Affine<K>& f : segments_[s].shape) {
+        each_simplex(clipped(inside, -f), [this](const std::array<Point<K>, K + 1>& simplex) {
+          if (signed_measure<K>(simplex) > rounding * frame_.area) next_.emplace_back(simplex);
+        });
+        inside = clipped(inside, f);
+      }
+      const double area = measure(inside);
+      if (area <= rounding * frame_.area) continue;
+      covered += area;
+      nearest_.push_back(segments_[s]);
+      nearest_.back().piece = inside;
+    }
+    rest_.swap(next_);
+  }
+  return covered;
+}
+
+template class SegmentFinder<2>;
+template class SegmentFinder<3>;
+
+}  // namespace signorini::mortar

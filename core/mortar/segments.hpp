@@ -1,0 +1,64 @@
+#pragma once
+#include "core/mesh/point_tree.hpp"
+#include "core/mortar/face_frame.hpp"
+#include "core/mortar/side.hpp"
+
+namespace signorini::mortar {
+
+/// The part of a slave face that sees one face of the master, in the slave face's frame.
+template <int D>
+struct Segment {
+  Index master;                        ///< number of the face
+  std::array<Affine<D - 1>, D> shape;  ///< its barycentric coordinates
+  Affine<D - 1> gap;                   ///< the master's height less the slave's
+  Piece<D - 1> piece;
+};
+
+/// Cuts slave faces along the edges of the master. Keeps its memory from face to face.
+template <int D>
+class SegmentFinder {
+ public:
+  static constexpr int K = D - 1;
+
+  /// Refers to all of them.
+  /// @param tree of the boxes around the master's faces
+  /// @param one_numbering faces that share a node do not pair
+  SegmentFinder(const Side<D>& slave, const Side<D>& master, const PointTree<D>& tree, const CoupleOptions& options,
+                bool one_numbering)
+      : slave_(slave), master_(master), tree_(tree), options_(options), one_numbering_(one_numbering) {}
+
+  /// @return whether it sees the master; then the segments, which do not overlap, and the frame are those of the face
+  bool find(Index face);
+
+  const FaceFrame<D>& frame() const { return frame_; }
+  const std::vector<Segment<D>>& segments() const { return segments_; }
+  bool layered() const { return layered_; }  ///< masters behind each other were left out
+
+ private:
+  void look(Index face, const Point<D>& direction);
+  void consider(Index face, Index other);
+  bool shares_node(Index face, Index other) const;
+  bool in_reach() const;
+  Point<D> mean_direction() const;
+  void part_layers();
+  bool in_one_sheet();
+  double split_by_nearness();
+
+  const Side<D>& slave_;
+  const Side<D>& master_;
+  const PointTree<D>& tree_;
+  const CoupleOptions& options_;
+  const bool one_numbering_;
+
+  FaceFrame<D> frame_;
+  Point<K> low_, high_;  // of the slave face in the plane
+  double front_ = 0, behind_ = 0;
+  bool layered_ = false;
+  std::vector<Segment<D>> segments_, nearest_;
+  std::vector<Piece<K>> rest_, next_;
+  std::vector<Index> order_, sheet_;
+  std::vector<double> away_;
+  std::vector<std::pair<std::array<Index, K>, Index>> edges_;
+};
+
+}  // namespace signorini::mortar
