@@ -76,12 +76,12 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
   std::vector<BalanceReport> out;
   for (const std::string& name : names) {
     BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
-    add_forces(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name, 1,
+    add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name, 1,
                balance.applied);
-    add_forces(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name, 1,
+    add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name, 1,
                balance.reactions);
-    add_forces(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
-    add_forces(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
+    add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
+    add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
   }
   return out;
 }

@@ -25,7 +25,7 @@ std::vector<std::size_t> groups(const Scene& scene) {
   for (const Scene::Obstacle& obstacle : scene.obstacles) {
     if (obstacle.other.empty()) continue;
     const auto [first, last] =
-        std::minmax(group[number_of(scene, obstacle.body)], group[number_of(scene, obstacle.other)]);
+        std::minmax({group[number_of(scene, obstacle.body)], group[number_of(scene, obstacle.other)]});
     std::ranges::replace(group, last, first);
   }
   return group;

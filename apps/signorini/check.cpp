@@ -16,7 +16,9 @@
 #include "driver/nested_solver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
+
 #include "driver/results.hpp"
+#include "driver/touching_bodies.hpp"
 #include "methods/automatic.hpp"
 #include "methods/solve.hpp"
 

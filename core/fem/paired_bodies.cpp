@@ -47,7 +47,7 @@ double longest_edge(const Mesh<D>& mesh, const std::array<Index, D>& face) {
 template <int D>
 void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<std::array<Index, D>>& slave,
                  const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0 || deepest.depth <= longest_edge(mesh, slave[deepest.slave_face])) return;
+  if (deepest.slave_face < 0 || deepest.depth <= longest_edge<D>(mesh, slave[deepest.slave_face])) return;
   input_error(term.origin, fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
                                        "element; expected bodies apart from each other, or touching",
                                        deepest.depth, fmt::join(deepest.place, ", ")));

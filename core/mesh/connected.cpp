@@ -20,7 +20,7 @@ std::vector<Index> connected_parts(const Mesh<D>& mesh) {
   std::iota(parent.begin(), parent.end(), 0);
   for (const auto& element : mesh.elements)
     for (const Index v : element) {
-      const auto [first, last] = std::minmax(root(parent, element[0]), root(parent, v));
+      const auto [first, last] = std::minmax({root(parent, element[0]), root(parent, v)});
       parent[last] = first;
     }
   // A root is the first vertex of its part.

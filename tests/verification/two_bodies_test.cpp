@@ -14,8 +14,9 @@ namespace {
 
 std::string pair(const std::string& slave, const std::string& on, const std::string& master,
                  const std::string& other_on, const std::string& more = "") {
-  return fmt::format("[[obstacle]]\ntype = \"elastic\"\nbody = \"{}\"\non = \"{}\"\nother = \"{}\"\nother_on = \"{}\"\n{}",
-                     slave, on, master, other_on, more);
+  return fmt::format(
+      "[[obstacle]]\ntype = \"elastic\"\nbody = \"{}\"\non = \"{}\"\nother = \"{}\"\nother_on = \"{}\"\n{}", slave, on,
+      master, other_on, more);
 }
 
 /// A press of two blocks between a support and a pressure of 0.1: each may slide along x (and y) but for its left
@@ -27,21 +28,22 @@ struct Press {
 };
 
 std::string press_2d(const Press& press) {
-  using namespace tables;
-  return block("lower", "[0, 0]", "[1, 1]", press.lower) + block("upper", "[0, 1]", "[1, 1.75]", press.upper) +
-         fix("lower", "bottom", "[\"free\", 0]") + fix("lower", "left", "[0, \"free\"]") +
-         fix("upper", "left", "[0, \"free\"]") + load("upper", "[0, -0.1]", "top") +
+  using tables::fix, tables::load;
+  return tables::block("lower", "[0, 0]", "[1, 1]", press.lower) +
+         tables::block("upper", "[0, 1]", "[1, 1.75]", press.upper) + fix("lower", "bottom", "[\"free\", 0]") +
+         fix("lower", "left", "[0, \"free\"]") + fix("upper", "left", "[0, \"free\"]") +
+         load("upper", "[0, -0.1]", "top") +
          (press.upper_is_slave ? pair("upper", "bottom", "lower", "top") : pair("lower", "top", "upper", "bottom")) +
          press.more;
 }
 
 std::string press_3d(const Press& press) {
-  using namespace tables;
-  return block("lower", "[0, 0, 0]", "[1, 1, 1]", press.lower) +
-         block("upper", "[0, 0, 1]", "[1, 1, 1.5]", press.upper) + fix("lower", "bottom", "[\"free\", \"free\", 0]") +
-         fix("lower", "left", "[0, \"free\", \"free\"]") + fix("upper", "left", "[0, \"free\", \"free\"]") +
-         fix("lower", "front", "[\"free\", 0, \"free\"]") + fix("upper", "front", "[\"free\", 0, \"free\"]") +
-         load("upper", "[0, 0, -0.1]", "top") +
+  using tables::fix, tables::load;
+  return tables::block("lower", "[0, 0, 0]", "[1, 1, 1]", press.lower) +
+         tables::block("upper", "[0, 0, 1]", "[1, 1, 1.5]", press.upper) +
+         fix("lower", "bottom", "[\"free\", \"free\", 0]") + fix("lower", "left", "[0, \"free\", \"free\"]") +
+         fix("upper", "left", "[0, \"free\", \"free\"]") + fix("lower", "front", "[\"free\", 0, \"free\"]") +
+         fix("upper", "front", "[\"free\", 0, \"free\"]") + load("upper", "[0, 0, -0.1]", "top") +
          (press.upper_is_slave ? pair("upper", "bottom", "lower", "top") : pair("lower", "top", "upper", "bottom")) +
          press.more;
 }
