@@ -93,16 +93,30 @@ std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<st
   return best;
 }
 
+/// The same in terms of unknowns that are jumps.
+template <int B>
+void to_jumps(const Jumps<B>& jumps, NearNullSpace& space) {
+  std::vector<double> mode(space.value.size() / static_cast<std::size_t>(space.modes));
+  for (Index k = 0; k < space.modes; ++k) {
+    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = space.at(static_cast<Offset>(i))[k];
+    to_jumps(jumps, mode);
+    for (std::size_t i = 0; i < mode.size(); ++i) space.at(static_cast<Offset>(i))[k] = mode[i];
+  }
+}
+
 /// Of an elastic body.
 template <int D, int B>
-NearNullSpace near_null_space(const Nodes<D>& nodes) {
+NearNullSpace near_null_space(const Nodes<D>& nodes, const Jumps<B>* jumps) {
   if constexpr (B == 1) return {};
   std::vector<double> coordinates;
   for (Index p = 0; p < nodes.size(); ++p) {
     const Point<D> x = nodes.control_point(p);
     coordinates.insert(coordinates.end(), x.begin(), x.end());
   }
-  return rigid_body_modes<D>(coordinates);
+  NearNullSpace space = rigid_body_modes<D>(coordinates);
+  if constexpr (D == B)
+    if (jumps) to_jumps(*jumps, space);
+  return space;
 }
 
 }  // namespace
@@ -296,7 +310,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   AlgebraicSettings settings = algebraic_settings(options_);
   settings.stretched = is_stretched(hierarchy_.levels.front(), B);
-  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_]) : NearNullSpace{};
+  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_], coarsest.jumps.get()) : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();

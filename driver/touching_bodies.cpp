@@ -80,7 +80,6 @@ Scene::Solver solver_options(const Scene& scene, const Scene::Body& body) {
                 "levels chosen by the matrix are not available in this version for bodies that touch each other; "
                 "expected auto or meshes");
   options.hierarchy = "meshes";
-  options.algebraic = false;
   return options;
 }
 

@@ -102,7 +102,7 @@ class Coupler {
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
     for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
-    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(fixed)});
+    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
@@ -115,13 +115,18 @@ class Coupler {
     return found != fixes_.end() && found->vertex == p ? &*found : nullptr;
   }
 
-  /// Onto what is not prescribed.
-  static std::array<double, D * D> projector(const FixedDirections<D>* fixed) {
+  /// Onto the normal, as far as that is not prescribed: along the surfaces nothing holds the bodies together.
+  static std::array<double, D * D> projector(const Point<D>& normal, const FixedDirections<D>* fixed) {
+    Point<D> free = normal;
+    for (int k = 0; fixed && k < fixed->count; ++k) {
+      double part = 0;
+      for (int i = 0; i < D; ++i) part += fixed->direction[k][i] * normal[i];
+      for (int i = 0; i < D; ++i) free[i] -= part * fixed->direction[k][i];
+    }
+    const double square = dot(free, free);
     std::array<double, D * D> out{};
-    for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
-    for (int k = 0; fixed && k < fixed->count; ++k)
-      for (int i = 0; i < D; ++i)
-        for (int j = 0; j < D; ++j) out[i * D + j] -= fixed->direction[k][i] * fixed->direction[k][j];
+    for (int i = 0; i < D && square > 0; ++i)
+      for (int j = 0; j < D; ++j) out[i * D + j] = free[i] * free[j] / square;
     return out;
   }
 

@@ -51,7 +51,7 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   obstacle.source = reader.source();
   obstacle.body = reader.text("body");
   obstacle.on = reader.selection();
-  obstacle.other = reader.text("other");
+  if (reader.given("other")) obstacle.other = reader.text("other");
   obstacle.other_on = reader.selection("other_");
   if (!spec) return obstacle;
   obstacle.shape_name = spec->name;

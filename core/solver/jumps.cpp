@@ -142,35 +142,105 @@ class Transformation {
 };
 
 /// A row of weights, each column once.
+template <int B>
 class WeightRow {
  public:
+  using Block = std::array<double, B * B>;
+
   explicit WeightRow(Index columns) : place_(static_cast<std::size_t>(columns), -1) {}
 
-  void add(Index column, double weight) {
+  /// Adds factor * M.
+  void add(Index column, double factor, const Block& M) {
     if (place_[column] < 0) {
       place_[column] = static_cast<Index>(entries_.size());
-      entries_.emplace_back(column, 0.0);
+      entries_.emplace_back(column, Block{});
     }
-    entries_[place_[column]].second += weight;
+    Block& sum = entries_[place_[column]].second;
+    for (int i = 0; i < B * B; ++i) sum[i] += factor * M[i];
   }
 
   /// Appends it without what is zero but for rounding, and is empty again.
   void take(Prolongation& out) {
     constexpr double rounding = 1e-14;
-    std::sort(entries_.begin(), entries_.end());
+    std::ranges::sort(entries_, {}, &Entry::first);
     for (const auto& [column, weight] : entries_) {
       place_[column] = -1;
-      if (std::abs(weight) <= rounding) continue;
+      if (std::ranges::all_of(weight, [](double w) { return std::abs(w) <= rounding; })) continue;
       out.column.push_back(column);
-      out.weight.push_back(weight);
+      out.block.insert(out.block.end(), weight.begin(), weight.end());
     }
     entries_.clear();
     out.row.push_back(static_cast<Offset>(out.column.size()));
   }
 
  private:
+  using Entry = std::pair<Index, Block>;
   std::vector<Index> place_;
-  std::vector<std::pair<Index, double>> entries_;
+  std::vector<Entry> entries_;
+};
+
+/// One row of Z_fine^-1 P Z_coarse after the other.
+template <int B>
+class JumpInterpolation {
+ public:
+  using Block = typename WeightRow<B>::Block;
+
+  JumpInterpolation(const Prolongation& P, const Jumps<B>& fine, const Jumps<B>& coarse)
+      : P_(P),
+        fine_(fine),
+        coarse_(coarse),
+        fine_slave_(number_of_slaves(fine, P.fine())),
+        coarse_slave_(number_of_slaves(coarse, P.coarse)),
+        row_(P.coarse) {}
+
+  Prolongation product() {
+    Prolongation out;
+    out.coarse = P_.coarse;
+    out.twin = P_.twins();
+    out.row.reserve(P_.row.size());
+    out.column.reserve(P_.column.size());
+    out.block.reserve(P_.column.size() * B * B);
+    for (Index p = 0; p < P_.fine(); ++p) {
+      add_displacement(p, 1, identity());
+      if (const Index s = fine_slave_[p]; s >= 0)
+        for (Offset j = fine_.row[s]; j < fine_.row[s + 1]; ++j)
+          add_displacement(fine_.column[j], -fine_.weight[j], projector(fine_, s));
+      row_.take(out);
+    }
+    return out;
+  }
+
+ private:
+  static Block identity() {
+    Block out{};
+    for (int i = 0; i < B; ++i) out[i * (B + 1)] = 1;
+    return out;
+  }
+
+  static Block projector(const Jumps<B>& jumps, Index s) {
+    Block out;
+    std::copy_n(jumps.project.data() + Offset{s} * B * B, B * B, out.begin());
+    return out;
+  }
+
+  /// Adds factor * M times the displacement of the fine vector p.
+  void add_displacement(Index p, double factor, const Block& M) {
+    for (Offset k = P_.row[p]; k < P_.row[p + 1]; ++k) {
+      const double weight = factor * P_.weight[k];
+      row_.add(P_.column[k], weight, M);
+      const Index s = coarse_slave_[P_.column[k]];
+      if (s < 0) continue;
+      Block MP;
+      block::multiply<B>(M.data(), coarse_.project.data() + Offset{s} * B * B, MP.data());
+      for (Offset j = coarse_.row[s]; j < coarse_.row[s + 1]; ++j)
+        row_.add(coarse_.column[j], weight * coarse_.weight[j], MP);
+    }
+  }
+
+  const Prolongation& P_;
+  const Jumps<B>&fine_, &coarse_;
+  const std::vector<Index> fine_slave_, coarse_slave_;
+  WeightRow<B> row_;
 };
 
 }  // namespace
@@ -208,34 +278,8 @@ void transform(const Jumps<B>& jumps, BlockMatrix<B>& A) {
 }
 
 template <int B>
-Prolongation between_jumps(const Prolongation& P, const Jumps<B>& fine, const Jumps<B>& coarse) {
-  Prolongation out;
-  out.coarse = P.coarse;
-  out.twin = P.twins();
-  out.row.reserve(P.row.size());
-  const std::vector<Index> fine_slave = number_of_slaves(fine, P.fine());
-  const std::vector<Index> coarse_slave = number_of_slaves(coarse, P.coarse);
-  WeightRow row(P.coarse);
-  // The displacement of p, as far as coarse unknowns beside those of its own row make it.
-  const auto add_displacement = [&](Index p, double factor, bool jumps) {
-    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) {
-      row.add(P.column[k], factor * P.weight[k]);
-      const Index s = coarse_slave[P.column[k]];
-      if (s < 0 || jumps) continue;
-      for (Offset j = coarse.row[s]; j < coarse.row[s + 1]; ++j)
-        row.add(coarse.column[j], factor * P.weight[k] * coarse.weight[j]);
-    }
-  };
-  for (Index p = 0; p < P.fine(); ++p) {
-    const Index s = fine_slave[p];
-    const bool of_jumps = s >= 0 && std::all_of(P.column.begin() + P.row[p], P.column.begin() + P.row[p + 1],
-                                                [&](Index q) { return coarse_slave[q] >= 0; });
-    add_displacement(p, 1, of_jumps);
-    if (s >= 0 && !of_jumps)
-      for (Offset j = fine.row[s]; j < fine.row[s + 1]; ++j) add_displacement(fine.column[j], -fine.weight[j], false);
-    row.take(out);
-  }
-  return out;
+Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fine, const Jumps<B>& coarse) {
+  return JumpInterpolation<B>(prolongation, fine, coarse).product();
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                                  \
