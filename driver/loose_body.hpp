@@ -16,6 +16,9 @@ class LooseBody {
   /// Keeps references to all of them.
   LooseBody(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization);
 
+  /// Whether the prescribed values leave it no motion.
+  bool held() const { return free_.cols() == 0; }
+
   /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
   /// has no minimum. Friction takes its part
   /// of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts

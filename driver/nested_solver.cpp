@@ -16,6 +16,7 @@
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
+#include "core/solver/weights.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
 #include "methods/nested_iteration.hpp"
@@ -180,6 +181,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
   pairings_.resize(hierarchy.levels.size());
+  pairs_.resize(hierarchy.levels.size());
   times_.setup += watch.elapsed();
 }
 
@@ -210,24 +212,67 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   return solution;
 }
 
-/// Where bodies may touch each other, unknowns are jumps, and interpolation is one between jumps.
+/// Where bodies may touch each other. What holds a loose body may be far from where it is.
 template <int D, int B>
 void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
   if constexpr (D == B) {
     if (!is_paired(model)) return;
     const Stopwatch watch;
-    bool changed = false;
-    for (std::size_t level = first_; level < nodes_.size(); ++level) {
-      auto now = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
-      changed = changed || !pairings_[level] || *now->jumps != *pairings_[level]->jumps;
-      pairings_[level] = std::move(now);
-    }
-    for (std::size_t k = first_; k < hierarchy_.refinements.size() && changed; ++k)
-      prolongations_[number(k)] =
-          between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]), *pairings_[k + 1]->jumps,
-                        *pairings_[k]->jumps);
+    for (std::size_t level = first_; level < nodes_.size(); ++level)
+      pairs_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
+    pairings_ = pairs_;
+    held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, pairs_[first_])).held();
+    for (std::size_t level = first_ + 1; level < nodes_.size(); ++level) connect_jumps(level);
     times_.setup += watch.elapsed();
   }
+}
+
+/// Unknowns of a mesh are jumps where a solution on the next coarser one nearly touches.
+template <int D, int B>
+void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
+  if constexpr (D == B) {
+    if (!pairs_[level] || !held_) return;
+    const Stopwatch watch;
+    const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
+    const Prolongation P = prolongation(hierarchy_.refinements[level - 1], nodes_[level - 1], nodes_[level]);
+    std::vector<double> refined(static_cast<std::size_t>(P.fine()) * B);
+    weights::with<B>(P, [&](const auto& weight) {
+      for (Index p = 0; p < P.fine(); ++p)
+        weights::interpolate<B>(P, weight, p, u.data(), refined.data() + Offset{p} * B);
+    });
+    pairings_[level] = near_contact(nodes_[level], model, *pairs_[level], refined);
+    connect_jumps(level);
+    times_.setup += watch.elapsed();
+  }
+}
+
+/// Interpolation to a mesh is one between jumps.
+template <int D, int B>
+void NestedSolver<D, B>::connect_jumps(std::size_t level) {
+  const std::size_t k = level - 1;
+  prolongations_[number(k)] = between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]),
+                                            *pairings_[k + 1]->jumps, *pairings_[k]->jumps);
+}
+
+/// Where bodies touch each other elsewhere than was thought, the problem with jumps there as well, and the solution as
+/// a start.
+template <int D, int B>
+bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution) {
+  if constexpr (D == B) {
+    const std::size_t finest = nodes_.size() - 1;
+    if (!pairs_[finest] || pairings_[finest] == pairs_[finest]) return false;
+    const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
+    if (!touches_elsewhere(nodes_[finest], model, *pairs_[finest], *pairings_[finest], u)) return false;
+    pairings_[finest] = near_contact(nodes_[finest], model, *pairs_[finest], u, pairings_[finest].get());
+    if (finest > first_) connect_jumps(finest);
+    Solution<B> next = discretize_level(model, finest);
+    next.x = to_local(next.discretization.problem, u);
+    make_admissible(next.discretization.problem, next.x);
+    next.summary = std::move(solution.summary);
+    solution = std::move(next);
+    return true;
+  }
+  return false;
 }
 
 /// From what the last solve left, if that is all there.
@@ -411,6 +456,7 @@ void NestedSolver<D, B>::start_with_pressure(std::size_t level, const Solution<B
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+  if (!coarse.x.empty()) pair_near_contact(model, level, coarse);
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
@@ -486,6 +532,11 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   SolverOptions options = options_;
   if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
   solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
+  while (solution.summary.converged() && pair_more(model, solution)) {
+    std::vector<Stage> before = std::move(solution.summary.stages);
+    solve_level(model, hierarchy_.levels.size() - 1, options, nullptr, solution);
+    solution.summary.put_in_front(std::move(before));
+  }
   if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
 }
 

@@ -103,6 +103,9 @@ class NestedSolver {
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
   void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void pair_levels(const Model<B>& model);
+  void pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
+  void connect_jumps(std::size_t level);
+  bool pair_more(const Model<B>& model, Solution<B>& solution);
   std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
   std::size_t number(std::size_t level) const { return algebraic_ + level - first_; }
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
@@ -135,7 +138,9 @@ class NestedSolver {
   const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
-  std::vector<std::shared_ptr<const PairedBodies<B>>> pairings_;  // per mesh, of bodies that may touch each other
+  // Of bodies that may touch each other, per mesh: all that may, and what unknowns are jumps for.
+  std::vector<std::shared_ptr<const PairedBodies<B>>> pairs_, pairings_;
+  bool held_ = false;  // prescribed values hold them
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
   std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
   std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve

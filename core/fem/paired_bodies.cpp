@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mortar/couple.hpp"
@@ -163,6 +164,88 @@ std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const 
   return coupler.take();
 }
 
+namespace {
+
+/// What is left between the bodies at each pair, and how much they have come nearer there at most.
+struct Distances {
+  std::vector<double> left;  // by the number of the jump
+  double closed = 0;
+};
+
+template <int D>
+Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
+                    std::vector<double> u) {
+  const Jumps<D>& jumps = *all.jumps;
+  to_jumps(jumps, u);
+  Distances out{std::vector<double>(jumps.vector.size(), infinity)};
+  std::vector<FunctionalNumbers<D>> unused;
+  for (const Bound<D>& bound : collect_bounds(nodes, model, unused, &all)) {
+    if (!model.obstacles[bound.obstacle].other) continue;
+    double along = 0;
+    for (int i = 0; i < D; ++i) along += bound.direction[i] * u[Offset{bound.vertex} * D + i];
+    const auto at = std::ranges::lower_bound(jumps.vector, bound.vertex) - jumps.vector.begin();
+    out.left[static_cast<std::size_t>(at)] = std::min(along - bound.lower, bound.upper - along);
+    out.closed = std::max(out.closed, std::abs(along));
+  }
+  return out;
+}
+
+template <int D>
+bool has(const PairedBodies<D>& pairs, Index node) {
+  return std::ranges::binary_search(pairs.jumps->vector, node);
+}
+
+/// Some of all jumps.
+template <int B>
+Jumps<B> chosen(const Jumps<B>& all, const std::vector<char>& keep) {
+  Jumps<B> out;
+  for (Index s = 0; s < all.size(); ++s) {
+    if (!keep[s]) continue;
+    out.vector.push_back(all.vector[s]);
+    out.column.insert(out.column.end(), all.column.begin() + all.row[s], all.column.begin() + all.row[s + 1]);
+    out.weight.insert(out.weight.end(), all.weight.begin() + all.row[s], all.weight.begin() + all.row[s + 1]);
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+    const auto project = all.project.begin() + Offset{s} * B * B;
+    out.project.insert(out.project.end(), project, project + B * B);
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const Model<D>& model,
+                                                    const PairedBodies<D>& all, const std::vector<double>& u,
+                                                    const PairedBodies<D>* also) {
+  constexpr double near = 0.25;  // of what they have come nearer
+  const Distances distance = distances(nodes, model, all, u);
+  const Jumps<D>& jumps = *all.jumps;
+  std::vector<char> keep(jumps.vector.size());
+  for (std::size_t s = 0; s < keep.size(); ++s)
+    keep[s] = distance.left[s] <= near * distance.closed || (also && has(*also, jumps.vector[s]));
+  PairedBodies<D> out;
+  out.jumps = std::make_shared<const Jumps<D>>(chosen(jumps, keep));
+  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
+  return std::make_shared<const PairedBodies<D>>(std::move(out));
+}
+
+template <int D>
+bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
+                       const PairedBodies<D>& chosen, const std::vector<double>& u) {
+  const Distances distance = distances(nodes, model, all, u);
+  for (std::size_t s = 0; s < distance.left.size(); ++s)
+    if (distance.left[s] < 0 && !has(chosen, all.jumps->vector[s])) return true;
+  return false;
+}
+
+template std::shared_ptr<const PairedBodies<2>> near_contact(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&,
+                                                             const std::vector<double>&, const PairedBodies<2>*);
+template std::shared_ptr<const PairedBodies<3>> near_contact(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&,
+                                                             const std::vector<double>&, const PairedBodies<3>*);
+template bool touches_elsewhere(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&, const PairedBodies<2>&,
+                                const std::vector<double>&);
+template bool touches_elsewhere(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&, const PairedBodies<3>&,
+                                const std::vector<double>&);
 template std::shared_ptr<const PairedBodies<2>> pair_bodies(const Nodes<2>&, const Model<2>&,
                                                             const std::vector<FixedDirections<2>>&);
 template std::shared_ptr<const PairedBodies<3>> pair_bodies(const Nodes<3>&, const Model<3>&,

@@ -32,4 +32,16 @@ template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
                                              const std::vector<FixedDirections<D>>& fixes);
 
+/// Of all pairs those that nearly touch when the bodies are displaced by u (B per node, global coordinates), and those
+/// that `also` has. Far from contact jumps are of no use: there each body is smoothed better by itself.
+template <int D>
+std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const Model<D>& model,
+                                                    const PairedBodies<D>& all, const std::vector<double>& u,
+                                                    const PairedBodies<D>* also = nullptr);
+
+/// Whether a displacement takes a pair that is not among `chosen` through its bound.
+template <int D>
+bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
+                       const PairedBodies<D>& chosen, const std::vector<double>& u);
+
 }  // namespace signorini
