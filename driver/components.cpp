@@ -6,7 +6,6 @@
 
 #include "core/base/error.hpp"
 #include "core/component/plugin_loader.hpp"
-#include "core/scene/specs.hpp"
 #include "methods/configuration.hpp"
 
 namespace signorini {
@@ -36,9 +35,6 @@ std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
     try {
       loader.require(obstacle.type);
     } catch (const Error& error) {
-      if (is_later_obstacle(obstacle.type))
-        input_error(obstacle.source.of("type"),
-                    fmt::format("type = '{}' is not available in this version", obstacle.type));
       throw Error(error.status(), obstacle.source.of("type") + ": " + error.what());
     }
     const Entry& entry = registry.entry("obstacle", obstacle.type);

@@ -220,6 +220,7 @@ void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
     const Stopwatch watch;
     for (std::size_t level = first_; level < nodes_.size(); ++level)
       pairs_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
+    if (pairings_ != pairs_) drop_algebraic_levels();
     pairings_ = pairs_;
     held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, pairs_[first_])).held();
     for (std::size_t level = first_ + 1; level < nodes_.size(); ++level) connect_jumps(level);
@@ -244,6 +245,29 @@ void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t le
     connect_jumps(level);
     times_.setup += watch.elapsed();
   }
+}
+
+/// Once the coarsest mesh has a solution it is a level like the others.
+template <int D, int B>
+void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
+  if constexpr (D == B) {
+    if (!pairs_[first_] || !held_) return;
+    const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
+    pairings_[first_] = near_contact(nodes_[first_], model, *pairs_[first_], u);
+    drop_algebraic_levels();
+    coarse = discretize_level(model, first_);
+    coarse.x = to_local(coarse.discretization.problem, u);
+    continue_algebraically(coarse.discretization.problem);
+  }
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::drop_algebraic_levels() {
+  prolongations_.erase(prolongations_.begin(), prolongations_.begin() + static_cast<Offset>(algebraic_));
+  algebraic_ = 0;
+  continued_ = false;
+  galerkin_.clear();
+  is_product_.clear();
 }
 
 /// Interpolation to a mesh is one between jumps.
@@ -456,7 +480,10 @@ void NestedSolver<D, B>::start_with_pressure(std::size_t level, const Solution<B
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
-  if (!coarse.x.empty()) pair_near_contact(model, level, coarse);
+  if (!coarse.x.empty()) {
+    if (level == first_ + 1) narrow_first(model, coarse);
+    pair_near_contact(model, level, coarse);
+  }
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";

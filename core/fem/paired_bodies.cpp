@@ -101,9 +101,10 @@ class Coupler {
     const FixedDirections<D>* fixed = fixed_at(p);
     if (fixed && fixed->count == D) return;
     take_side(slave_of_, master_of_, p, obstacle);
+    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
     for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
-    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed)});
+    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed, with_friction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
@@ -116,8 +117,19 @@ class Coupler {
     return found != fixes_.end() && found->vertex == p ? &*found : nullptr;
   }
 
-  /// Onto the normal, as far as that is not prescribed: along the surfaces nothing holds the bodies together.
-  static std::array<double, D * D> projector(const Point<D>& normal, const FixedDirections<D>* fixed) {
+  static std::array<double, D * D> onto_free(const FixedDirections<D>* fixed) {
+    std::array<double, D * D> out{};
+    for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
+    for (int k = 0; fixed && k < fixed->count; ++k)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j) out[i * D + j] -= fixed->direction[k][i] * fixed->direction[k][j];
+    return out;
+  }
+
+  /// Onto the normal, as far as that is not prescribed: along the surfaces only friction holds the bodies together.
+  static std::array<double, D * D> projector(const Point<D>& normal, const FixedDirections<D>* fixed,
+                                             bool with_friction) {
+    if (with_friction) return onto_free(fixed);
     Point<D> free = normal;
     for (int k = 0; fixed && k < fixed->count; ++k) {
       double part = 0;

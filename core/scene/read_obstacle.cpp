@@ -31,14 +31,6 @@ Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std
   return given;
 }
 
-/// Their keys are no fault of the user's: what is missing is the type.
-void refuse_later_type(const TableReader& reader, const std::string& type) {
-  if (type.empty()) input_error(reader.origin("type"), "the type is empty, expected one of `signorini list obstacles`");
-  for (const char* key : {"other", "other_on", "other_where"})
-    if (is_later_obstacle(type) && reader.given(key))
-      input_error(reader.origin("type"), fmt::format("type = '{}' is not available in this version", type));
-}
-
 }  // namespace
 
 Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder) {
@@ -46,7 +38,8 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   Scene::Obstacle obstacle;
   const ShapeSpec* spec = reader.given("shape") ? &reader.use_shape(obstacle_shapes()) : nullptr;
   obstacle.type = reader.text("type");
-  refuse_later_type(reader, obstacle.type);
+  if (obstacle.type.empty())
+    input_error(reader.origin("type"), "the type is empty, expected one of `signorini list obstacles`");
   obstacle.options = reader.check_known_keys();
   obstacle.source = reader.source();
   obstacle.body = reader.text("body");

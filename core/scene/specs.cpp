@@ -225,8 +225,6 @@ const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view nam
 std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }
 std::vector<std::string> names_of(std::span<const ShapeSpec> all) { return names(all); }
 
-bool is_later_obstacle(std::string_view type) { return type == "elastic_coulomb"; }
-
 std::vector<std::string> all_names(const TableSpec& table) {
   std::vector<std::string> all = names_of(table.keys);
   std::span<const ShapeSpec> further;

@@ -65,9 +65,6 @@ const ShapeSpec* find_shape(std::span<const ShapeSpec> shapes, std::string_view 
 std::vector<std::string> names_of(std::span<const KeySpec> keys);
 std::vector<std::string> names_of(std::span<const ShapeSpec> shapes);
 
-/// Obstacle types of the interface that a later version brings; a plugin of this id may be there all the same.
-bool is_later_obstacle(std::string_view type);
-
 /// All keys that a table may have whatever its shape; with repetitions.
 std::vector<std::string> all_names(const TableSpec& table);
 

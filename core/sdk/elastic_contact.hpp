@@ -1,7 +1,6 @@
 #pragma once
 #include <cmath>
 
-#include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/rigid_contact.hpp"
 
 namespace signorini {
@@ -16,7 +15,7 @@ class ElasticContact {
   static constexpr OptionSpec gap_option = {"gap", OptionType::field, "0", "",
                                             "is added to the distance of the bodies; negative: they are pressed"};
 
-  explicit ElasticContact(const Settings& settings) : settings_(settings) {}
+  ElasticContact(const Settings& settings, const char*) : settings_(settings) {}
 
   /// One direction, n, with its bound; a status where the gap is not known.
   void assemble(const SurfaceVertex& vertex, LocalConstraint<B>& c, Status& status) const noexcept {
@@ -32,23 +31,6 @@ class ElasticContact {
 
  private:
   const Settings& settings_;
-};
-
-/// Contact and nothing else.
-template <int B>
-class FrictionlessElasticContact final : public BoxObstacle<B> {
- public:
-  explicit FrictionlessElasticContact(const Settings& settings) : contact_(settings) {}
-
-  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", B, 1}}}; }
-
-  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
-                Status& status) const noexcept override {
-    for (std::size_t k = 0; k < count && status.ok(); ++k) contact_.assemble(vertices[k], constraints[k], status);
-  }
-
- private:
-  ElasticContact<B> contact_;
 };
 
 }  // namespace signorini

@@ -60,7 +60,8 @@ class RigidContact {
 };
 
 /// Contact and nothing else.
-template <int B>
+/// @tparam Contact what may not be penetrated
+template <int B, class Contact = RigidContact<B>>
 class FrictionlessContact : public BoxObstacle<B> {
  public:
   FrictionlessContact(const Settings& settings, const char* type) : contact_(settings, type) {}
@@ -73,7 +74,7 @@ class FrictionlessContact : public BoxObstacle<B> {
   }
 
  private:
-  RigidContact<B> contact_;
+  Contact contact_;
 };
 
 }  // namespace signorini

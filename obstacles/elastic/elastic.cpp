@@ -7,12 +7,18 @@
 namespace signorini {
 namespace {
 
+template <int B>
+Obstacle<B>* create(const Settings& settings, Status& status) noexcept {
+  return sdk::guarded(status, [&]() -> Obstacle<B>* {
+    return new FrictionlessContact<B, ElasticContact<B>>(settings, "elastic");
+  });
+}
+
 constexpr OptionSpec options[] = {ElasticContact<2>::gap_option};
 
 void register_all(Registrar& registrar, Status& status) {
   registrar.obstacle({"elastic", "frictionless contact with another elastic body", options, std::size(options), false,
-                      nullptr, sdk::create<FrictionlessElasticContact<2>, 2>,
-                      sdk::create<FrictionlessElasticContact<3>, 3>, true},
+                      nullptr, create<2>, create<3>, true},
                      status);
 }
 

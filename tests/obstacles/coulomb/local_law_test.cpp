@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "obstacles/coulomb/coulomb_friction.hpp"
+#include "core/sdk/coulomb_friction.hpp"
 #include "tests/support/random.hpp"
 
 namespace signorini::test {
