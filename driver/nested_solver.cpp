@@ -379,7 +379,8 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   AlgebraicSettings settings = algebraic_settings(options_);
   settings.stretched = is_stretched(hierarchy_.levels.front(), B);
-  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_], coarsest.jumps.get()) : NearNullSpace{};
+  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_], coarsest.jumps.get())
+                                                      : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   algebraic_ = below.prolongations.size();

@@ -142,7 +142,7 @@ class NestedSolver {
   std::size_t algebraic_ = 0;                // number of the latter
   // Of bodies that may touch each other, per mesh: all that may, and what unknowns are jumps for.
   std::vector<std::shared_ptr<const PairedBodies<B>>> pairs_, pairings_;
-  bool held_ = false;  // prescribed values hold them
+  bool held_ = false;                        // prescribed values hold them
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
   std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
   std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve

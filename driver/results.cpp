@@ -77,9 +77,9 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
   for (const std::string& name : names) {
     BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
     add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name, 1,
-               balance.applied);
+                  balance.applied);
     add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name, 1,
-               balance.reactions);
+                  balance.reactions);
     add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
     add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
   }

@@ -50,7 +50,7 @@ std::optional<Frames<B>> change(const Frames<B>& old, const Frames<B>& now, cons
 
 template <int D, int B>
 std::shared_ptr<const PairedBodies<B>> pair_bodies(const Nodes<D>& nodes, const Model<B>& model,
-                                             const std::vector<FixedDirections<B>>& fixes) {
+                                                   const std::vector<FixedDirections<B>>& fixes) {
   if constexpr (D == B)
     return signorini::pair_bodies<D>(nodes, model, fixes);
   else
@@ -396,7 +396,8 @@ class Discretizer {
 }  // namespace
 
 template <int D, int B>
-Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model, std::shared_ptr<const PairedBodies<B>> pairing) {
+Discretization<B> discretize(const Nodes<D>& nodes, const Model<B>& model,
+                             std::shared_ptr<const PairedBodies<B>> pairing) {
   return Discretizer<D, B>(nodes, model, std::move(pairing)).discretize();
 }
 
@@ -422,9 +423,9 @@ std::vector<double> to_local(const DiscreteProblem<B>& problem, std::vector<doub
   return u;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                            \
-  template Discretization<B> discretize(const Nodes<D>&, const Model<B>&, std::shared_ptr<const PairedBodies<B>>);  \
-  template Assembled renew(const Nodes<D>&, const Model<B>&, const Model<B>&, Discretization<B>&,              \
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                \
+  template Discretization<B> discretize(const Nodes<D>&, const Model<B>&, std::shared_ptr<const PairedBodies<B>>); \
+  template Assembled renew(const Nodes<D>&, const Model<B>&, const Model<B>&, Discretization<B>&,                  \
                            std::shared_ptr<const PairedBodies<B>>);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)

@@ -69,8 +69,9 @@ class Coupler {
     const MortarCoupling<D> found = couple(of_slave, of_master, {.reach = extent(mesh)});
     refuse_deep<D>(mesh, term, slave, found.deepest);
     if (found.nodes() == 0)
-      input_error(term.origin, "no face of one body is in front of the other one's, opposite to it; expected sides that "
-                               "can touch");
+      input_error(term.origin,
+                  "no face of one body is in front of the other one's, opposite to it; expected sides that "
+                  "can touch");
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
   }
 
@@ -185,8 +186,7 @@ struct Distances {
 };
 
 template <int D>
-Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
-                    std::vector<double> u) {
+Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all, std::vector<double> u) {
   const Jumps<D>& jumps = *all.jumps;
   to_jumps(jumps, u);
   Distances out{std::vector<double>(jumps.vector.size(), infinity)};

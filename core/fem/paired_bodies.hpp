@@ -30,7 +30,7 @@ struct PairedBodies {
 /// @param fixes collect_fixes() of both
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
-                                             const std::vector<FixedDirections<D>>& fixes);
+                                                   const std::vector<FixedDirections<D>>& fixes);
 
 /// Of all pairs those that nearly touch when the bodies are displaced by u (B per node, global coordinates), and those
 /// that `also` has. Far from contact jumps are of no use: there each body is smoothed better by itself.

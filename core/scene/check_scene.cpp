@@ -74,7 +74,8 @@ void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
     for (const char* key : {"other_on", "other_where"})
       if (obstacle.source.given(key))
-        input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the body it is of", key));
+        input_error(obstacle.source.of(key),
+                    fmt::format("'{}' has no meaning without 'other', the body it is of", key));
     return;
   }
   const std::string& place = obstacle.source.of("other");

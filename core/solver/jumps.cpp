@@ -282,11 +282,11 @@ Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fin
   return JumpInterpolation<B>(prolongation, fine, coarse).product();
 }
 
-#define SIGNORINI_INSTANTIATE(B)                                                  \
-  template void to_displacements(const Jumps<B>&, std::vector<double>&);          \
-  template void to_jumps(const Jumps<B>&, std::vector<double>&);                  \
-  template void transform_forces(const Jumps<B>&, std::vector<double>&);          \
-  template void transform(const Jumps<B>&, BlockMatrix<B>&);                      \
+#define SIGNORINI_INSTANTIATE(B)                                         \
+  template void to_displacements(const Jumps<B>&, std::vector<double>&); \
+  template void to_jumps(const Jumps<B>&, std::vector<double>&);         \
+  template void transform_forces(const Jumps<B>&, std::vector<double>&); \
+  template void transform(const Jumps<B>&, BlockMatrix<B>&);             \
   template Prolongation between_jumps(const Prolongation&, const Jumps<B>&, const Jumps<B>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)

@@ -7,8 +7,9 @@
 
 namespace signorini {
 
-/// A change of basis that makes contact between bodies local (Wohlmuth and Krause, SIAM J. Sci. Comput. 25, 2003): where
-/// one body, the slave, may touch another one, its unknowns are jumps. With the displacements u and the unknowns x
+/// A change of basis that makes contact between bodies local (Wohlmuth and Krause, SIAM J. Sci. Comput. 25, 2003):
+/// where one body, the slave, may touch another one, its unknowns are jumps. With the displacements u and the unknowns
+/// x
 ///
 ///     u_p = x_p + P_p sum_q w_pq x_q      at the vectors p of the slave's side,    u_p = x_p    elsewhere,
 ///

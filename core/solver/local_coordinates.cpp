@@ -119,14 +119,14 @@ void eliminate(DiscreteProblem<B>& problem, std::span<const Index> vectors) {
   for (const Index p : vectors) eliminate_row(problem, p);
 }
 
-#define SIGNORINI_INSTANTIATE(B)                                      \
-  template void rotate(BlockMatrix<B>&, const Frames<B>&);            \
-  template void rotate(std::vector<double>&, const Frames<B>&);       \
-  template void prescribe(DiscreteProblem<B>&, Index, const double*); \
-  template void out_of_frames(const Frames<B>&, std::vector<double>&);  \
-  template void into_frames(const Frames<B>&, std::vector<double>&);    \
+#define SIGNORINI_INSTANTIATE(B)                                                             \
+  template void rotate(BlockMatrix<B>&, const Frames<B>&);                                   \
+  template void rotate(std::vector<double>&, const Frames<B>&);                              \
+  template void prescribe(DiscreteProblem<B>&, Index, const double*);                        \
+  template void out_of_frames(const Frames<B>&, std::vector<double>&);                       \
+  template void into_frames(const Frames<B>&, std::vector<double>&);                         \
   template std::vector<double> local_forces(const DiscreteProblem<B>&, std::vector<double>); \
-  template void eliminate(DiscreteProblem<B>&);                       \
+  template void eliminate(DiscreteProblem<B>&);                                              \
   template void eliminate(DiscreteProblem<B>&, std::span<const Index>);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)

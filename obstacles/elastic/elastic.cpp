@@ -9,9 +9,8 @@ namespace {
 
 template <int B>
 Obstacle<B>* create(const Settings& settings, Status& status) noexcept {
-  return sdk::guarded(status, [&]() -> Obstacle<B>* {
-    return new FrictionlessContact<B, ElasticContact<B>>(settings, "elastic");
-  });
+  return sdk::guarded(
+      status, [&]() -> Obstacle<B>* { return new FrictionlessContact<B, ElasticContact<B>>(settings, "elastic"); });
 }
 
 constexpr OptionSpec options[] = {ElasticContact<2>::gap_option};

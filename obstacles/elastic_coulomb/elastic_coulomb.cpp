@@ -17,12 +17,13 @@ Obstacle<B>* create(const Settings& settings, Status& status) noexcept {
 constexpr OptionSpec options[] = {ElasticContact<2>::gap_option, CoulombContact<2, ElasticContact<2>>::friction_option};
 
 void register_all(Registrar& registrar, Status& status) {
-  registrar.obstacle({"elastic_coulomb", "contact with another elastic body and friction by Coulomb's law", options, std::size(options), false,
-                      nullptr, create<2>, create<3>, true},
+  registrar.obstacle({"elastic_coulomb", "contact with another elastic body and friction by Coulomb's law", options,
+                      std::size(options), false, nullptr, create<2>, create<3>, true},
                      status);
 }
 
 }  // namespace
 }  // namespace signorini
 
-SIGNORINI_PLUGIN("elastic_coulomb", "1.0.0", "contact with another elastic body and friction by Coulomb's law", signorini::register_all);
+SIGNORINI_PLUGIN("elastic_coulomb", "1.0.0", "contact with another elastic body and friction by Coulomb's law",
+                 signorini::register_all);

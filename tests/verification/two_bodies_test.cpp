@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "apps/scenes/tables.hpp"
 #include "driver/driver.hpp"
@@ -89,6 +91,176 @@ TEST(TwoBodies, PassThePatchTestIn3D) {
         SCOPED_TRACE(fmt::format("{} {} {}", upper_is_slave, cells, refined));
         expect_uniform_pressure(press_3d({cells, "[2, 2, 2]", upper_is_slave, refined}));
       }
+}
+
+/// Lower half of a disk of radius 1, moved down onto a block.
+std::string disk_on_block(int refinements, const std::string& obstacle, double block_stiffness = 1) {
+  return fmt::format(
+             "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\n"
+             "size = \"0.03 + 0.3 * sqrt(x^2 + y^2)\"\nyoung = 1\npoisson = 0.3\n[refine]\nuniform = {}\n",
+             refinements) +
+         tables::block("block", "[-2, -2]", "[2, 0]", "[32, 16]",
+                       fmt::format("young = {}\npoisson = 0.3\n", block_stiffness)) +
+         tables::fix("disk", "flat", "[0, -0.02]") + tables::fix("block", "bottom", "[0, 0]") + obstacle;
+}
+
+struct Pressed {
+  double force, half_width, pressure;
+  int iterations;
+};
+
+Pressed pressed(const std::string& text) {
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  EXPECT_TRUE(report.converged()) << report.reason();
+  const ContactReport& contact = report.last().contact[0];
+  return {std::abs(contact.force[1]), contact.radius, contact.max_pressure, report.last().summary.iterations};
+}
+
+// K. L. Johnson, Contact Mechanics, Cambridge 1985, ch. 4: with 1/E* = 2 (1 - nu^2) / E
+TEST(TwoBodies, PressEachOtherAsHertzSays) {
+  const double stiffness = 1 / (2 * (1 - 0.3 * 0.3));
+  const Pressed found = pressed(disk_on_block(4, pair("disk", "curved", "block", "top")));
+  const double half_width = std::sqrt(4 * found.force / (pi * stiffness));
+  show("half width {:.4g}, pressure {:.4g} of theirs, {} iterations\n", found.half_width / half_width,
+       found.pressure / (2 * found.force / (pi * half_width)), found.iterations);
+  EXPECT_NEAR(found.half_width, half_width, 0.03 * half_width);
+  EXPECT_NEAR(found.pressure, 2 * found.force / (pi * half_width), 0.03 * found.pressure);
+  EXPECT_LE(found.iterations, 13);
+}
+
+TEST(TwoBodies, PressAlikeWhicheverIsTheSlave) {
+  std::vector<double> difference;
+  for (const int refinements : {1, 2, 3, 4}) {
+    const Pressed disk = pressed(disk_on_block(refinements, pair("disk", "curved", "block", "top")));
+    const Pressed block = pressed(disk_on_block(refinements, pair("block", "top", "disk", "curved")));
+    difference.push_back(std::abs(disk.force - block.force) / disk.force);
+    show("{}: force differs by {:.2e}, {} and {} iterations\n", refinements, difference.back(), disk.iterations,
+         block.iterations);
+    EXPECT_LE(std::max(disk.iterations, block.iterations), 15);
+  }
+  EXPECT_LT(difference.back(), 1e-3);
+  EXPECT_LT(difference[3], 0.5 * difference[1]);
+}
+
+TEST(TwoBodies, AStiffOneIsARigidObstacle) {
+  const Pressed rigid = pressed(disk_on_block(  // the normal is that of the slave in both cases
+      3,
+      "[[obstacle]]\ntype = \"contact\"\nbody = \"disk\"\non = \"curved\"\nshape = \"expression\"\n"
+      "distance = \"y\"\nnormal = \"body\"\n"));
+  double last = infinity;
+  for (const double ratio : {1e2, 1e4, 1e6, 1e8}) {
+    const Pressed found = pressed(disk_on_block(3, pair("disk", "curved", "block", "top"), ratio));
+    const double off = std::abs(found.force - rigid.force) / rigid.force;
+    show("{:g}: force off by {:.2e}, {} iterations\n", ratio, off, found.iterations);
+    EXPECT_LT(off, last);
+    EXPECT_LE(found.iterations, 2 * rigid.iterations);
+    last = off;
+  }
+  EXPECT_LT(last, 2e-3);  // the mortar's mean distances are not the distances of nodes
+}
+
+/// Three blocks, the middle one held by contact along y alone.
+std::string row(const std::string& type, const std::string& more) {
+  const auto between = [&](const char* slave, const char* master) {
+    return fmt::format(
+        "[[obstacle]]\ntype = \"{}\"\nbody = \"{}\"\non = \"bottom\"\nother = \"{}\"\nother_on = \"top\"\n", type,
+        slave, master);
+  };
+  return tables::block("a", "[0, 0]", "[2, 1]", "[8, 4]") +
+         tables::block("b", "[0.3, 1]", "[1.7, 1.5]", "[9, 3]", "young = 10\npoisson = 0.2\n") +
+         tables::block("c", "[0.5, 1.5]", "[1.2, 2]", "[5, 4]", "young = 0.5\npoisson = 0.3\n") +
+         tables::fix("a", "bottom", "[0, 0]") + tables::fix("b", "left", "[0, \"free\"]") +
+         tables::fix("c", "top", "[\"0.01 * t\", \"-0.02 * t\"]") + between("b", "a") + more + between("c", "b") +
+         more + "[refine]\nuniform = 2\n[steps]\ncount = 3\n";
+}
+
+void expect_as_newton(const std::string& text) {
+  Driver cycles(scene_of(text)),
+      newton(parse_scene(text, "test.toml", ".", std::vector<std::string>{"solver.method=\"newton\""}));
+  ASSERT_TRUE(cycles.solve().converged());
+  ASSERT_TRUE(newton.solve().converged());
+  const std::vector<double> u = cycles.solution(), expected = newton.solution();
+  double size = 0, apart = 0;
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    size = std::max(size, std::abs(expected[k]));
+    apart = std::max(apart, std::abs(u[k] - expected[k]));
+  }
+  EXPECT_LT(apart, 1e-7 * size);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const ContactReport &a = cycles.report().last().contact[k], &b = newton.report().last().contact[k];
+    EXPECT_EQ(a.nodes, b.nodes);
+    EXPECT_EQ(a.slip_nodes, b.slip_nodes);
+    EXPECT_GT(a.nodes, 0);
+  }
+}
+
+TEST(TwoBodies, InARowAgreeWithNewton) { expect_as_newton(row("elastic", "")); }
+
+TEST(TwoBodies, InARowWithFrictionAgreeWithNewton) { expect_as_newton(row("elastic_coulomb", "friction = 0.3\n")); }
+
+TEST(TwoBodies, InARowBalance) {
+  Driver driver(scene_of(row("elastic_coulomb", "friction = 0.3\n")));
+  const StepReport& step = driver.solve().last();
+  ASSERT_EQ(step.balance.size(), 3u);
+  for (const BalanceReport& balance : step.balance)
+    for (const double left : balance.sum()) EXPECT_NEAR(left, 0, 1e-9) << balance.body;
+  EXPECT_GT(step.contact[1].slip_nodes, 0);
+  EXPECT_GT(step.contact[0].stick_nodes, 0);
+}
+
+/// A block that lies on another one, 0.01 above it at the start.
+std::string lying(const std::string& load) {
+  return tables::block("below", "[0, 0]", "[2, 1]", "[8, 4]") +
+         tables::block("above", "[0.5, 1.01]", "[1.5, 1.5]", "[9, 5]") + tables::fix("below", "bottom", "[0, 0]") +
+         tables::load("above", load) + pair("above", "bottom", "below", "top") + "[refine]\nuniform = 2\n";
+}
+
+TEST(TwoBodies, OneMayBeHeldByContactAlone) {
+  Driver driver(scene_of(lying("[0, -0.01]")));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged());
+  EXPECT_NEAR(report.last().contact[0].force[1], 0.01 * 0.49, 1e-10);
+  EXPECT_NEAR(report.last().contact[0].force[0], 0, 1e-10);
+  ASSERT_EQ(report.last().undetermined.size(), 1u);
+  EXPECT_NE(report.last().undetermined[0].find("translation along (1, 0) of the body around (1, 1.255)"),
+            std::string::npos)
+      << report.last().undetermined[0];
+}
+
+void expect_error(const std::string& text, Exit status, const std::string& part) {
+  try {
+    Driver(scene_of(text)).solve();
+    ADD_FAILURE() << "no error: " << part;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), status);
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(TwoBodies, SlideAwayWhereNothingHoldsThem) {
+  expect_error(lying("[0.001, -0.01]"), Exit::no_solution, "translation along (1, 0) of the body around (1, 1.255)");
+}
+
+TEST(TwoBodies, AreRefusedWhereTheyCannotTouch) {
+  const std::string start = lying("[0, -0.01]");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = start;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  expect_error(with("[0.5, 1.01]", "[0.5, 0.6]"), Exit::input, "the bodies overlap at the start, by 0.4");
+  expect_error(with("other_on = \"top\"", "other_on = \"bottom\""), Exit::input, "no face of one body is in front");
+  expect_error(with("other = \"below\"", "other = \"bellow\""), Exit::input, "did you mean 'below'?");
+  expect_error(with("other_on = \"top\"", "other_on = \"topp\""), Exit::input, "did you mean 'below/top'?");
+  expect_error(with("other = \"below\"", "other = \"above\""), Exit::input, "a body that touches itself");
+  expect_error(with("type = \"elastic\"", "type = \"contact\""), Exit::input, "acts on one body");
+  expect_error(with("other = \"below\"\nother_on = \"top\"", ""), Exit::input, "missing key 'other'");
+  expect_error(with("poisson = 0.3", "poisson = 0.49"), Exit::input, "expected order = 1");
+  expect_error(start + "[solver]\nhierarchy = \"matrix\"\n", Exit::input, "expected auto or meshes");
+  expect_error(start + tables::plane("above", "bottom", "[0, 1]", "[0, 1]"), Exit::input,
+               "two bodies of that obstacle");
 }
 
 }  // namespace
