@@ -247,6 +247,17 @@ void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t le
   }
 }
 
+/// Without a coarser mesh a rough solution tells where bodies touch.
+template <int D, int B>
+void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
+  constexpr double roughly = 1e-3;
+  if (!pairs_[first_] || !held_) return;
+  SolverOptions options = options_;
+  options.tolerance = std::max(options.tolerance, roughly);
+  solve_level(model, first_, options, nullptr, solution);
+  narrow_first(model, solution);
+}
+
 /// Once the coarsest mesh has a solution it is a level like the others.
 template <int D, int B>
 void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
@@ -606,6 +617,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   if (!continued_ && first_ < finest) choose_levels_below(model);
   Solution<B> solution = begin_level(model, finest, coarse);
   coarse = {};
+  if (finest == first_) come_near(model, solution);
   solve_finest(model, solution);
   numbers_now_[finest] = {solution.discretization, solution.x};
   pressure_now_[finest] = solution.pressure;

@@ -104,6 +104,7 @@ class NestedSolver {
   void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void pair_levels(const Model<B>& model);
   void pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
+  void come_near(const Model<B>& model, Solution<B>& solution);
   void narrow_first(const Model<B>& model, Solution<B>& coarse);
   void drop_algebraic_levels();
   void connect_jumps(std::size_t level);

@@ -179,8 +179,8 @@ constexpr KeySpec output[] = {
 const std::vector<TableSpec>& tables() {
   static const std::vector<TableSpec> all = {
       {"body", true,
-       "The body to be deformed, or the domain of a scalar equation. There may be several: they are solved one after "
-       "the other, are not coupled, and have one report.",
+       "The body to be deformed, or the domain of a scalar equation. There may be several, in one report: they are "
+       "solved one after the other, but for those that obstacles let touch each other.",
        body},
       {"material", true, "What a part of a body is made of that the mesh file names; elsewhere the body's own holds.",
        material},
