@@ -73,8 +73,8 @@ TEST(RigidMotions, TurnAboutAFarAxisIsATranslation) {
   const Mesh<2> mesh = unit_mesh<2>(3);
   const Nodes nodes(mesh);
   const RigidMotions<2, 2> motions(nodes);
-  EXPECT_EQ(motions.describe({1, 0, 1e-4}), "translation along (1, 0)");
-  EXPECT_EQ(motions.describe({1, 0, 0.01}), "rotation about (0.5, 50.5)");
+  EXPECT_EQ(motions.describe(Eigen::Vector3d(1, 0, 1e-4)), "translation along (1, 0)");
+  EXPECT_EQ(motions.describe(Eigen::Vector3d(1, 0, 0.01)), "rotation about (0.5, 50.5)");
 }
 
 TEST(RigidMotions, AreLeftFreeWhateverPlaceScaleAndFrame) {
@@ -103,7 +103,7 @@ TEST(RigidMotions, HaveNoEnergy) {
   for (Eigen::Index j = 0; j < 3; ++j) {
     Eigen::VectorXd z(3 * mesh.vertices());
     for (Index p = 0; p < mesh.vertices(); ++p)
-      for (int k = 0; k < 3; ++k) z[3 * p + k] = motions.along(problem.frames, p, k) * free.col(j);
+      for (int k = 0; k < 3; ++k) z[3 * p + k] = motions.along(problem, p, k) * free.col(j);
     double energy = 0, diagonal = 0;
     for (Index p = 0; p < problem.A.size(); ++p)
       for (Offset e = problem.A.row[p]; e < problem.A.row[p + 1]; ++e)
