@@ -10,7 +10,7 @@ namespace {
 constexpr double facing = 0.5 - 1e-9;
 // Pieces of less than this part of their face are rounding.
 constexpr double rounding = 1e-14;
-// Up to this part of a face, what segments cover together is the face: they do not overlap.
+// Segments that overlap by less than this part of their face do so by rounding.
 constexpr double whole = 1e-9;
 // The direction towards the closest points is known when a step changes it by less than this angle: distances then are
 // known up to the square of it.
@@ -130,13 +130,12 @@ Point<D> SegmentFinder<D>::mean_direction() const {
 }
 
 // Where masters lie behind each other only what is nearest counts. Faces that hang together by edges, all facing the
-// slave, do not; neither do segments that together are just the face.
+// slave, do not unless they cover more than there is.
 template <int D>
 void SegmentFinder<D>::part_layers() {
   double sum = 0;
   for (const Segment<D>& s : segments_) sum += measure(s.piece);
-  if (std::abs(sum - frame_.area) <= whole * frame_.area) return;
-  if (sum < frame_.area && in_one_sheet()) return;
+  if (sum <= (1 + whole) * frame_.area && in_one_sheet()) return;
   const double left = split_by_nearness();
   layered_ = sum - left > whole * frame_.area;
   if (layered_) segments_.swap(nearest_);

@@ -1,0 +1,195 @@
+// Matrices and interpolations in jumps against dense products.
+#include "core/solver/jumps.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/mortar/couple.hpp"
+#include "tests/core/mortar/surfaces.hpp"
+#include "tests/support/dense.hpp"
+
+namespace signorini::test {
+namespace {
+
+template <int B>
+Eigen::MatrixXd dense_basis(const Jumps<B>& jumps, Index vectors) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Identity(vectors * B, vectors * B);
+  for (Index s = 0; s < jumps.size(); ++s)
+    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j)
+          out(jumps.vector[s] * B + i, jumps.column[k] * B + j) += jumps.weight[k] * jumps.project[(s * B + i) * B + j];
+  return out;
+}
+
+Eigen::MatrixXd dense_weights(const Prolongation& P, int B) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(P.fine() * B, P.coarse * B);
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k)
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j)
+          out(p * B + i, P.column[k] * B + j) +=
+              P.block.empty() ? (i == j) * P.weight[k] : P.block[static_cast<std::size_t>(k) * B * B + i * B + j];
+  return out;
+}
+
+/// Along the normals, but for every third node, which is held in no direction.
+template <int D>
+Jumps<D> jumps_of(const MortarCoupling<D>& coupling) {
+  Jumps<D> out{coupling.node, coupling.row, coupling.column, coupling.value, {}};
+  for (Index s = 0; s < coupling.nodes(); ++s)
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        out.project.push_back(s % 3 == 0 ? i == j : coupling.normal[s][i] * coupling.normal[s][j]);
+  return out;
+}
+
+/// Symmetric, coupled at random.
+template <int B>
+BlockMatrix<B> random_symmetric(Random& random, Index n, double density) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n * B, n * B);
+  std::vector<std::vector<Index>> columns(n);
+  for (Index p = 0; p < n; ++p)
+    for (Index q = 0; q <= p; ++q) {
+      if (p != q && !random.chance(density)) continue;
+      columns[p].push_back(q);
+      if (p != q) columns[q].push_back(p);
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) A(p * B + i, q * B + j) = A(q * B + j, p * B + i) = random.between(-1, 1);
+    }
+  BlockMatrix<B> out;
+  for (Index p = 0; p < n; ++p) {
+    std::erase(columns[p], p);
+    std::ranges::sort(columns[p]);
+    columns[p].insert(columns[p].begin(), p);
+    for (const Index q : columns[p]) {
+      out.column.push_back(q);
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) out.value.push_back(A(p * B + i, q * B + j));
+    }
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+  }
+  return out;
+}
+
+/// Two bodies' surfaces in one numbering, refined: a wavy slave above a wavy master.
+template <int D>
+struct TwoBodies {
+  Surface<D> all;
+  std::size_t slave_faces = 0;
+  MortarCoupling<D> coupling;
+  Jumps<D> Z;
+  Index vectors = 0;
+
+  TwoBodies(int cells, double slope) {
+    Random random(1);
+    const auto plane = [=](double at) {
+      return [=](const Plane<D - 1>& y) { return at + slope * std::sin(3 * y[0]); };
+    };
+    all = graph<D>(grid<D - 1>(0, 1, 2 * cells), random, plane(0.01));
+    all.flip();
+    slave_faces = all.faces.size();
+    all.add(graph<D>(grid<D - 1>(-0.15, 0.85, 3 * cells), random, plane(0)));
+    const std::span<const std::array<Index, D>> faces(all.faces);
+    coupling =
+        couple<D>({all.points, faces.first(slave_faces), "slave"}, {all.points, faces.subspan(slave_faces)}, within(1));
+    Z = jumps_of(coupling);
+    vectors = static_cast<Index>(all.points.size());
+  }
+};
+
+template <int N>
+using Number = std::integral_constant<int, N>;
+template <class N>
+class JumpsOf : public testing::Test {};
+using Dimensions = testing::Types<Number<2>, Number<3>>;
+TYPED_TEST_SUITE(JumpsOf, Dimensions);
+
+TYPED_TEST(JumpsOf, ThereAndBackIsTheIdentity) {
+  constexpr int D = TypeParam::value;
+  const TwoBodies<D> bodies(3, 0.05);
+  Random random(2);
+  const Eigen::MatrixXd Z = dense_basis(bodies.Z, bodies.vectors);
+  std::vector<double> x(bodies.all.points.size() * D);
+  for (double& c : x) c = random.between(-1, 1);
+  const Eigen::VectorXd before = vector(x);
+  to_displacements(bodies.Z, x);
+  EXPECT_LE((vector(x) - Z * before).norm(), 1e-13);
+  to_jumps(bodies.Z, x);
+  EXPECT_LE((vector(x) - before).norm(), 1e-13);
+  transform_forces(bodies.Z, x);
+  EXPECT_LE((vector(x) - Z.transpose() * before).norm(), 1e-12);
+}
+
+TYPED_TEST(JumpsOf, MatrixIsTheDenseProduct) {
+  constexpr int D = TypeParam::value;
+  const TwoBodies<D> bodies(2, 0.05);
+  Random random(3);
+  for (const double density : {0.02, 0.3}) {
+    const auto A = random_symmetric<D>(random, bodies.vectors, density);
+    auto C = A;
+    transform(bodies.Z, C);
+    const Eigen::MatrixXd Z = dense_basis(bodies.Z, bodies.vectors), expected = Z.transpose() * dense(A) * Z;
+    EXPECT_LE((dense(C) - expected).norm(), 1e-13 * expected.norm());
+    for (Index p = 0; p < C.size(); ++p) {
+      EXPECT_EQ(C.column[C.row[p]], p);
+      EXPECT_TRUE(std::is_sorted(C.column.begin() + C.row[p] + 1, C.column.begin() + C.row[p + 1]));
+    }
+  }
+}
+
+/// From the points of the coarse mesh to those of the fine one, whose coordinates are linear between them (D = 2).
+template <int D>
+Prolongation between(int coarse_cells) {
+  Prolongation P;
+  const auto body = [&P](Index cells) {
+    const Index first = P.coarse, n = cells + 1;
+    const auto add = [&](Index i, Index j) {  // the mean of two corners of a coarse cell
+      P.column.push_back(first + std::min(i, j));
+      P.weight.push_back(i == j ? 1 : 0.5);
+      if (i != j) {
+        P.column.push_back(first + std::max(i, j));
+        P.weight.push_back(0.5);
+      }
+      P.row.push_back(static_cast<Offset>(P.column.size()));
+    };
+    const Index rows = D == 2 ? 1 : 2 * cells + 1;
+    for (Index j = 0; j < rows; ++j)
+      for (Index i = 0; i <= 2 * cells; ++i) add(j / 2 * n + i / 2, (j + 1) / 2 * n + (i + 1) / 2);
+    P.coarse += D == 2 ? n : n * n;
+  };
+  body(2 * coarse_cells);
+  body(3 * coarse_cells);
+  return P;
+}
+
+TYPED_TEST(JumpsOf, CoarseMatricesAreThoseOfTheInterpolatedDisplacements) {
+  constexpr int D = TypeParam::value;
+  for (const double slope : {0.0, 0.05}) {
+    const TwoBodies<D> coarse(1, slope), fine(2, slope);
+    const Prolongation P = between<D>(1);
+    ASSERT_EQ(P.fine(), fine.vectors);
+    ASSERT_EQ(P.coarse, coarse.vectors);
+    const Prolongation Q = between_jumps(P, fine.Z, coarse.Z);
+    const Eigen::MatrixXd Zf = dense_basis(fine.Z, fine.vectors), Zc = dense_basis(coarse.Z, coarse.vectors),
+                          PZ = dense_weights(P, D) * Zc;
+    EXPECT_LE((Zf * dense_weights(Q, D) - PZ).norm(), 1e-11 * PZ.norm());
+    Random random(4);
+    const auto A = random_symmetric<D>(random, fine.vectors, 0.1);
+    auto of_jumps = A;
+    transform(fine.Z, of_jumps);
+    const Eigen::MatrixXd C = dense_weights(Q, D).transpose() * dense(of_jumps) * dense_weights(Q, D);
+    const Eigen::MatrixXd expected = PZ.transpose() * dense(A) * PZ;
+    EXPECT_LE((C - expected).norm(), 1e-11 * expected.norm());
+    EXPECT_EQ(Q.twins(), P.twins());
+    // On flat meshes of which one refines the other jumps interpolate as displacements do, where they do not overhang.
+    if (slope == 0)
+      for (Index p = 0; p < static_cast<Index>(fine.all.points.size()); ++p) {
+        const Point<D>& x = fine.all.points[p];
+        if (std::ranges::any_of(x, [](double c) { return c > 0.34; })) continue;
+        EXPECT_EQ(Q.row[p + 1] - Q.row[p], P.row[p + 1] - P.row[p]) << p;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace signorini::test
