@@ -32,14 +32,14 @@ Eigen::MatrixXd dense_weights(const Prolongation& P, int B) {
   return out;
 }
 
-/// Along the normals, but for every third node, which is held in no direction.
+/// Along the normals; `mixed`: at every third node in all directions.
 template <int D>
-Jumps<D> jumps_of(const MortarCoupling<D>& coupling) {
+Jumps<D> jumps_of(const MortarCoupling<D>& coupling, bool mixed) {
   Jumps<D> out{coupling.node, coupling.row, coupling.column, coupling.value, {}};
   for (Index s = 0; s < coupling.nodes(); ++s)
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j)
-        out.project.push_back(s % 3 == 0 ? i == j : coupling.normal[s][i] * coupling.normal[s][j]);
+        out.project.push_back(mixed && s % 3 == 0 ? i == j : coupling.normal[s][i] * coupling.normal[s][j]);
   return out;
 }
 
@@ -92,7 +92,7 @@ struct TwoBodies {
     const std::span<const std::array<Index, D>> faces(all.faces);
     coupling =
         couple<D>({all.points, faces.first(slave_faces), "slave"}, {all.points, faces.subspan(slave_faces)}, within(1));
-    Z = jumps_of(coupling);
+    Z = jumps_of(coupling, slope != 0);
     vectors = static_cast<Index>(all.points.size());
   }
 };

@@ -234,10 +234,11 @@ struct Later {
   const char* assignment;
 };
 
-const std::vector<Later> later = {{ball, "obstacle.0.other=ball"},      {ball, "obstacle.0.other_on=boundary"},
-                                  {ball, "obstacle.0.other_where=z>0"}, {membrane, "refine.adaptive=true"},
-                                  {membrane, "refine.tolerance=0.1"},   {membrane, "refine.max_unknowns=1000"},
-                                  {membrane, "refine.max_steps=3"},     {membrane, "refine.estimator=hierarchical"}};
+const std::vector<Later> later = {{membrane, "refine.adaptive=true"},
+                                  {membrane, "refine.tolerance=0.1"},
+                                  {membrane, "refine.max_unknowns=1000"},
+                                  {membrane, "refine.max_steps=3"},
+                                  {membrane, "refine.estimator=hierarchical"}};
 
 TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
   for (const Later& l : later) {
@@ -247,6 +248,12 @@ TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
     EXPECT_THAT(result.message, HasSubstr(l.assignment));
   }
   EXPECT_EQ(test::outcome([] { test::parse(membrane, {"refine.adaptive=false"}); }).message, "");
+}
+
+TEST(BrokenScene, FacesOfASecondBodyThatIsNotNamed) {
+  for (const char* key : {"other_on=boundary", "other_where=z>0"})
+    EXPECT_THAT(test::outcome([&] { test::parse(ball, {std::string("obstacle.0.") + key}); }).message,
+                HasSubstr("has no meaning without 'other', the body it is of"));
 }
 
 TEST(BrokenScene, ASecondBodyThatNothingHolds) {
