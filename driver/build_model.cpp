@@ -65,14 +65,14 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   const std::string& origin = scene.source.table;
   const auto create = constructor<B>(type);
   if (!create) wrong_equation<B>(scene, type);
+  if (scene.other.empty() && type.takes_body)
+    input_error(origin, fmt::format("missing key 'other': the obstacle type '{}' acts between two bodies", scene.type));
   if (scene.shape && !type.takes_shape)
     input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
   if (!scene.shape && type.takes_shape) expect_shape(scene, type);
   if (!scene.other.empty() && !type.takes_body)
     input_error(scene.source.of("other"),
                 fmt::format("the obstacle type '{}' acts on one body, expected no 'other'", scene.type));
-  if (scene.other.empty() && type.takes_body)
-    input_error(origin, fmt::format("missing key 'other': the obstacle type '{}' acts between two bodies", scene.type));
   std::shared_ptr<const DistanceFunction> shape;
   if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
   auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},

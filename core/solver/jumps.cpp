@@ -161,7 +161,7 @@ class WeightRow {
 
   /// Appends it without what is zero but for rounding, and is empty again.
   void take(Prolongation& out) {
-    constexpr double rounding = 1e-14;
+    constexpr double rounding = 1e-12;
     std::ranges::sort(entries_, {}, &Entry::first);
     for (const auto& [column, weight] : entries_) {
       place_[column] = -1;
