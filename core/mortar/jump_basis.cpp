@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-// An entry of an interpolation that is less than this part of what it is the difference of is rounding.
+// An entry of an interpolation that is less than this part of what its row is the difference of is rounding.
 constexpr double rounding = 1e-12;
 
 /// Per vector the slave nodes whose rows name it.
@@ -195,11 +195,14 @@ Prolongation prolongation_of_jumps(const JumpBasis& Z, const Prolongation& P, co
     sum.clear();
     add_row_of(p, 1);
     for (Offset k = Z.row[p]; k < Z.row[p + 1]; ++k) add_row_of(Z.column[k], -Z.weight[k]);
-    for (const Index q : sum.sort(0)) {
-      const double* value = sum.at(q);
-      if (!(std::abs(value[0]) > rounding * value[1])) continue;
+    const std::vector<Index>& columns = sum.sort(0);
+    double largest = 0;
+    for (const Index q : columns) largest = std::max(largest, sum.at(q)[1]);
+    for (const Index q : columns) {
+      const double value = *sum.at(q);
+      if (!(std::abs(value) > rounding * largest)) continue;
       out.column.push_back(q);
-      out.weight.push_back(value[0]);
+      out.weight.push_back(value);
     }
     out.row.push_back(static_cast<Offset>(out.column.size()));
   }
