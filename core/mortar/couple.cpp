@@ -19,6 +19,8 @@ constexpr double cancel = 1e-6;
 // What divides the gap of a node between faces of several directions is no less than that: as at an edge of 120
 // degrees.
 constexpr double least_common = 0.5;
+// Entries of a row of less than this part of its largest one are rounding.
+constexpr double rounding = 1e-14;
 
 void check(const CoupleOptions& options, std::string_view place) {
   const auto require = [&](bool fine, const char* what, double found) {
@@ -135,11 +137,13 @@ class Gathering {
         row_[place].value += part * entry.value[s.corner];
       }
     }
-    double sum = 0;
+    double largest = 0, sum = 0;
     for (const Weight& w : row_) {
-      sum += w.value;
+      largest = std::max(largest, std::abs(w.value));
       place_[w.master] = -1;
     }
+    std::erase_if(row_, [&](const Weight& w) { return std::abs(w.value) <= rounding * largest; });
+    for (const Weight& w : row_) sum += w.value;
     std::ranges::sort(row_, {}, &Weight::master);
     for (const Weight& w : row_) {
       out.column.push_back(master_.node[w.master]);
