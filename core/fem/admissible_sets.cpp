@@ -140,10 +140,10 @@ void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const D
   Projection<B> projection(problem, extent(nodes.mesh()));
   for (const Segment<B>& segment : problem.segments) {
     if (!may_be_no_box(*segment.obstacle)) continue;
-    const auto [from, to] = slots_between(problem.constraints, segment.first, segment.last);
+    const std::pair<Index, Index> slots = slots_between(problem.constraints, segment.first, segment.last);
     each_side<B>([&](const std::array<int, B>& sides) {
       projection.run(segment, sides);
-      for (Index slot = from; slot < to; ++slot) {
+      for (Index slot = slots.first; slot < slots.second; ++slot) {
         const auto found = projection.found(slot), expected = projection.expected(slot);
         const double rounding = of_distance * projection.distance(slot);
         for (int k = 0; k < B; ++k)

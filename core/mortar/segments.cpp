@@ -58,7 +58,7 @@ void SegmentFinder<D>::look(Index face, const Point<D>& direction) {
   // face is long as long as it rises by no more than 45 degrees.
   front_ = options_.reach / frame_.size + 1;
   behind_ = options_.depth.value_or(options_.reach) / frame_.size + 1;
-  const auto [lowest, highest] = std::ranges::minmax(frame_.corner_height);
+  const auto height = std::ranges::minmax(frame_.corner_height);
   const auto may_hold = [&](const typename PointTree<D>::Box& box) {
     for (int k = 0; k < D; ++k) {
       double middle = 0, half = 0;
@@ -66,8 +66,8 @@ void SegmentFinder<D>::look(Index face, const Point<D>& direction) {
         middle += frame_.axis[k][i] * (0.5 * (box.low[i] + box.high[i]) - frame_.origin[i]);
         half += std::abs(frame_.axis[k][i]) * (0.5 * (box.high[i] - box.low[i]));
       }
-      const double from = k < K ? low_[std::min(k, K - 1)] : lowest - behind_;
-      const double to = k < K ? high_[std::min(k, K - 1)] : highest + front_;
+      const double from = k < K ? low_[std::min(k, K - 1)] : height.min - behind_;
+      const double to = k < K ? high_[std::min(k, K - 1)] : height.max + front_;
       if (middle + half < from || middle - half > to) return false;
     }
     return true;

@@ -139,8 +139,8 @@ TEST(Contact, WhatPressesAtHeldVerticesIsTheObstaclesAndIsSaidToBeUndetermined) 
     bool bottom;
     Index held;
   };
-  for (const auto& [p, bottom, held] : {Case{0.2, false, 1}, Case{0.2, true, 5}, Case{-0.2, true, 0}}) {
-    const double nu = 0.3;
+  for (const auto& [pressure, bottom, held] : {Case{0.2, false, 1}, Case{0.2, true, 5}, Case{-0.2, true, 0}}) {
+    const double nu = 0.3, p = pressure;
     Model<2> model;
     model.poisson = nu;
     const auto along = expression([=](const Site& s) { return p * nu * (1 + nu) * s.x[0]; });

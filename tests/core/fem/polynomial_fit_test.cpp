@@ -27,6 +27,7 @@ TEST(PolynomialFit, SaysNothingWhereSamplesDecideNothing) {
   EXPECT_FALSE(fitted_value(std::vector<Sample<1>>{{{0}, 1}, {{1}, 2}}));
   EXPECT_FALSE(fitted_value(std::vector<Sample<1>>{{{0}, 1}, {{0}, 2}, {{0}, 3}}));
   std::vector<Sample<2>> in_a_row;
+  in_a_row.reserve(9);
   for (int k = 0; k < 9; ++k) in_a_row.push_back({{1.0 * k, 0}, 1.0 * k});
   EXPECT_FALSE(fitted_value(in_a_row));
 }

@@ -77,6 +77,7 @@ TEST(SmoothSurface, OfASphereConvergesInDistanceAndNormal) {
   std::mt19937 random(5);
   std::normal_distribution<double> number;
   std::vector<Vector3d> directions;
+  directions.reserve(200);
   for (int i = 0; i < 200; ++i)
     directions.push_back(Vector3d(number(random), number(random), number(random)).normalized());
   std::vector<double> distances, normals;
@@ -116,6 +117,7 @@ TEST(SmoothSurface, ACubeKeepsEdgesAndCornersAndItsDistanceIsThatOfTheTriangles)
 TEST(SmoothSurface, ADrumIsRoundAndItsEdgesAreSharp) {
   constexpr int sides = 48;
   std::vector<std::array<double, 2>> circle;
+  circle.reserve(sides);
   std::vector<std::array<int, 3>> fan;
   for (int i = 0; i < sides; ++i)
     circle.push_back({std::cos(2 * std::numbers::pi * i / sides), std::sin(2 * std::numbers::pi * i / sides)});
