@@ -21,10 +21,12 @@ DualBasis<D>::DualBasis(const FaceFrame<D>& frame, const std::vector<Segment<D>>
   Moments<K> m = sum_moments(segments, axes_);
   for (int k = 0; k < K; ++k) axes_.origin[k] = m.first[k] / m.measure;
   m = sum_moments(segments, axes_);
-  for (int k = 0; k < K; ++k) axes_.origin[k] += m.first[k] / m.measure;
-  turn(m);
-  if constexpr (K > 1) m = sum_moments(segments, axes_);
+  if constexpr (K > 1) {
+    turn(m);
+    m = sum_moments(segments, axes_);
+  }
   measure_ = m.measure;
+  for (int k = 0; k < K; ++k) off_[k] = m.first[k] / m.measure;
   for (int p = 0; p < D; ++p) share_[p] = measure_ * std::max(0.0, frame.shape[p](axes_.origin));
   invert(frame, m);
 }
@@ -51,7 +53,7 @@ void DualBasis<D>::invert(const FaceFrame<D>& frame, const Moments<K>& m) {
     lumped_ = lumped_ || !wide[k];
   }
   for (int p = 0; p < D; ++p) {
-    const Point<K>& y = corner[p];
+    const Point<K> y = difference<K>(corner[p], off_);
     if constexpr (K == 2) {
       if (wide[0] && wide[1]) {
         const double a = m.second[0][0], b = m.second[0][1], c = m.second[1][1];

@@ -31,8 +31,9 @@ class DualBasis {
   };
   /// @param m moments of the segment in axes()
   Integral integral(const Moments<K>& m, int p) const {
-    Integral out{m.measure / measure_ + dot(slope_[p], m.first), {}};
-    for (int k = 0; k < K; ++k) out.slope[k] = m.first[k] / measure_ + dot(m.second[k], slope_[p]);
+    const double at = 1 / measure_ - dot(slope_[p], off_);
+    Integral out{at * m.measure + dot(slope_[p], m.first), {}};
+    for (int k = 0; k < K; ++k) out.slope[k] = at * m.first[k] + dot(m.second[k], slope_[p]);
     return out;
   }
   /// The integral of f, given in the frame's coordinates.
@@ -47,6 +48,8 @@ class DualBasis {
   void invert(const FaceFrame<D>& frame, const Moments<K>& m);
 
   Axes<K> axes_;  // through c, along the principal directions of C
+  // By how much their origin misses c: rounding, but not of a thin strip's moments.
+  Point<K> off_{};
   double measure_ = 0;
   std::array<double, D> share_{};
   std::array<Point<K>, D> slope_{};  // of r_p
