@@ -131,8 +131,9 @@ TYPED_TEST(Invariance, WeightsAndGapsOnCurvedSurfacesAreOfSecondOrder) {
   };
   const double half = std::asin(rim);
   const double area = D == 2 ? 2 * half : 2 * std::numbers::pi * (1 - std::cos(half));
-  double last_area = 0, last_gap = 0;
-  for (const int cells : {8, 16, 32}) {
+  // Vertices are moved at random: the order shows over several meshes.
+  std::vector<double> area_error, gap_error;
+  for (const int cells : {16, 32, 64, 128}) {
     Surface<D> slave = cap(cells);
     slave.flip();
     // The master goes on beyond the rim.
@@ -140,16 +141,14 @@ TYPED_TEST(Invariance, WeightsAndGapsOnCurvedSurfacesAreOfSecondOrder) {
                                        [](const Plane<K>& y) { return std::sqrt(1 - dot(y, y)); });
     const auto c = couple<D>(slave.side(), master.side(), within(0.5));
     EXPECT_EQ(c.nodes(), static_cast<Index>(slave.points.size()));
-    const double area_error = std::abs(total_weight(c) - area);
-    double gap_error = 0;
-    for (Index p = 0; p < c.nodes(); ++p) gap_error += c.weight[p] * c.gap[p] * c.gap[p];
-    gap_error = std::sqrt(gap_error);
-    if (last_area > 0) {
-      EXPECT_GT(last_area / area_error, 3.5);
-      EXPECT_GT(last_gap / gap_error, 3);
-    }
-    last_area = area_error, last_gap = gap_error;
+    area_error.push_back(std::abs(total_weight(c) - area));
+    double square = 0;
+    for (Index p = 0; p < c.nodes(); ++p) square += c.weight[p] * c.gap[p] * c.gap[p];
+    gap_error.push_back(std::sqrt(square));
   }
+  const auto order = [](const std::vector<double>& error) { return std::log2(error.front() / error.back()) / 3; };
+  EXPECT_GT(order(area_error), 1.9);
+  EXPECT_GT(order(gap_error), 1.8);
 }
 
 // The master covers a strip of the last faces, down to nothing: what is there is exact, or said to be lumped, or left
