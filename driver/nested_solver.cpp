@@ -16,6 +16,7 @@
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
+#include "core/solver/sticking.hpp"
 #include "core/solver/weights.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
@@ -460,6 +461,7 @@ void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>&
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
     std::vector<double> x = interpolate(below, change, prolongations_[number(level) - 1], problem);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
+    stick_between(below, coarse.x, prolongations_[number(level) - 1], problem, x);
     add(std::move(x));
   }
   solution.x = std::move(starts[least_energy(problem, starts)]);
@@ -501,8 +503,11 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
   if (first) continue_algebraically(problem);
   const Stopwatch watch;
-  if (refined)
-    solution.x = interpolate(coarse.discretization.problem, coarse.x, prolongations_[number(level) - 1], problem);
+  if (refined) {
+    const Prolongation& P = prolongations_[number(level) - 1];
+    solution.x = interpolate(coarse.discretization.problem, coarse.x, P, problem);
+    stick_between(coarse.discretization.problem, coarse.x, P, problem, solution.x);
+  }
   if (first) {
     problem.galerkin = products_below(level);
     solution.x =

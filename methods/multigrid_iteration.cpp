@@ -183,7 +183,9 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
   }
   const std::vector<double>&before = nonlinear_ ? forces_before_ : this->r_before_,
         &now = nonlinear_ ? forces_ : this->r_;
-  if (recombination_.propose(this->x_before_, before, this->x_, now, this->sums_.gain) && take_combination(cycle)) {
+  const bool lower = recombination_.propose(this->x_before_, before, this->x_, now, this->sums_.gain);
+  if (lower && nonlinear_) recombination_.add_residuals(this->r_before_, this->r_);
+  if (lower && take_combination(cycle)) {
     if (nonlinear_) set_forces();
     return true;
   }
@@ -232,15 +234,14 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   r_trial_.resize(this->x_.size());
   Sums sums;
   bool admissible = true;
+  data_trial_ = this->data_;
   in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
     admissible =
         admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
-    if (admissible && !nonlinear_) this->add_sums(x_trial_, r_trial_, first, last, sums);
+    if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
   });
-  if (!admissible) return false;
-  data_trial_ = this->data_;
-  if (nonlinear_) sums = this->evaluate(x_trial_, r_trial_);
   data_trial_.swap(this->data_);
+  if (!admissible) return false;
   if (!(sums.gain >= this->sums_.gain)) return false;
   const double bound = cycle.rounding > 0 ? cycle.rounding : rounding_of_work(multigrid_.finest());  // a single level
   const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));

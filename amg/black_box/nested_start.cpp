@@ -11,6 +11,7 @@
 #include "core/fem/nested.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
+#include "core/solver/sticking.hpp"
 #include "core/solver/weights.hpp"
 #include "methods/nested_iteration.hpp"
 
@@ -119,6 +120,26 @@ void relax_between_twins(const DiscreteProblem<B>& problem, const std::vector<In
   symmetric_gauss_seidel<B>(problem.A, resting, forces, x);
 }
 
+/// Smooths a start of a problem with friction while nothing slips. The bounds of friction come from the forces on it,
+/// and those that interpolation leaves would let everything go.
+template <int B>
+void settle_beneath_friction(const DiscreteProblem<B>& problem, std::vector<double>& x) {
+  if (!has_functional(problem.segments)) return;
+  constexpr int sweeps = 2;
+  make_admissible(problem, x);
+  Level<B> level = finest_level(problem);
+  Constraints<B>& c = level.constraints;
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k)
+      if (c.tangential[slot] >> k & 1u)
+        c.lower[Offset{slot} * B + k] = c.upper[Offset{slot} * B + k] = x[Offset{c.vector[slot]} * B + k];
+  level.x = x.data();
+  for (int k = 0; k < sweeps; ++k) {
+    level.sweep(Order::forward);
+    level.sweep(Order::backward);
+  }
+}
+
 /// @param forces on the free components
 /// @param base what coarse corrections are added to
 template <int B>
@@ -171,6 +192,8 @@ struct Coarser {
     std::vector<double> out = interpolate(problem, x, P, fine);
     for (std::size_t k = 0; k < out.size(); ++k) out[k] += base[k];
     relax_between_twins(fine, twin, forces, out);
+    stick_between(problem, x, P, fine, out);
+    settle_beneath_friction(fine, out);
     return out;
   }
 };

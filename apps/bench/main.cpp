@@ -22,6 +22,7 @@
 #include "apps/bench/partial_slip.hpp"
 #include "apps/bench/pressures.hpp"
 #include "apps/bench/problems.hpp"
+#include "apps/bench/quadratic_matrices.hpp"
 #include "apps/bench/steps.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
@@ -205,6 +206,8 @@ constexpr const char* of_kept_aside = "--kept-aside";
 
 const Table tables[] = {
     {"--algebraic", "only the table of matrices without meshes", sized<print_algebraic>},
+    {"--quadratic-matrices", "only matrices of quadratic elements beside those of linear ones, without meshes",
+     sized<print_quadratic_matrices>},
     {"--boundary", "only the cost of the plugin boundary", sized<print_boundary>},
     {"--warm", "only the cycles from a solution before, for matrices without meshes", sized<print_warm>},
     {"--again", "only the cost of a second solve with other bounds", sized<print_again>},

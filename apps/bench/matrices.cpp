@@ -116,8 +116,10 @@ MatrixProblem matrix_problem(const DiscreteProblem<B>& problem) {
 }
 
 template std::vector<Index> free_vectors(const DiscreteProblem<1>&);
+template std::vector<Index> free_vectors(const DiscreteProblem<2>&);
 template std::vector<Index> free_vectors(const DiscreteProblem<3>&);
 template MatrixProblem matrix_problem(const DiscreteProblem<1>&);
+template MatrixProblem matrix_problem(const DiscreteProblem<2>&);
 template MatrixProblem matrix_problem(const DiscreteProblem<3>&);
 
 }  // namespace signorini::bench

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/algebra/energy_along.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/dot.hpp"
@@ -62,6 +63,36 @@ bool meets_bound(const Level<B>& level) {
       if ((x <= c.lower[at] || x >= c.upper[at]) && !(level.removed(c.vector[slot]) >> k & 1u)) return true;
     }
   return false;
+}
+
+// Slips that a correction has turned round end: where friction pulls the other way the linear model does not hold, and
+// what goes beyond by little has to stick, which cycles would find out from its edge inwards, layer by layer.
+// @param start the iterate before the correction
+// @return whether there were any
+template <int B>
+bool end_slips(const Level<B>& level, const std::vector<double>& start) {
+  const Constraints<B>& c = level.constraints;
+  bool any = false;
+  level.for_each_segment(0, level.vectors, Order::forward, [&](const Segment<B>& s, Index first, Index last) {
+    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    if (!phi) return;
+    const auto [from, to] = slots_between(c, first, last);
+    for (Index slot = from; slot < to; ++slot) {
+      const Offset at = Offset{c.vector[slot]} * B, own = Offset{slot} * B;
+      double forward = 0, pull = 0;
+      for (int k = 0; k < B; ++k) {
+        if (!(c.tangential[slot] >> k & 1u)) continue;
+        forward += (level.x[at + k] - c.last[own + k]) * (start[at + k] - c.last[own + k]);
+        pull += std::abs(level.piece.gradient[own + k]);
+      }
+      FrictionLaw law;
+      if (!(forward < 0 && pull > 0) || !phi->friction(c.data.data() + Offset{slot} * c.width, law)) continue;
+      any = true;
+      for (int k = 0; k < B; ++k)
+        if (c.tangential[slot] >> k & 1u) level.x[at + k] = c.last[own + k];
+    }
+  });
+  return any;
 }
 
 }  // namespace
@@ -265,6 +296,10 @@ double MonotoneMultigrid<B>::correct(std::size_t k, Cycle cycle) {
   descend(k - 1, cycle, {}, {});
   if (k > 1 && cycle != Cycle::V) descend(k - 1, cycle == Cycle::F ? Cycle::V : cycle, {}, {});
   const double elsewhere = seconds() - begin;
+  if (fine.nonlinear) {
+    coarse_work_ = dot(coarse.own_b, coarse.own_x);
+    coarse_energy_ = energy_along(*coarse.A, coarse.own_x).of_matrix;
+  }
   transfer.begin_prolongation(coarse);
   return elsewhere;
 }
@@ -286,10 +321,12 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   const auto n = static_cast<std::size_t>(level.vectors) * B;
   start_.assign(level.x, level.x + n);
   transfers_[k - 1]->prolongate(levels_[k - 1], level, 0, level.vectors);
-  const bool met = meets_bound(level);
+  const bool ended = level.nonlinear && end_slips(level, start_);
+  const bool met = ended || meets_bound(level);
   report_.cut_off = report_.cut_off || (line_search_ && met);
   if (k > lasting_ && !extended_ && !level.nonlinear && !met) return;
   step_.resize(n);
+  if (level.nonlinear && k > lasting_ && !met) return search_by_coarse_level(level);
   for (std::size_t i = 0; i < n; ++i) step_[i] = level.x[i] - start_[i];
   double energy = 0, work = 0;
   for (Index p = 0; p < level.vectors; ++p) {  // both products while the row is at hand
@@ -318,19 +355,41 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, level.x + Offset{c.vector[slot]} * B);
 }
 
+// Where bounds cut nothing off the step is the interpolation of the coarse correction, and Galerkin's products tell its
+// work and its energy, those of the linearised functionals included, without the finer matrix.
+template <int B>
+void MonotoneMultigrid<B>::search_by_coarse_level(Level<B>& level) {
+  const Constraints<B>& c = level.constraints;
+  double curvature = 0, of_gradient = 0;
+  for (Index slot = 0; slot < c.size(); ++slot) {
+    const Offset at = Offset{c.vector[slot]} * B;
+    const double* H = level.piece.used_hessian.data() + Offset{slot} * B * B;
+    for (int i = 0; i < B; ++i) step_[at + i] = level.x[at + i] - start_[at + i];
+    for (int i = 0; i < B; ++i) {
+      of_gradient += step_[at + i] * level.piece.gradient[Offset{slot} * B + i];
+      for (int j = 0; j < B; ++j) curvature += step_[at + i] * H[i * B + j] * step_[at + j];
+    }
+  }
+  const double energy = coarse_energy_ - curvature;
+  search_nonlinear(level, energy, coarse_work_ + of_gradient - energy);
+}
+
 // The same with a functional; a step within bounds stays there.
-// @param energy, work of the full step, work with the forces at its end
+// @param energy, work of the full step, work with the forces at its end; step_ holds it at the slots
 template <int B>
 void MonotoneMultigrid<B>::search_nonlinear(Level<B>& level, double energy, double work) {
   const Constraints<B>& c = level.constraints;
-  const auto go = [&](double t, Index p) {
-    for (Offset i = Offset{p} * B; i < (Offset{p} + 1) * B; ++i) level.x[i] = start_[i] + t * step_[i];
+  const auto go = [&](double t) {
+    for (const Index p : c.vector)
+      for (Offset i = Offset{p} * B; i < (Offset{p} + 1) * B; ++i) level.x[i] = start_[i] + t * step_[i];
   };
   const double length = step_length([&](double t) {
-    for (const Index p : c.vector) go(t, p);
+    go(t);
     return -work - (1 - t) * energy + functional::slope(level, level.x, step_.data());
   });
-  for (Index p = 0; p < level.vectors; ++p) go(length, p);
+  go(1);
+  if (length < 1)
+    for (std::size_t i = 0; i < start_.size(); ++i) level.x[i] = start_[i] + length * (level.x[i] - start_[i]);
   for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, level.x + Offset{c.vector[slot]} * B);
 }
 

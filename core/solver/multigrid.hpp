@@ -89,6 +89,7 @@ class MonotoneMultigrid {
   bool searches(std::size_t k) const;
   void search(std::size_t k);
   void search_nonlinear(Level<B>& level, double energy, double work);
+  void search_by_coarse_level(Level<B>& level);
   void update_phases(Level<B>& level, Index first, Index last);
   bool hold_facets(Level<B>& level, Index slot, Flags& removed);
   void renew_curvature(Level<B>& level, Index slot);
@@ -108,8 +109,9 @@ class MonotoneMultigrid {
   bool line_search_ = false, extended_ = false;
   bool knows_frames_ = true;  // the interpolation to the finest level
   double near_ = 0;
-  std::vector<double> r_;             // residual of one chunk
-  std::vector<double> start_, step_;  // of a line search
+  std::vector<double> r_;                       // residual of one chunk
+  std::vector<double> start_, step_;            // of a line search
+  double coarse_work_ = 0, coarse_energy_ = 0;  // b'c and c'Ac of the last correction c of a level with functionals
 };
 
 /// Levels for block size B on the finest matrix alone.

@@ -42,6 +42,8 @@ bool Recombination<B>::propose(const std::vector<double>& x_before, const std::v
     energy += d * Ad;
   }
   newest.energy = energy;
+  newest.beta1 = beta1;
+  newest.beta2 = beta2;
   double noise = 1;  // of the residuals in Ap but for r_before
   if (known_ > 0) noise += std::abs(beta1) * aged(1).noise;
   if (known_ > 1) noise += std::abs(beta2) * aged(2).noise;
@@ -54,9 +56,26 @@ bool Recombination<B>::propose(const std::vector<double>& x_before, const std::v
 }
 
 template <int B>
+void Recombination<B>::add_residuals(const std::vector<double>& r_before, const std::vector<double>& r) {
+  Direction& newest = directions_[next_];
+  newest.of_residual.resize(r.size());
+  double* out = newest.of_residual.data();
+  // Where there is no direction before, its weight is zero.
+  const auto before = [&](int age) {
+    const Direction& other = aged(age);
+    return other.of_residual.empty() ? out : other.of_residual.data();
+  };
+  const double *from = r_before.data(), *to = r.data(), *one = before(1), *two = before(2);
+  std::ranges::fill(newest.of_residual, 0.0);
+#pragma omp simd
+  for (std::size_t i = 0; i < r.size(); ++i) out[i] = from[i] - to[i] - newest.beta1 * one[i] - newest.beta2 * two[i];
+}
+
+template <int B>
 bool Recombination<B>::combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first,
                                Index last, std::vector<double>& x, std::vector<double>& r) const {
-  const double *from = x_before.data(), *r_from = r_before.data(), *p = aged(0).p.data(), *Ap = aged(0).Ap.data();
+  const double *from = x_before.data(), *r_from = r_before.data(), *p = aged(0).p.data();
+  const double* Ap = aged(0).of_residual.empty() ? aged(0).Ap.data() : aged(0).of_residual.data();
   double *to = x.data(), *r_to = r.data();
   for (Offset i = Offset{first} * B; i < Offset{last} * B; ++i) {
     to[i] = from[i] + step_ * p[i];

@@ -29,11 +29,14 @@ class Recombination {
   /// not be so: the caller compares. What is not taken has to be forgotten by reset().
   bool propose(const std::vector<double>& x_before, const std::vector<double>& r_before, const std::vector<double>& x,
                const std::vector<double>& r, double cycle_gain);
+  /// After propose() with forces that are more than the residual b - A x, those of functionals: what of them is the
+  /// residual of x_before and x, so that combine() knows it.
+  void add_residuals(const std::vector<double>& r_before, const std::vector<double>& r);
   /// What rounding does to the residual of that minimiser, as a multiple of what it does to one that is computed from
   /// an iterate: differences of residuals are extrapolated, from one to the next. reset() ends that.
   double amplification() const { return carried_; }
-  /// Writes that minimiser and its residual, at the vectors first <= p < last. Returns whether it is within the bounds
-  /// there.
+  /// Writes that minimiser and its residual, from r_before, at the vectors first <= p < last. Returns whether it is
+  /// within the bounds there.
   bool combine(const std::vector<double>& x_before, const std::vector<double>& r_before, Index first, Index last,
                std::vector<double>& x, std::vector<double>& r) const;
 
@@ -41,8 +44,10 @@ class Recombination {
   static constexpr int depth = 2;
   struct Direction {
     std::vector<double> p, Ap;
-    double energy = 0;  // p'Ap
-    double noise = 0;   // of Ap, in units of what rounding does to a residual
+    std::vector<double> of_residual;  // the part of Ap by the matrix alone; empty: all of it
+    double beta1 = 0, beta2 = 0;      // of the two directions before, which were taken out
+    double energy = 0;                // p'Ap
+    double noise = 0;                 // of Ap, in units of what rounding does to a residual
   };
 
   bool admissible(const std::vector<double>& x, Index first, Index last) const;

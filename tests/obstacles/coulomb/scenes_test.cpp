@@ -130,6 +130,18 @@ TEST(Coulomb, TheStartAndHowItsBoundIsRenewedDoNotMatter) {
   }
 }
 
+// What sticks and what slips has to be found on the way: that may cost a few cycles, from levels by the matrix, too.
+TEST(Coulomb, LevelsByTheMatrixTakeHardlyMoreCyclesThanWithoutFriction) {
+  const std::vector<std::string> matrix{"solver.hierarchy=matrix"};
+  for (const int refinements : {4, 5}) {
+    const auto with = run<2, 2>(block2(coulomb(on_plane, "0.3"), refinements), matrix);
+    const auto without = run<2, 2>(block2(coulomb(on_plane, "0"), refinements), matrix);
+    EXPECT_GT(with.contact().slip_nodes, 0);
+    EXPECT_GT(with.contact().stick_nodes, 0);
+    EXPECT_LE(with.summary().iterations, 1.4 * without.summary().iterations) << refinements;
+  }
+}
+
 const Report& solve(Driver& driver) {
   const Report& report = driver.solve();
   for (const StepReport& step : report.steps) EXPECT_TRUE(step.summary.converged()) << step.summary.reason;
