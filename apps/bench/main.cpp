@@ -246,7 +246,7 @@ void print(const CLI::App& app, bool quick, const std::string& only) {
 }  // namespace signorini::bench
 
 int main(int argc, char** argv) {
-  using namespace signorini;
+  namespace bench = signorini::bench;
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bool quick = false;
   std::string only;
