@@ -260,7 +260,7 @@ int main(int argc, char** argv) {
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
-    keep_freed_memory();
+    signorini::keep_freed_memory();
     bench::fetch_memory();
     bench::print(app, quick, only);
   } catch (const CLI::ParseError& error) {
