@@ -183,6 +183,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   kept_.resize(hierarchy.levels.size());
   pairings_.resize(hierarchy.levels.size());
   pairs_.resize(hierarchy.levels.size());
+  connected_.resize(hierarchy.refinements.size());
   times_.setup += watch.elapsed();
 }
 
@@ -221,10 +222,9 @@ void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
     const Stopwatch watch;
     for (std::size_t level = first_; level < nodes_.size(); ++level)
       pairs_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
-    if (pairings_ != pairs_) drop_algebraic_levels();
+    drop_algebraic_levels();
     pairings_ = pairs_;
     held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, pairs_[first_])).held();
-    for (std::size_t level = first_ + 1; level < nodes_.size(); ++level) connect_jumps(level);
     times_.setup += watch.elapsed();
   }
 }
@@ -243,7 +243,6 @@ void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t le
         weights::interpolate<B>(P, weight, p, u.data(), refined.data() + Offset{p} * B);
     });
     pairings_[level] = near_contact(nodes_[level], model, *pairs_[level], refined);
-    connect_jumps(level);
     times_.setup += watch.elapsed();
   }
 }
@@ -282,12 +281,19 @@ void NestedSolver<D, B>::drop_algebraic_levels() {
   is_product_.clear();
 }
 
-/// Interpolation to a mesh is one between jumps.
+/// Interpolation between the meshes up to this one is one between the jumps that they have now.
 template <int D, int B>
 void NestedSolver<D, B>::connect_jumps(std::size_t level) {
-  const std::size_t k = level - 1;
-  prolongations_[number(k)] = between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]),
-                                            *pairings_[k + 1]->jumps, *pairings_[k]->jumps);
+  if (!pairs_[level]) return;
+  const Stopwatch watch;
+  for (std::size_t k = first_; k < level; ++k) {
+    const std::array now{pairings_[k], pairings_[k + 1]};
+    if (connected_[k] == now) continue;
+    prolongations_[number(k)] = between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]),
+                                              *now[1]->jumps, *now[0]->jumps);
+    connected_[k] = now;
+  }
+  times_.setup += watch.elapsed();
 }
 
 /// Where bodies touch each other elsewhere than was thought, the problem with jumps there as well, and the solution as
@@ -300,7 +306,7 @@ bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution)
     const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
     if (!touches_elsewhere(nodes_[finest], model, *pairs_[finest], *pairings_[finest], u)) return false;
     pairings_[finest] = near_contact(nodes_[finest], model, *pairs_[finest], u, pairings_[finest].get());
-    if (finest > first_) connect_jumps(finest);
+    connect_jumps(finest);
     Solution<B> next = discretize_level(model, finest);
     next.x = to_local(next.discretization.problem, u);
     make_admissible(next.discretization.problem, next.x);
@@ -498,6 +504,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
     if (level == first_ + 1) narrow_first(model, coarse);
     pair_near_contact(model, level, coarse);
   }
+  connect_jumps(level);
   Solution<B> solution = discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";

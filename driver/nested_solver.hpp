@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -143,7 +144,9 @@ class NestedSolver {
   std::size_t algebraic_ = 0;                // number of the latter
   // Of bodies that may touch each other, per mesh: all that may, and what unknowns are jumps for.
   std::vector<std::shared_ptr<const PairedBodies<B>>> pairs_, pairings_;
-  bool held_ = false;                        // prescribed values hold them
+  bool held_ = false;  // prescribed values hold them
+  // Per refinement: what interpolation across it is between.
+  std::vector<std::array<std::shared_ptr<const PairedBodies<B>>, 2>> connected_;
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
   std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
   std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve
