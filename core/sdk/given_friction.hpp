@@ -101,7 +101,7 @@ struct GivenFriction {
       for (int j = 0; j < B; ++j)
         if (j != free && !is_among(at, count, j)) rest[i] -= M[i * B + j] * (y[j] - x[j]);
     }
-    double S[4] = {}, q[2] = {}, w[2] = {};
+    double S[4] = {}, q[2] = {}, from[2] = {}, step[2] = {};
     for (int a = 0; a < count; ++a) {
       q[a] = rest[at[a]];
       if (free >= 0) q[a] -= M[at[a] * B + free] / M[free * (B + 1)] * rest[free];
@@ -110,10 +110,11 @@ struct GivenFriction {
         if (free >= 0) S[a * 2 + b] -= M[at[a] * B + free] / M[free * (B + 1)] * M[free * B + at[b]];
       }
     }
-    for (int a = 0; a < count; ++a)
-      for (int b = 0; b < count; ++b) q[a] += S[a * 2 + b] * (x[at[b]] - slot.last[at[b]]);
-    minimise_sliding(S, q, count, slot.data[0], resting, w);
-    for (int a = 0; a < count; ++a) y[at[a]] = slot.last[at[a]] + w[a];
+    for (int a = 0; a < count; ++a) from[a] = x[at[a]] - slot.last[at[a]];
+    if (minimise_sliding(S, q, from, count, slot.data[0], resting, step))
+      for (int a = 0; a < count; ++a) y[at[a]] = x[at[a]] + step[a];
+    else
+      for (int a = 0; a < count; ++a) y[at[a]] = slot.last[at[a]] + step[a];
     if (free < 0) return;
     double force = rest[free];
     for (int a = 0; a < count; ++a) force -= M[free * B + at[a]] * (y[at[a]] - x[at[a]]);
@@ -126,9 +127,11 @@ struct GivenFriction {
     return false;
   }
 
-  /// The slip w that minimises 1/2 w'Sw - q'w + g sqrt(|w|^2 + resting), up to two components.
-  static void minimise_sliding(const double* S, const double* q, int count, double g, double resting, double* w) {
-    if (count == 0) return;
+  /// Minimises 1/2 d'Sd - q'd + g sqrt(|w|^2 + resting) for the slip w = from + d, up to two components. The step is the
+  /// shorter one of d and w, which leaves less of it to rounding: whether it is d.
+  static bool minimise_sliding(const double* S, const double* q, const double* from, int count, double g,
+                               double resting, double* step) {
+    if (count == 0) return false;
     double axis[2] = {1, 0}, s[2] = {S[0], S[3]};  // S = s[0] a a' + s[1] b b' with a = axis, b = axis turned
     if (count == 2 && S[1] != 0) {
       const double angle = 0.5 * std::atan2(2 * S[1], S[0] - S[3]), c = std::cos(angle), d = std::sin(angle);
@@ -137,16 +140,24 @@ struct GivenFriction {
       s[0] = c * c * S[0] + 2 * c * d * S[1] + d * d * S[3];
       s[1] = d * d * S[0] - 2 * c * d * S[1] + c * c * S[3];
     }
-    const double p[2] = {axis[0] * q[0] + axis[1] * q[1], axis[0] * q[1] - axis[1] * q[0]};
-    if (resting == 0 && std::hypot(p[0], p[1]) <= g) return;  // w = 0: it sticks
+    const double force[2] = {axis[0] * q[0] + axis[1] * q[1], axis[0] * q[1] - axis[1] * q[0]};
+    const double p[2] = {force[0] + s[0] * (axis[0] * from[0] + axis[1] * from[1]),
+                         force[1] + s[1] * (axis[0] * from[1] - axis[1] * from[0])};
+    if (resting == 0 && std::hypot(p[0], p[1]) <= g) return false;  // w = 0: it sticks
     const double length = g > 0 ? sliding_length(s, p, count, g, resting) : 1;
-    double t[2] = {};
+    double slip[2] = {}, change[2] = {};
+    bool stiff = true;
     for (int a = 0; a < count; ++a) {
       const double stiffness = s[a] * length + g;
-      t[a] = stiffness > 0 ? p[a] * length / stiffness : 0;
+      slip[a] = stiffness > 0 ? p[a] * length / stiffness : 0;
+      stiff = stiff && s[a] > 0;
+      if (stiff) change[a] = (force[a] - g * slip[a] / length) / s[a];
     }
-    w[0] = axis[0] * t[0] - axis[1] * t[1];
-    w[1] = axis[1] * t[0] + axis[0] * t[1];
+    const bool moved = stiff && std::hypot(change[0], change[1]) < std::hypot(slip[0], slip[1]);
+    const double* t = moved ? change : slip;
+    step[0] = axis[0] * t[0] - axis[1] * t[1];
+    step[1] = axis[1] * t[0] + axis[0] * t[1];
+    return moved;
   }
 
   /// The length l of the whole vector, at which |w(l)|^2 + resting = l^2 for w(l) = l (S l + g)^-1 p: the root of a

@@ -285,9 +285,9 @@ TEST(Coulomb, ABlockThatFrictionHardlyFailsToHoldIsNotSolved) {
 }
 
 TEST(Coulomb, ABlockThatIsUnloadedComesBackToZero) {
-  for (const std::string left : {"0", "-2e-10", "1e-10"}) {
+  for (const std::string left : {"0", "-2e-10", "1e-10", "1e-12", "-1e-13"}) {
     SCOPED_TRACE(left);
-    SceneText scene = block2(coulomb(on_plane, "0.3"), 2);
+    SceneText scene = block2(coulomb(on_plane, "0.2"), 2, "0.32");
     scene.fixes = {"on = \"top\"\nvalue = [\"t < 0.6 ? 0.04*t : 0\", \"t < 0.6 ? -0.02 : " + left + "\"]"};
     Driver driver(parse_scene(std::string(scene) + "[steps]\ncount = 2\n", "test.toml", "."));
     const Report& report = driver.solve();
