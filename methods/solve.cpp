@@ -42,7 +42,9 @@ class Automatic {
     situation_.unknowns = Offset{situation_.vectors} * B;
     situation_.coarsest = Offset{situation_.coarsest_vectors} * B;
     situation_.levels = !prolongations.empty();
-    situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !cycles_only();
+    situation_.functional = has_functional(problem.segments) || problem.following;
+    situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !situation_.functional;
+    from_zero_ = std::ranges::all_of(x, [](double v) { return v == 0; });
   }
 
   Summary run() {
@@ -57,20 +59,19 @@ class Automatic {
   }
 
  private:
-  /// Nothing else can treat functionals, or loads that follow the solution.
-  bool cycles_only() const { return has_functional(problem_.segments) || problem_.following; }
-
   bool unsolved() const {
     if (!situation_.begun) return true;
-    if (cycles_only()) return false;
+    if (situation_.functional) return done_.outcome == Outcome::stuck && !from_zero_;
     if (steps_ >= options_.max_iterations) return false;
     return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
   }
 
   void run(const automatic::StageRule& rule) {
     if (!situation_.begun) return begin(rule);
-    went_on_ = true;
+    went_on_ = rule.kind != automatic::Kind::cycles_from_zero;
     switch (rule.kind) {
+      case automatic::Kind::cycles_from_zero:
+        return begin_from_zero(rule);
       case automatic::Kind::cycles:
         return cycle(rule, prolongations_);
       case automatic::Kind::single_level:
@@ -92,6 +93,16 @@ class Automatic {
     situation_.begun = true;
     situation_.unknowns = done_.level_unknowns.back();
     situation_.coarsest = done_.level_unknowns.front();
+  }
+
+  /// What was done until now is dropped.
+  void begin_from_zero(const automatic::StageRule& rule) {
+    std::vector<Stage> left = std::move(done_.stages);
+    for (Stage& stage : left) stage.kept = false;
+    std::ranges::fill(x_, 0.0);
+    from_zero_ = true;
+    begin(rule);
+    done_.put_in_front(std::move(left));
   }
 
   /// The user's options for up to `most` further steps.
@@ -173,7 +184,8 @@ class Automatic {
   const Registry& registry_;
   const Monitor& monitor_;
   automatic::Situation situation_;
-  bool went_on_ = false;  // beyond the first cycles
+  bool went_on_ = false;    // beyond the first cycles
+  bool from_zero_ = false;  // the cycles began there
   Summary done_;
   double setup_seconds_ = 0;
   int steps_ = 0;  // of all that is kept

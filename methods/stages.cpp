@@ -22,8 +22,8 @@ constexpr Offset most_for_newton = 12'000;
 constexpr int newton_steps = 40;
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
-bool coarsens(const Situation& s) { return s.block == 1 && 2 * s.coarsest <= s.unknowns; }
-bool factorisable(const Situation& s) { return s.unknowns <= most_for_direct; }
+bool coarsens(const Situation& s) { return !s.functional && s.block == 1 && 2 * s.coarsest <= s.unknowns; }
+bool factorisable(const Situation& s) { return !s.functional && s.unknowns <= most_for_direct; }
 
 // The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
 // factorisations, and faster ones.
@@ -69,6 +69,14 @@ const std::vector<StageRule>& stages() {
        .begins = "at once, elsewhere",
        .ends = patience(patience_with_cycles),
        .purpose = "most problems are solved here"},
+      {.name = "cycles from zero",
+       .kind = Kind::cycles_from_zero,
+       .method = "auto",
+       .solver = "",
+       .suits = [](const Situation& s) { return s.functional && s.begun; },
+       .begins = "where friction did not come to rest, and the start was another one",
+       .ends = "where friction does not come to rest, or at `max_iterations`",
+       .purpose = "a body that friction hardly holds, and that slid off on a coarse mesh"},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,
        .method = "pdas",
@@ -90,7 +98,7 @@ const std::vector<StageRule>& stages() {
        .kind = Kind::interior_points,
        .method = "interior_point",
        .solver = "cholmod",
-       .suits = [](const Situation& s) { return s.unknowns <= most_for_interior_points; },
+       .suits = [](const Situation& s) { return !s.functional && s.unknowns <= most_for_interior_points; },
        .begins = fmt::format("for at most {} unknowns", number(most_for_interior_points)),
        .ends = fmt::format("after {} steps, or where they make no progress", interior_points),
        .purpose =
@@ -101,7 +109,10 @@ const std::vector<StageRule>& stages() {
        .kind = Kind::single_level,
        .method = "newton",
        .solver = "",
-       .suits = [](const Situation& s) { return s.levels && Offset{s.vectors} * s.block <= most_for_newton; },
+       .suits =
+           [](const Situation& s) {
+             return !s.functional && s.levels && Offset{s.vectors} * s.block <= most_for_newton;
+           },
        .begins = fmt::format("for at most {} unknowns, and coarser levels", number(most_for_newton)),
        .ends = fmt::format("after {} steps", newton_steps),
        .purpose = "there may be no solution, which it finds out",
@@ -110,7 +121,7 @@ const std::vector<StageRule>& stages() {
        .kind = Kind::cycles,
        .method = "monotone",
        .solver = "",
-       .suits = [](const Situation& s) { return s.begun; },
+       .suits = [](const Situation& s) { return !s.functional && s.begun; },
        .begins = "where nothing else has solved the problem",
        .ends = "at `max_iterations`",
        .purpose = "slow cycles are better than none"}};

@@ -26,10 +26,11 @@ struct Situation {
   bool levels = false;                      ///< there are several
   bool newton = false;                      ///< the coarse solver makes Newton steps, which may be dear
   bool begun = false;                       ///< a stage has been run
+  bool functional = false;                  ///< an obstacle adds to the energy, or a load follows: cycles alone do
 };
 
 /// What makes the steps of a stage.
-enum class Kind { cycles, single_level, active_sets, interior_points };
+enum class Kind { cycles, cycles_from_zero, single_level, active_sets, interior_points };
 
 inline constexpr int unlimited = std::numeric_limits<int>::max();
 

@@ -39,7 +39,6 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   reference_ = residual_at_projected_zero();
   if (problem_.following) problem_.following->apply();
   make_admissible(problem_, x_);
-  if (follows()) forget_start_that_ran_away();
   x_before_ = x_;
   refuse_nan(evaluate(x_, r_).natural_residual);
   while (!step(monitor)) {
@@ -50,13 +49,6 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   summary_.options.method = method();
   finish_stage(begin);
   return std::move(summary_);
-}
-
-// What friction hardly holds slides off on a coarse mesh, while the forces that it goes by are not known yet, so far
-// that the way back drowns in rounding. Then the projected zero, which is x_before_, is the better start.
-template <int B>
-void Iteration<B>::forget_start_that_ran_away() {
-  if (reference_ > 0 && evaluate(x_, r_).natural_residual > reference_) x_ = x_before_;
 }
 
 template <int B>

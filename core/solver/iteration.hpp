@@ -107,7 +107,6 @@ class Iteration {
   void finish_energies();
   void finish_stage(double begin);
   double residual_at_projected_zero();
-  void forget_start_that_ran_away();
 
   int before_ = 0;              // steps of other methods
   bool moves_rigidly_ = false;  // the iterate, but for rounding
