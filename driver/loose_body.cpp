@@ -22,6 +22,7 @@ namespace {
 
 constexpr double negligible = 1e-10;      // part of the most that is possible: work of loads, components of motions
 constexpr double rounding = 1e-14;        // of a motion: what is left out bends the body by that much
+constexpr double projected = 1e-13;       // of what is projected: rounding
 constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
 constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
 constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
@@ -446,7 +447,8 @@ Eigen::VectorXd LooseBody<D, B>::let_fall(std::vector<double>& x) const {
   double length = motions_.size();
   for (int k = 0; k < steps; ++k, length *= 2) {
     const Eigen::VectorXd next = within(way + length * work_.normalized(), slabs);
-    if (!(work_.dot(next - way) > negligible * work_.norm() * next.norm())) break;
+    const double progress = work_.dot(next - way) / work_.norm();
+    if (!(progress > std::max(negligible * next.norm(), projected * length))) break;
     way = next;
   }
   move(free_ * way, x);
