@@ -9,46 +9,15 @@
 #include "core/base/error.hpp"
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
-#include "core/fem/select.hpp"
-#include "core/mortar/couple.hpp"
+#include "core/fem/paired_sides.hpp"
 
 namespace signorini {
 namespace {
 
 template <int D>
-std::vector<std::array<Index, D>> faces_of(const Mesh<D>& mesh, const Selection& selection, double t) {
-  std::vector<std::array<Index, D>> out;
-  for (const Index f : select_faces(mesh, selection, t)) out.push_back(mesh.boundary[f].vertices);
-  return out;
-}
-
-/// Diagonal of the box around the mesh.
-template <int D>
-double extent(const Mesh<D>& mesh) {
-  double square = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    const auto [low, high] = std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
-    square += (high[i] - low[i]) * (high[i] - low[i]);
-  }
-  return std::sqrt(square);
-}
-
-template <int D>
-double longest_edge(const Mesh<D>& mesh, const std::array<Index, D>& face) {
-  double longest = 0;
-  for (const Index a : face)
-    for (const Index b : face) {
-      Point<D> edge = mesh.points[a];
-      for (int i = 0; i < D; ++i) edge[i] -= mesh.points[b][i];
-      longest = std::max(longest, std::sqrt(dot(edge, edge)));
-    }
-  return longest;
-}
-
-template <int D>
-void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<std::array<Index, D>>& slave,
+void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
                  const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0 || deepest.depth <= longest_edge<D>(mesh, slave[deepest.slave_face])) return;
+  if (deepest.slave_face < 0 || deepest.depth <= longest_edge(mesh, mesh.boundary[slave[deepest.slave_face]])) return;
   input_error(term.origin, fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
                                        "element; expected bodies apart from each other, or touching",
                                        deepest.depth, fmt::join(deepest.place, ", ")));
@@ -64,15 +33,16 @@ class Coupler {
   void add(Index obstacle) {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
     const Mesh<D>& mesh = nodes_.mesh();
-    const auto slave = faces_of(mesh, *term.on, model_.t), master = faces_of(mesh, *term.other, model_.t);
-    const SurfaceFaces<D> of_slave{mesh.points, slave, term.origin}, of_master{mesh.points, master, term.origin};
-    const MortarCoupling<D> found = couple(of_slave, of_master, {.reach = extent(mesh)});
-    refuse_deep<D>(mesh, term, slave, found.deepest);
-    if (found.nodes() == 0)
-      input_error(term.origin,
-                  "no face of one body is in front of the other one's, opposite to it; expected sides that "
-                  "can touch");
+    const PairedFaces faces = paired_faces(mesh, term, model_.t);
+    const MortarCoupling<D> found = couple_sides(mesh, term, faces.slave, faces.master);
+    refuse_deep<D>(mesh, term, faces.slave, found.deepest);
+    const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
+    if (found.nodes() > 0 && rows_.size() == before)
+      input_error(
+          term.origin,
+          "the displacement of all nodes of the slave is prescribed: nothing keeps the master off them; expected "
+          "free nodes, or the other body as the slave");
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {

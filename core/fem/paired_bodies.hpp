@@ -25,8 +25,8 @@ struct PairedBodies {
 };
 
 /// Nodes whose displacement is prescribed completely are left out. Null where the model has no obstacle between bodies.
-/// Error(Exit::input) that names the obstacle: no face of one side in front of the other, a node on several sides, or
-/// sides that have faces in common; bodies that overlap at the start by more than an element.
+/// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
+/// of whose nodes are prescribed; bodies that overlap at the start by more than an element.
 /// @param fixes collect_fixes() of both
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
