@@ -92,6 +92,37 @@ TYPED_TEST(Pairs, TheFarSideIsNotSeenThroughBodies) {
   EXPECT_NEAR(deep.deepest.depth, 0.1, 1e-14);
 }
 
+// A sheet without thickness between two surfaces: there is no direction for its nodes.
+TYPED_TEST(Pairs, NodesWithoutADirectionAreLeftAlone) {
+  constexpr int D = TypeParam::value;
+  auto sheet = this->below(0.5);
+  auto turned = sheet;
+  turned.flip();
+  sheet.faces.insert(sheet.faces.end(), turned.faces.begin(), turned.faces.end());
+  auto master = this->below(0);
+  master.add(this->above(1));
+  const auto c = couple<D>(sheet.side(), master.side(), within(1));
+  EXPECT_EQ(c.nodes(), 0);
+  EXPECT_EQ(c.alone.size(), sheet.points.size());
+}
+
+// A tip in a groove whose walls are parallel to its sides, at a distance of 0.1: up to an angle of 120 degrees between
+// the normals the tip's distance is that along the mean direction, at sharper tips no more than twice 0.1.
+TEST(Tips, AreNoFartherOffThanTwiceTheirSides) {
+  for (const double angle : {30.0, 59.0, 61.0, 80.0}) {
+    SCOPED_TRACE(angle);
+    const double s = std::sin(angle / 180 * std::numbers::pi), c = std::cos(angle / 180 * std::numbers::pi);
+    const Surface<2> tip{{{-c, s}, {0, 0}, {c, s}}, {{0, 1}, {1, 2}}};
+    const Point<2> left{-0.1 * s, -0.1 * c}, right{0.1 * s, -0.1 * c};
+    Surface<2> groove{{{left[0] - 2 * c, left[1] + 2 * s}, {left[0] + c, left[1] - s}}, {{1, 0}}};
+    groove.add({{{right[0] - c, right[1] - s}, {right[0] + 2 * c, right[1] + 2 * s}}, {{1, 0}}});
+    const auto found = couple<2>(tip.side(), groove.side(), within(1));
+    ASSERT_EQ(found.nodes(), 3);
+    EXPECT_NEAR(found.gap[1], 0.1 / std::max(c, 0.5), 1e-12);
+    EXPECT_NEAR(found.normal[1][1], -1, 1e-12);
+  }
+}
+
 // Of masters behind each other the nearest counts, and the farther one where it shows.
 TYPED_TEST(Pairs, TheNearestOfSeveralLayersCounts) {
   constexpr int D = TypeParam::value;
