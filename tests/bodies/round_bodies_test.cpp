@@ -91,7 +91,7 @@ TEST(Cylinders, OfDifferentRadiiAndMaterialsAsHertzSays) {
 std::string spheres(const Round& scene) {
   const auto body = [](const char* name, const char* shape, double middle, const Body& of) {
     return fmt::format(
-        "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, 0, {}]\nradius = {}\nsize = \"0.09 + 0.4 * sqrt(x^2 + "
+        "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, 0, {}]\nradius = {}\nsize = \"0.05 + 0.4 * sqrt(x^2 + "
         "y^2 + z^2)\"\nyoung = {}\npoisson = {}\n",
         name, shape, middle, of.radius, of.young, of.poisson);
   };
@@ -118,16 +118,16 @@ void expect_hertz_in_space(Round scene) {
     show("radius off by {:.2e}, pressure by {:.2e}, {} iterations\n", radius_error.back(), pressure_error.back(),
          f.iterations);
   }
-  EXPECT_LT(radius_error.back(), 0.05);
-  EXPECT_LT(pressure_error.back(), 0.05);
+  EXPECT_LT(radius_error.back(), 0.03);
+  EXPECT_LT(pressure_error.back(), 0.03);
   EXPECT_LT(pressure_error.back(), pressure_error.front());
 }
 
-TEST(Spheres, AsHertzSays) { expect_hertz_in_space({.approach = 0.05}); }
+TEST(Spheres, AsHertzSays) { expect_hertz_in_space({.approach = 0.02}); }
 
 TEST(Spheres, OfDifferentRadiiAndMaterialsAsHertzSays) {
   expect_hertz_in_space(
-      {.upper = {.radius = 1, .young = 3}, .lower = {.radius = 1.5, .young = 1, .poisson = 0.2}, .approach = 0.05});
+      {.upper = {.radius = 1, .young = 3}, .lower = {.radius = 1.5, .young = 1, .poisson = 0.2}, .approach = 0.02});
 }
 
 // Normals of the slave or those of the master: a difference of higher order in the width of the contact, which the

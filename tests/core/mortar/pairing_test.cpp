@@ -106,6 +106,26 @@ TYPED_TEST(Pairs, NodesWithoutADirectionAreLeftAlone) {
   EXPECT_EQ(c.alone.size(), sheet.points.size());
 }
 
+TEST(Faces, PairUpToSixtyDegrees) {
+  for (const double angle : {0.0, 59.0, -59.0, 61.0, -61.0, 85.0}) {
+    SCOPED_TRACE(angle);
+    const double rise = std::tan(angle / 180 * std::numbers::pi);
+    const Surface<2> slave{{{0, 20}, {1, 20}}, {{0, 1}}}, master{{{-90, -90 * rise}, {90, 90 * rise}}, {{1, 0}}};
+    for (const Pairing pairing : {Pairing::normal, Pairing::closest})
+      EXPECT_EQ((couple<2>(slave.side(), master.side(), within(100, pairing)).nodes() > 0), std::abs(angle) < 60);
+  }
+}
+
+// The walls of a wedge cut into one body face each other, and meet at its tip.
+TEST(Faces, OfOneBodyThatMeetDoNotPair) {
+  const std::vector<Point<2>> points{{0, 0}, {1, 0.1}, {1, -0.1}, {2, 0.2}, {2, -0.2}};
+  const std::vector<std::array<Index, 2>> upper{{0, 1}, {1, 3}}, lower{{2, 0}, {4, 2}};
+  const auto c = couple<2>({points, upper, "upper"}, {points, lower, "lower"}, within(1));
+  EXPECT_THAT(c.node, testing::ElementsAre(1, 3));
+  for (Index p = 0; p < c.nodes(); ++p)
+    for (Offset k = c.row[p]; k < c.row[p + 1]; ++k) EXPECT_NE(c.column[k], 0) << "the tip";
+}
+
 // A tip in a groove whose walls are parallel to its sides, at a distance of 0.1: up to an angle of 120 degrees between
 // the normals the tip's distance is that along the mean direction, at sharper tips no more than twice 0.1.
 TEST(Tips, AreNoFartherOffThanTwiceTheirSides) {
