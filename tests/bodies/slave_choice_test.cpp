@@ -85,6 +85,19 @@ TEST(Slave, IsJudgedNextToTheOtherBody) {
   EXPECT_THAT(found.reason, StartsWith("softer: modulus 1"));
 }
 
+// A disk whose faces are small where it touches, and large elsewhere.
+TEST(Slave, IsTheFinerBodyWhereTheyTouch) {
+  const PairReport found = *contact_of(
+                                "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\n"
+                                "size = \"0.03 + 0.4 * sqrt(x^2 + y^2)\"\n" +
+                                material(1) + tables::block("block", "[-1, -1]", "[1, 0]", "[24, 12]") +
+                                tables::fix("disk", "flat", "[0, -0.01]") + tables::fix("block", "bottom", "[0, 0]") +
+                                pair("block", "top", "disk", "curved"))
+                                .pair;
+  EXPECT_EQ(found.slave, "disk");
+  EXPECT_THAT(found.reason, StartsWith("finer: faces of 0.0"));
+}
+
 TEST(Slave, IsNoSideThatIsPrescribed) {
   using tables::fix;
   const std::string text = tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]", material(100)) +
