@@ -39,10 +39,10 @@ class Coupler {
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
     if (found.nodes() > 0 && rows_.size() == before)
-      input_error(
-          term.origin,
-          "the displacement of all nodes of the slave is prescribed: nothing keeps the master off them; expected "
-          "free nodes, or the other body as the slave");
+      input_error(term.origin,
+                  "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
+                  "the master off them; expected "
+                  "free nodes, or the other body as the slave");
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {
@@ -69,13 +69,14 @@ class Coupler {
 
   void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
     const Index p = nodes_.of_vertex(found.node[k]);
-    const FixedDirections<D>* fixed = fixed_at(p);
-    if (fixed && fixed->count == D) return;
+    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, found.normal[k]);
+    if (!free) return;
     take_side(slave_of_, master_of_, p, obstacle);
+    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
+    for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
+    node.gap = (found.gap[k] - free->prescribed) / free->part;
     const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
-    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
-    for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
-    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed, with_friction)});
+    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
@@ -83,12 +84,8 @@ class Coupler {
     }
   }
 
-  const FixedDirections<D>* fixed_at(Index p) const {
-    const auto found = std::ranges::lower_bound(fixes_, p, {}, &FixedDirections<D>::vertex);
-    return found != fixes_.end() && found->vertex == p ? &*found : nullptr;
-  }
-
-  static std::array<double, D * D> onto_free(const FixedDirections<D>* fixed) {
+  std::array<double, D * D> onto_free(Index p) const {
+    const FixedDirections<D>* fixed = fixed_at(fixes_, p);
     std::array<double, D * D> out{};
     for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
     for (int k = 0; fixed && k < fixed->count; ++k)
@@ -97,20 +94,11 @@ class Coupler {
     return out;
   }
 
-  /// Onto the normal, as far as that is not prescribed: along the surfaces only friction holds the bodies together.
-  static std::array<double, D * D> projector(const Point<D>& normal, const FixedDirections<D>* fixed,
-                                             bool with_friction) {
-    if (with_friction) return onto_free(fixed);
-    Point<D> free = normal;
-    for (int k = 0; fixed && k < fixed->count; ++k) {
-      double part = 0;
-      for (int i = 0; i < D; ++i) part += fixed->direction[k][i] * normal[i];
-      for (int i = 0; i < D; ++i) free[i] -= part * fixed->direction[k][i];
-    }
-    const double square = dot(free, free);
-    std::array<double, D * D> out{};
-    for (int i = 0; i < D && square > 0; ++i)
-      for (int j = 0; j < D; ++j) out[i * D + j] = free[i] * free[j] / square;
+  /// Along the surfaces only friction holds the bodies together.
+  static std::array<double, D * D> onto(const Point<D>& normal) {
+    std::array<double, D * D> out;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) out[i * D + j] = normal[i] * normal[j];
     return out;
   }
 

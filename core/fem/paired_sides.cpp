@@ -9,9 +9,13 @@
 namespace signorini {
 namespace {
 
+/// What is left of a normal of less than this length is rounding.
+constexpr double rounding = 1e-6;
+
 template <int D>
 std::vector<std::array<Index, D>> corners(const Mesh<D>& mesh, const std::vector<Index>& faces) {
   std::vector<std::array<Index, D>> out;
+  out.reserve(faces.size());
   for (const Index f : faces) out.push_back(mesh.boundary[f].vertices);
   return out;
 }
@@ -43,6 +47,30 @@ MortarCoupling<D> couple_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term,
 }
 
 template <int D>
+const FixedDirections<D>* fixed_at(const std::vector<FixedDirections<D>>& fixes, Index node) {
+  const auto found = std::ranges::lower_bound(fixes, node, {}, &FixedDirections<D>::vertex);
+  return found != fixes.end() && found->vertex == node ? &*found : nullptr;
+}
+
+template <int D>
+std::optional<FreeNormal<D>> free_normal(const std::vector<FixedDirections<D>>& fixes, Index node,
+                                         const Point<D>& normal) {
+  FreeNormal<D> out{normal};
+  const FixedDirections<D>* fixed = fixed_at(fixes, node);
+  if (!fixed) return out;
+  for (int k = 0; k < fixed->count; ++k) {
+    double along = 0;
+    for (int i = 0; i < D; ++i) along += fixed->direction[k][i] * normal[i];
+    for (int i = 0; i < D; ++i) out.direction[i] -= along * fixed->direction[k][i];
+    out.prescribed += along * fixed->value[k];
+  }
+  out.part = std::sqrt(dot(out.direction, out.direction));
+  if (fixed->count == D || !(out.part > rounding)) return {};
+  for (double& c : out.direction) c /= out.part;
+  return out;
+}
+
+template <int D>
 double longest_edge(const Mesh<D>& mesh, const Face<D>& face) {
   double square = 0;
   for (const Index a : face.vertices)
@@ -54,6 +82,10 @@ double longest_edge(const Mesh<D>& mesh, const Face<D>& face) {
   return std::sqrt(square);
 }
 
+template const FixedDirections<2>* fixed_at(const std::vector<FixedDirections<2>>&, Index);
+template const FixedDirections<3>* fixed_at(const std::vector<FixedDirections<3>>&, Index);
+template std::optional<FreeNormal<2>> free_normal<2>(const std::vector<FixedDirections<2>>&, Index, const Point<2>&);
+template std::optional<FreeNormal<3>> free_normal<3>(const std::vector<FixedDirections<3>>&, Index, const Point<3>&);
 template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);

@@ -28,7 +28,7 @@ constexpr double as_fine = 1.01;
 struct SideFacts {
   std::vector<Index> nodes;      ///< that see the other one, or are seen; ascending
   double modulus = 0, size = 0;  ///< near the other body; of faces
-  bool prescribed = false;       ///< all these nodes
+  bool prescribed = false;       ///< along the normal at all these nodes
   std::string taken;             ///< by another obstacle: its name; empty: no
 
   bool may_be_slave() const { return !prescribed && taken.empty(); }
@@ -57,9 +57,11 @@ template <int D>
 class Chooser {
  public:
   Chooser(const Nodes<D>& nodes, const Model<D>& model)
-      : nodes_(nodes), model_(model), first_(nodes.size(), -1), second_(nodes.size(), -1), prescribed_(nodes.size()) {
-    for (const FixedDirections<D>& fixed : collect_fixes<D, D>(nodes, model))
-      prescribed_[fixed.vertex] = fixed.count == D;
+      : nodes_(nodes),
+        model_(model),
+        fixes_(collect_fixes<D, D>(nodes, model)),
+        first_(nodes.size(), -1),
+        second_(nodes.size(), -1) {
     facts_.resize(model.obstacles.size());
     for (std::size_t k = 0; k < model.obstacles.size(); ++k)
       if (model.obstacles[k].other)
@@ -91,8 +93,8 @@ class Chooser {
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
     const auto there = couple_sides(mesh, term, faces.slave, faces.master);
     const auto back = couple_sides(mesh, term, faces.master, faces.slave);
-    facts_[k] = {facts(k, closest(mesh, faces.slave, there), there.node, back.column),
-                 facts(k, closest(mesh, faces.master, back), back.node, there.column)};
+    facts_[k] = {facts(k, closest(mesh, faces.slave, there), there, back.column),
+                 facts(k, closest(mesh, faces.master, back), back, there.column)};
   }
 
   /// No slave may be where a rigid obstacle acts.
@@ -102,15 +104,19 @@ class Chooser {
     mark(k, all.nodes);
   }
 
-  SideFacts facts(Index k, const std::vector<Index>& near, const std::vector<Index>& seeing,
+  /// @param own the coupling with this side as the slave
+  /// @param seen vertices of it in the other one
+  SideFacts facts(Index k, const std::vector<Index>& near, const MortarCoupling<D>& own,
                   const std::vector<Index>& seen) {
     SideFacts out;
-    for (const std::vector<Index>* vertices : {&seeing, &seen})
+    for (const std::vector<Index>* vertices : {&own.node, &seen})
       for (const Index v : *vertices) out.nodes.push_back(nodes_.of_vertex(v));
     std::ranges::sort(out.nodes);
     out.nodes.erase(std::unique(out.nodes.begin(), out.nodes.end()), out.nodes.end());
     mark(k, out.nodes);
-    out.prescribed = !out.nodes.empty() && std::ranges::all_of(out.nodes, [&](Index p) { return prescribed_[p] != 0; });
+    out.prescribed = own.nodes() > 0;
+    for (Index n = 0; n < own.nodes(); ++n)
+      out.prescribed = out.prescribed && !free_normal<D>(fixes_, nodes_.of_vertex(own.node[n]), own.normal[n]);
     double area = 0;
     for (const Index f : near) {
       const Face<D>& face = nodes_.mesh().boundary[f];
@@ -151,8 +157,8 @@ class Chooser {
 
   const Nodes<D>& nodes_;
   const Model<D>& model_;
+  const std::vector<FixedDirections<D>> fixes_;
   std::vector<Index> first_, second_;            // per node: obstacles that act on it, -1: none
-  std::vector<char> prescribed_;                 // per node: completely
   std::vector<std::array<SideFacts, 2>> facts_;  // per obstacle
 };
 

@@ -16,9 +16,8 @@ struct SlaveChoice {
 /// One per obstacle of the model; of those that act on one body the reason is empty. Where the model leaves it open the
 /// slave is the softer body, by the moduli next to the faces that are closest to the other body; where they differ by
 /// less than a factor of 2 the one with the smaller faces there; else the first one. A side is no slave as long as the
-/// other one may be where all of it is prescribed, or where another obstacle acts on some of its nodes: these may be
-/// masters only.
-/// Error(Exit::input) as couple() and select_faces() have them.
+/// other one may be where all of it is prescribed along its normals, or where another obstacle acts on some of its
+/// nodes: these may be masters only. Error(Exit::input) as couple() and select_faces() have them.
 /// @param nodes of the coarsest mesh: finer ones have the same ratios
 template <int D>
 std::vector<SlaveChoice> choose_slaves(const Nodes<D>& nodes, const Model<D>& model);

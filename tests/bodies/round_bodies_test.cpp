@@ -163,6 +163,33 @@ TEST(Cylinders, PressAlongTheMastersNormalsWherePairingIsClosest) {
   }
 }
 
+class BySymmetry : public Folder {};
+
+// The right half of a round body on that of a block. The slave's node on the axis may slide along it only, and its face
+// is inclined: what the master does not get is the fix's.
+TEST_F(BySymmetry, HalvesAreInBalance) {
+  for (const char* more : {"slave = \"body\"\n", "slave = \"other\"\n"})
+    for (const double friction : {0.0, 0.3}) {
+      SCOPED_TRACE(fmt::format("{} {}", more, friction));
+      const std::string type = friction > 0 ? "elastic_coulomb" : "elastic";
+      const std::string text =
+          sector(folder_, "round",
+                 {.inner = 0.4, .outer = 1, .from = -pi / 2, .to = 0, .along_radius = 4, .around = 12, .y = 1},
+                 material(1)) +
+          tables::block("block", "[0, -1]", "[1, 0]", "[8, 8]") + tables::fix("round", "first", "[0, \"free\"]") +
+          tables::fix("round", "last", "[0, -0.08]") + tables::fix("block", "left", "[0, \"free\"]") +
+          tables::fix("block", "bottom", "[\"free\", 0]") +
+          pair("round", "outer", "block", "top", more + (friction > 0 ? fmt::format("friction = {}\n", friction) : ""),
+               type);
+      Driver driver(scene_of(text + "[refine]\nuniform = 1\n"));
+      const Report& report = driver.solve();
+      ASSERT_TRUE(report.converged()) << report.reason();
+      EXPECT_GE(report.last().contact[0].nodes, 3);
+      expect_opposite(report.last().contact[0]);
+      expect_balance(report.last(), 1e-10);
+    }
+}
+
 class InARing : public Folder {};
 
 // A tube cut into sectors, pressed from outside, which nothing but contact between the cuts holds. These carry the hoop

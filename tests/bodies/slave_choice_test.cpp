@@ -108,6 +108,13 @@ TEST(Slave, IsNoSideThatIsPrescribed) {
   EXPECT_EQ(contact.pair->reason, "the other side is prescribed");
   EXPECT_GT(contact.force[1], 0);
   expect_error(text + "slave = \"body\"\n", Exit::input, "all nodes of the slave is prescribed");
+  // Along the normal is enough.
+  EXPECT_EQ(
+      contact_of(tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]", material(100)) +
+                 tables::block("upper", "[0, 1]", "[1, 1.75]", "[4, 3]") + fix("lower", "bottom", "[0, 0]") +
+                 fix("upper", "bottom", "[\"free\", -0.01]") + fix("upper", "left", "[0, \"free\"]") + Press().obstacle)
+          .pair->slave,
+      "lower");
 }
 
 TEST(Slave, IsNoSideWhereARigidObstacleActs) {
