@@ -14,13 +14,17 @@
 namespace signorini {
 namespace {
 
+/// More than an element of the coarsest mesh: what is admitted does not depend on refinement.
 template <int D>
 void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
                  const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0 || deepest.depth <= longest_edge(mesh, mesh.boundary[slave[deepest.slave_face]])) return;
-  input_error(term.origin, fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
-                                       "element; expected bodies apart from each other, or touching",
-                                       deepest.depth, fmt::join(deepest.place, ", ")));
+  if (deepest.slave_face < 0) return;
+  const Face<D>& face = mesh.boundary[slave[deepest.slave_face]];
+  if (deepest.depth <= std::ldexp(longest_edge(mesh, face), mesh.refinements)) return;
+  input_error(term.origin,
+              fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
+                          "element of the coarsest mesh; expected bodies apart from each other, or touching",
+                          deepest.depth, fmt::join(deepest.place, ", ")));
 }
 
 /// Couples one obstacle after the other.
@@ -41,8 +45,7 @@ class Coupler {
     if (found.nodes() > 0 && rows_.size() == before)
       input_error(term.origin,
                   "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
-                  "the master off them; expected "
-                  "free nodes, or the other body as the slave");
+                  "the master off them; expected free nodes, or the other body as the slave");
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {

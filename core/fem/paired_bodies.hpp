@@ -25,9 +25,9 @@ struct PairedBodies {
 };
 
 /// Nodes whose displacement is prescribed completely, or along the normal, are left out. Null where the model has no
-/// obstacle between bodies. Error(Exit::input) that names the obstacle: a node on several sides, or sides that have
-/// faces in common; a slave all of whose nodes are prescribed; bodies that overlap at the start by more than an
-/// element.
+/// obstacle between bodies.
+/// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
+/// of whose nodes are prescribed; bodies that overlap at the start by more than an element of the coarsest mesh.
 /// @param fixes collect_fixes() of both
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,

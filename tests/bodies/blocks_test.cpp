@@ -163,9 +163,12 @@ TEST(Overlap, OfMoreThanAnElementIsNamed) {
            block("above", fmt::format("[0.5, {}]", 1 - by), "[1.5, 1.5]", "[4, 4]") + fix("below", "bottom", "[0, 0]") +
            fix("above", "top", "[0, 0]") + on_top;
   };
-  Driver driver(scene_of(overlapping(0.2)));  // elements are 0.25 long
-  ASSERT_TRUE(driver.solve().converged());
-  EXPECT_GT(driver.report().last().contact[0].force[1], 0);
+  for (const char* refined : {"", "[refine]\nuniform = 2\n"}) {
+    Driver driver(scene_of(overlapping(0.2) + refined));  // elements are 0.25 long
+    ASSERT_TRUE(driver.solve().converged());
+    EXPECT_GT(driver.report().last().contact[0].force[1], 0);
+    expect_error(overlapping(0.3) + refined, Exit::input, "the bodies overlap at the start, by 0.3 at (");
+  }
   expect_error(overlapping(0.3), Exit::input, "the bodies overlap at the start, by 0.3 at (");
   expect_error(overlapping(0.3), Exit::input, ", 0.7)");
 }
