@@ -14,6 +14,10 @@
 namespace signorini {
 namespace {
 
+/// What is left of a normal up to which a fix counts as being across it, with friction: cosine of 10 degrees, by which
+/// a curved surface may be inclined at a plane of symmetry.
+constexpr double nearly_across = 0.985;
+
 /// More than an element of the coarsest mesh: what is admitted does not depend on refinement.
 template <int D>
 void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
@@ -74,17 +78,27 @@ class Coupler {
     const Index p = nodes_.of_vertex(found.node[k]);
     const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, found.normal[k]);
     if (!free) return;
+    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
     node.gap = (found.gap[k] - free->prescribed) / free->part;
-    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
       take_side(master_of_, slave_of_, row.column.back(), obstacle);
     }
+  }
+
+  [[noreturn]] void refuse_inclined(Index p, Index obstacle) const {
+    input_error(
+        model_.obstacles[obstacle].origin,
+        fmt::format("with friction, meets a direction prescribed at ({}) that is neither along the slave's normal "
+                    "nor across it, which is not available in this version; expected the other body as the "
+                    "slave, or another fix",
+                    fmt::join(nodes_.at(p), ", ")));
   }
 
   std::array<double, D * D> onto_free(Index p) const {

@@ -103,6 +103,46 @@ TEST(Edges, HangOverBothWays) {
   EXPECT_GT(std::log2(difference.front() / difference.back()) / 2, 1);
 }
 
+// A wedge that is moved along x by 0.02 on a slope of 30 degrees climbs, though its nodes are prescribed along x.
+TEST(Wedge, ThatIsMovedClimbs) {
+  const std::string rise = "0.57735026918962573";
+  const auto polygon = [](const char* name, const std::string& points, double young) {
+    return fmt::format("[[body]]\nname = \"{}\"\nshape = \"polygon\"\npoints = {}\nsize = 0.3\n{}", name, points,
+                       material(young));
+  };
+  const std::string text =
+      polygon("wedge", fmt::format("[[0, 0], [1, {}], [1, 1.2], [0, 1.2]]", rise), 1) +
+      polygon("slope", fmt::format("[[-1, -2], [2, -2], [2, 1.1547005383792515], [-1, -{}]]", rise), 1e4) +
+      fix("wedge", "boundary", "[0.02, \"free\"]") + fix("slope", "edge0", "[0, 0]") + load("wedge", "[0, -1e-6]");
+  const std::string obstacle = pair("wedge", "edge0", "slope", "edge2", "slave = \"body\"\n");
+  Driver driver(scene_of(text + obstacle));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  const ContactReport& contact = report.last().contact[0];
+  EXPECT_NEAR(contact.displacement[1], 0.02 * std::sqrt(1.0 / 3), 1e-5);
+  EXPECT_NEAR(contact.force[1], 1e-6 * (1.2 - 0.5 / std::sqrt(3)), 1e-10);
+  expect_opposite(contact);
+  expect_balance(report.last(), 1e-11);
+  // What slips on the slope has no direction among what is free.
+  expect_error(text + pair("wedge", "edge0", "slope", "edge2", "slave = \"body\"\nfriction = 0.1\n", "elastic_coulomb"),
+               Exit::input, "neither along the slave's normal nor across it");
+}
+
+// The slave's nodes are moved along the other body: friction acts on neither, which the report does not hide.
+TEST(Slave, HasNoFrictionAlongWhatIsPrescribed) {
+  Driver driver(
+      scene_of(block("lower", "[0, 0]", "[2, 1]", "[8, 4]") + block("upper", "[0.5, 1]", "[1.5, 1.5]", "[4, 2]") +
+               fix("lower", "bottom", "[0, 0]") + fix("upper", "bottom", "[0.01, \"free\"]") +
+               fix("upper", "top", "[0.01, -0.01]") +
+               pair("upper", "bottom", "lower", "top", "slave = \"body\"\nfriction = 0.3\n", "elastic_coulomb")));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_NEAR(report.last().contact[0].force[0], 0, 1e-12);
+  EXPECT_GT(report.last().contact[0].force[1], 0);
+  expect_opposite(report.last().contact[0]);
+  expect_balance(report.last(), 1e-10);
+}
+
 /// A half disk on a block, whose slave the program chooses.
 int iterations(double ratio, int refinements) {
   Driver driver(scene_of(fmt::format("[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\n"
