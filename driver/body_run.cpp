@@ -45,10 +45,28 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 }
 
 template <int D, int B>
+void BodyRun<D, B>::begin(double t) {
+  follows_ = false;
+  accepted_t_ = 0;
+  if (body().parts.empty()) return;
+  if constexpr (D == B)
+    slaves_ = choose_slaves(Nodes(hierarchy_.levels.front()), build_model<B>(scene_, D, registry_, t, body_));
+}
+
+template <int D, int B>
+Model<B> BodyRun<D, B>::model(double t) const {
+  Model<B> out = build_model<B>(scene_, D, registry_, t, body_);
+  if constexpr (D == B) exchange_sides(slaves_, out);
+  return out;
+}
+
+template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model(t);
   append(warnings, model_warnings(scene_, nodes(), now, body_));
-  append(warnings, start_warnings(Nodes(hierarchy_.levels.front()), now));
+  const Nodes<D> coarsest(hierarchy_.levels.front());
+  append(warnings, start_warnings(coarsest, now));
+  append(warnings, pair_warnings(coarsest, now));
 }
 
 template <int D, int B>
@@ -129,7 +147,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   t_ = t;
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
-  results_ = signorini::results<D, B>(nodes(), model_, solution);
+  results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_);
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {

@@ -22,11 +22,8 @@ class BodyRun {
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
           std::vector<std::string>& warnings, PromisedMemory* promised = nullptr);
 
-  /// The next step is the first one of its steps: friction counts from the undeformed body.
-  void begin() {
-    follows_ = false;
-    accepted_t_ = 0;
-  }
+  /// The next step, at t, is the first one of its steps: friction counts from the undeformed body.
+  void begin(double t);
   /// Tries the step at t, from the last solution that was accepted where there is one, and says what came out. Errors:
   /// see NestedSolver.
   StepReport solve(double t, std::vector<std::string>& warnings);
@@ -57,7 +54,7 @@ class BodyRun {
   bool by_matrix() const { return solver_.by_matrix(); }
 
  private:
-  Model<B> model(double t) const { return build_model<B>(scene_, D, registry_, t, body_); }
+  Model<B> model(double t) const;
   Solution<B> solve(const Model<B>& model);
 
   const Scene& scene_;
@@ -67,8 +64,9 @@ class BodyRun {
   MeshHierarchy<D> hierarchy_;
   Probes<D> probes_;
   NestedSolver<D, B> solver_;
-  Model<B> model_;                // of the last step
-  std::vector<double> accepted_;  // displacements or values; empty: none yet
+  std::vector<SlaveChoice> slaves_;  // of all steps
+  Model<B> model_;                   // of the last step
+  std::vector<double> accepted_;     // displacements or values; empty: none yet
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;

@@ -132,9 +132,11 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     const Scene::Obstacle& obstacle = scene.obstacles[k];
     ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, t));
     if (term.on) term.on = on_mesh_of(body, obstacle.body, *term.on);
-    if (!obstacle.other.empty())
-      term.other =
-          on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
+    if (obstacle.other.empty()) continue;
+    term.other =
+        on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
+    term.slave = obstacle.slave;
+    term.pairing = obstacle.pairing;
   }
   return model;
 }

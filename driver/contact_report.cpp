@@ -58,15 +58,42 @@ template <int D, int B>
 void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& results,
                  std::vector<ContactReport>& reports) {
   if constexpr (B == D) {
-    for (ContactReport& report : reports) report.moment.resize(D == 2 ? 1 : 3);
-    if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
-    for (const ContactNode<B>& node : results.contact.nodes) {
-      ContactReport& report = reports[node.obstacle];
-      Point<D> lever = nodes.control_point(node.vertex);
-      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
-      add_moment<D>(lever, node.force, report.moment);
+    for (ContactReport& report : reports) {
+      report.moment.resize(D == 2 ? 1 : 3);
+      if (report.pair) report.pair->moment.resize(report.moment.size());
     }
+    if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
+    const auto add = [&](Index node, Index obstacle, const std::array<double, B>& force, bool on_other) {
+      ContactReport& report = reports[obstacle];
+      Point<D> lever = nodes.control_point(node);
+      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
+      add_moment<D>(lever, force, on_other ? report.pair->moment : report.moment);
+    };
+    for (const ContactNode<B>& node : results.contact.nodes)
+      add(node.vertex, node.obstacle, node.force, results.slaves[node.obstacle].exchanged);
+    for (const NodalForce<B>& back : results.counterforces)
+      add(back.node, back.obstacle, back.force, !results.slaves[back.obstacle].exchanged);
   }
+}
+
+void turn_round(std::vector<double>& force) {
+  for (double& component : force) component = -component;
+}
+
+/// The body that the report is about may be the master.
+template <int B>
+void add_pair(const Scene::Obstacle& obstacle, const SlaveChoice& choice, const std::array<double, B>& on_body,
+              const std::array<double, B>& on_other, ContactReport& report) {
+  const bool exchanged = choice.exchanged;
+  report.pair = PairReport{exchanged ? obstacle.other : obstacle.body,
+                           exchanged ? obstacle.body : obstacle.other,
+                           choice.reason,
+                           list(on_other),
+                           {}};
+  if (!exchanged) return;
+  report.force = list(on_body);
+  turn_round(report.normal_force);
+  turn_round(report.tangential_force);
 }
 
 /// Nodes that are open, and the mean displacement of those that each obstacle may reach.
@@ -90,17 +117,29 @@ void add_reachable(const Results<D, B>& results, std::vector<ContactReport>& rep
 }  // namespace
 
 template <int D, int B>
+ContactForces<B> contact_forces(const Results<D, B>& results) {
+  ContactForces<B> out{results.forces.contact, totals(results.counterforces, results.forces.contact.size())};
+  for (std::size_t k = 0; k < out.on_body.size(); ++k)
+    if (results.slaves[k].exchanged) std::swap(out.on_body[k], out.on_other[k]);
+  return out;
+}
+
+template <int D, int B>
 std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& nodes, const Results<D, B>& results,
                                            double t, std::size_t body) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
+  const ContactForces<B> forces = contact_forces(results);
   std::vector<ContactReport> reports;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     ContactReport& report = reports.emplace_back(totals(results.contact.obstacles[k], results.deformed[k]));
     report.penetration_between_nodes = results.between_nodes[k];
     report.obstacle = numbers[k];
-    report.body = scene.obstacles[numbers[k]].body;
+    const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
+    report.body = obstacle.body;
+    if (!obstacle.other.empty())
+      add_pair<B>(obstacle, results.slaves[k], forces.on_body[k], forces.on_other[k], report);
     if (B == 1) continue;
-    const std::array<double, 3> about = reference_point(scene.obstacles[numbers[k]], t);
+    const std::array<double, 3> about = reference_point(obstacle, t);
     report.moment_about.assign(about.begin(), about.begin() + D);
   }
   add_moments(nodes, scene.bodies[body].plane, results, reports);
@@ -110,6 +149,7 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                                \
+  template ContactForces<B> contact_forces(const Results<D, B>&);                                                  \
   template std::vector<ContactReport> contact_reports(const Scene&, const Nodes<D>&, const Results<D, B>&, double, \
                                                       std::size_t);
 SIGNORINI_INSTANTIATE(2, 1)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fem/paired_sides.hpp"
 #include "core/mesh/chords.hpp"
 
 namespace signorini {
@@ -55,6 +56,22 @@ std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& m
           fmt::format("{}: the body starts {}inside the obstacle, by {:.3g} of its {:.3g} along the normal "
                       "there; is the obstacle's normal reversed?",
                       model.obstacles[k].origin, start->completely ? "completely " : "", start->depth, start->extent));
+    }
+  return warnings;
+}
+
+template <int D, int B>
+std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
+  std::vector<std::string> warnings;
+  if constexpr (B == D)
+    for (const ObstacleTerm<D>& term : model.obstacles) {
+      if (!term.other) continue;
+      const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
+      if (couple_sides(nodes.mesh(), term, faces.slave, faces.master).nodes() > 0) continue;
+      warnings.push_back(fmt::format(
+          "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
+          "another side meant?",
+          term.origin));
     }
   return warnings;
 }
@@ -137,6 +154,7 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                           \
   template std::vector<std::string> start_warnings(const Nodes<D>&, const Model<B>&, bool);                   \
+  template std::vector<std::string> pair_warnings(const Nodes<D>&, const Model<B>&);                          \
   template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&, \
                                                    const Results<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)

@@ -12,6 +12,10 @@ namespace signorini {
 template <int D, int B>
 std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere = false);
 
+/// Obstacles between two bodies of which no face of one is in front of the other one's: nothing happens there.
+template <int D, int B>
+std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model);
+
 /// Where the deformed body is inside an obstacle, or off it where contact is claimed, by more than a hundredth of the
 /// displacements there; and forces that held vertices share with the obstacle. One sentence per obstacle and kind, for
 /// the worst step.

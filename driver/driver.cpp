@@ -94,7 +94,7 @@ void Driver::begin() {
   at_step(scene_, t, [&] {
     for (std::size_t body = 0; body < bodies(); ++body)
       visit(body, [&](auto& run) {
-        run.begin();
+        run.begin(t);
         run.add_warnings(t, report_.warnings);
       });
   });

@@ -17,13 +17,18 @@
 namespace signorini {
 
 template <int D, int B>
-Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution) {
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
+                      std::vector<SlaveChoice> slaves) {
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(nodes, model, solution.discretization, solution.x),
                     {},
                     {},
                     {},
-                    solution.pressure};
+                    solution.pressure,
+                    {},
+                    std::move(slaves)};
+  out.slaves.resize(model.obstacles.size());
+  out.counterforces = counterforces(solution.discretization.problem, out.contact);
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
@@ -55,20 +60,22 @@ std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
   return reports;
 }
 
-/// Adds the forces of the tables that belong to a body, times `sign`; numbers[k] is the table of forces[k].
+/// Adds the forces of the tables that belong to a body; numbers[k] is the table of forces[k].
 template <int B, class Table>
 void add_forces(const std::vector<std::array<double, B>>& forces, const std::vector<int>& numbers,
-                const std::vector<Table>& tables, std::string Table::*of, const std::string& body, double sign,
+                const std::vector<Table>& tables, std::string Table::*of, const std::string& body,
                 std::vector<double>& total) {
   total.resize(B);
   for (std::size_t k = 0; k < forces.size(); ++k)
     for (int i = 0; i < B; ++i)
-      if (tables[numbers[k]].*of == body) total[i] += sign * forces[k][i];
+      if (tables[numbers[k]].*of == body) total[i] += forces[k][i];
 }
 
 /// Of a body, or of its parts: what touches one of them pushes the other one back.
-template <int B>
-std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Forces<B>& forces) {
+template <int D, int B>
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Results<D, B>& results) {
+  const Forces<B>& forces = results.forces;
+  const ContactForces<B> contact = contact_forces(results);
   std::vector<std::string> names{body.name};
   if (!body.parts.empty()) names.clear();
   for (const Scene::Body& part : body.parts) names.push_back(part.name);
@@ -76,12 +83,12 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
   std::vector<BalanceReport> out;
   for (const std::string& name : names) {
     BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
-    add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name, 1,
+    add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name,
                   balance.applied);
-    add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name, 1,
+    add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name,
                   balance.reactions);
-    add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
-    add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
+    add_forces<B>(contact.on_body, obstacles, scene.obstacles, &Scene::Obstacle::body, name, balance.contact);
+    add_forces<B>(contact.on_other, obstacles, scene.obstacles, &Scene::Obstacle::other, name, balance.contact);
   }
   return out;
 }
@@ -107,7 +114,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0}};
-  report.balance = balances(scene, body, forces);
+  report.balance = balances(scene, body, results);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
@@ -182,10 +189,10 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                  \
-  template Results<D, B> results(const Nodes<D>&, const Model<B>&, const Solution<B>&);                          \
-  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double, \
-                                  const Summary&, std::size_t);                                                  \
+#define SIGNORINI_RESULTS(D, B)                                                                                   \
+  template Results<D, B> results(const Nodes<D>&, const Model<B>&, const Solution<B>&, std::vector<SlaveChoice>); \
+  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,  \
+                                  const Summary&, std::size_t);                                                   \
   template std::vector<std::string> model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

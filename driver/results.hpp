@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "core/fem/contact.hpp"
+#include "core/fem/counterforces.hpp"
 #include "core/fem/forces.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
+#include "core/fem/slave_choice.hpp"
 #include "driver/nested_solver.hpp"
 
 namespace signorini {
@@ -20,10 +22,14 @@ struct Results {
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
+  std::vector<NodalForce<B>> counterforces;              ///< on masters
+  std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
 };
 
+/// @param slaves choose_slaves() of the model; none: of each obstacle the first body is
 template <int D, int B>
-Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution);
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
+                      std::vector<SlaveChoice> slaves = {});
 
 /// Probes with the places where they lie.
 template <int D>

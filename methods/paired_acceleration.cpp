@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/dot.hpp"
+
 namespace signorini {
 namespace {
 
@@ -11,13 +13,6 @@ constexpr double grown = 4;  // square of a step over that before: the iteration
 void subtract(const std::vector<double>& from, const std::vector<double>& what, std::vector<double>& out) {
   out.resize(from.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = from[i] - what[i];
-}
-
-double product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-#pragma omp simd reduction(+ : sum)
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
 }
 
 void add_times(double factor, const std::vector<double>& what, std::vector<double>& to) {
@@ -54,8 +49,7 @@ void PairedAcceleration<B>::make_orthogonal(Step& newest) const {
   for (int k = 0; k < known_; ++k) {
     const Step& other = directions_[k];
     if (&other == &newest) continue;
-    const double part =
-        -(product(other.image.x, newest.step.x) + product(other.image.p, newest.step.p)) / other.squared;
+    const double part = -(dot(other.image.x, newest.step.x) + dot(other.image.p, newest.step.p)) / other.squared;
     add_times(part, other.step.x, newest.step.x);
     add_times(part, other.step.p, newest.step.p);
     add_times(part, other.image.x, newest.image.x);
@@ -64,7 +58,7 @@ void PairedAcceleration<B>::make_orthogonal(Step& newest) const {
     add_times(part, other.result.p, newest.result.p);
     add_times(part, other.residual, newest.residual);
   }
-  newest.squared = product(newest.image.x, newest.step.x) + product(newest.image.p, newest.step.p);
+  newest.squared = dot(newest.image.x, newest.step.x) + dot(newest.image.p, newest.step.p);
 }
 
 template <int B>
@@ -79,7 +73,7 @@ bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>&
   now_.result.x = x;
   now_.result.p = p;
   now_.residual = r;
-  const double squared = product(now_.image.x, now_.step.x) + product(now_.image.p, now_.step.p);
+  const double squared = dot(now_.image.x, now_.step.x) + dot(now_.image.p, now_.step.p);
   const bool grows = squared > grown * now_.squared;
   now_.squared = squared;
   if (grows) reset();
@@ -98,7 +92,7 @@ bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>&
   for (int k = 0; k < known_; ++k) {
     const Step& direction = directions_[k];
     const double part =
-        -(product(direction.image.x, now_.step.x) + product(direction.image.p, now_.step.p)) / direction.squared;
+        -(dot(direction.image.x, now_.step.x) + dot(direction.image.p, now_.step.p)) / direction.squared;
     add_times(part, direction.result.x, x_);
     add_times(part, direction.result.p, p);
     add_times(part, direction.residual, r_);

@@ -13,6 +13,7 @@
 #include "core/scene/uses_t.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
+#include "driver/contact_warnings.hpp"
 #include "driver/nested_solver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
@@ -86,7 +87,8 @@ Index pressure_unknowns(const Nodes<D>& nodes, const Model<B>& model) {
 }
 
 template <int D, int B>
-void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body& body, const Model<B>& model) {
+void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body& body, const Model<B>& model,
+                    const std::vector<SlaveChoice>& slaves) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, body);
   std::vector<std::set<Index>> candidates(numbers.size());
   std::vector<FunctionalNumbers<B>> functionals;
@@ -94,9 +96,13 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
   if constexpr (D == B) pairing = pair_bodies(nodes, model, collect_fixes(nodes, model));
   for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals, pairing.get()))
     candidates[bound.obstacle].insert(bound.vertex);
-  for (std::size_t k = 0; k < candidates.size(); ++k)
-    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k],
-               scene.obstacles[numbers[k]].type, candidates[k].size());
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
+    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k], obstacle.type,
+               candidates[k].size());
+    if (!obstacle.other.empty())
+      fmt::print("  the slave is {} ({})\n", slaves[k].exchanged ? obstacle.other : obstacle.body, slaves[k].reason);
+  }
 }
 
 void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
@@ -121,8 +127,10 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
 
 /// What is wrong somewhere in the body or with the obstacles shows in the discrete problems only. Returns the last
 /// model.
+/// @param slaves chosen by the first one
 template <int D, int B>
-Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t body, const Nodes<D>& nodes) {
+Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t body, const MeshHierarchy<D>& hierarchy,
+                     const Nodes<D>& nodes, std::vector<SlaveChoice>& slaves) {
   Model<B> model;
   Discretization<B> discretization;
   const bool alike = !uses_t(scene, scene.bodies[body]);
@@ -130,6 +138,10 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
     if (alike && t != scene.steps.at.back()) continue;
     at_step(scene, t, [&] {
       Model<B> now = build_model<B>(scene, D, registry, t, body);
+      if constexpr (D == B) {
+        if (slaves.empty()) slaves = choose_slaves(Nodes(hierarchy.levels.front()), now);
+        exchange_sides(slaves, now);
+      }
       if (discretization.problem.A.size() == 0)
         discretization = discretize<D, B>(nodes, now);
       else
@@ -152,14 +164,15 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const int order = scene.bodies[body].order;
   const Nodes<D> nodes = nodes_of(hierarchy, order).back();
   locate_probes(hierarchy.finest(), scene, body);
-  const Model<B> model = check_steps<D, B>(scene, registry, body, nodes);
+  std::vector<SlaveChoice> slaves;
+  const Model<B> model = check_steps<D, B>(scene, registry, body, hierarchy, nodes, slaves);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);
   print_levels(hierarchy, order, model);
   const Index pressures = pressure_unknowns(nodes, model);
   if (pressures > 0)
     fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
-  print_contacts(nodes, scene, scene.bodies[body], model);
+  print_contacts(nodes, scene, scene.bodies[body], model, slaves);
   const Scene::Solver options = solver_options(scene, scene.bodies[body]);
   const std::size_t first = first_mesh(hierarchy, options, B, order);
   const bool factorised = factorised_meshes(hierarchy, options, B) > 0;
@@ -170,6 +183,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));
   print_warnings(model_warnings(scene, nodes, model, body));
+  print_warnings(pair_warnings(Nodes(hierarchy.levels.front()), model));
 }
 }  // namespace
 

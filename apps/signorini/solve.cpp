@@ -96,6 +96,8 @@ std::vector<std::filesystem::path> inputs(const Scene& scene) {
 void print_contact(const ContactReport& contact) {
   fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
              contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);
+  if (const auto& pair = contact.pair)
+    fmt::print("  force on {}; the slave is {} ({})\n", contact.body, pair->slave, pair->reason);
   if (contact.slip_nodes + contact.stick_nodes == 0 && !(contact.dissipated > 0)) return;
   fmt::print("  friction: {} nodes slip, {} stick; tangential force ({:.6g}), dissipated {:.6g}\n", contact.slip_nodes,
              contact.stick_nodes, fmt::join(contact.tangential_force, ", "), contact.dissipated);

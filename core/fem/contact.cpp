@@ -91,8 +91,11 @@ class NodeReader {
     node.law = law;
     bool sticks = true;
     double work = 0;
+    const bool between_bodies = is_jump(p);
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
+      // No jump of two bodies is along what is prescribed: nothing of it acts on the master.
+      if (between_bodies && (problem_.fixed[p] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
       // What holds a prescribed component hides the force along it, and other obstacles what slips.
       const bool hidden = has_facets(slot) || problem_.fixed[p] >> k & 1u;
@@ -140,6 +143,8 @@ class NodeReader {
   }
 
  private:
+  bool is_jump(Index p) const { return problem_.jumps && std::ranges::binary_search(problem_.jumps->vector, p); }
+
   /// One bound of a direction at a slot with faces.
   struct Side {
     int number;  ///< of the direction

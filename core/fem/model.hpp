@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input/field.hpp"
+#include "core/mortar/pairing.hpp"
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/settings.hpp"
 
@@ -44,6 +45,9 @@ struct Load {
   std::array<Index, 2> regions = {-1, -1};  ///< of a body force: the first and the last that it acts in; -1: all
 };
 
+/// Of two bodies that may touch each other the one that is to be the slave.
+enum class Slave { automatic, body, other };
+
 /// An obstacle and the vertices it may touch: those of the selected faces, or all when `on` is empty.
 template <int B>
 struct ObstacleTerm {
@@ -58,6 +62,9 @@ struct ObstacleTerm {
   std::shared_ptr<const Settings> settings = {};
   /// Of an obstacle between two bodies the faces of the second one, the master; those of `on` are the slave's.
   std::optional<Selection> other = {};
+  /// Of these two which one shall be the slave, see choose_slaves(), and how faces find each other.
+  Slave slave = Slave::body;
+  Pairing pairing = Pairing::normal;
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.

@@ -9,49 +9,26 @@
 #include "core/base/error.hpp"
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
-#include "core/fem/select.hpp"
-#include "core/mortar/couple.hpp"
+#include "core/fem/paired_sides.hpp"
 
 namespace signorini {
 namespace {
 
-template <int D>
-std::vector<std::array<Index, D>> faces_of(const Mesh<D>& mesh, const Selection& selection, double t) {
-  std::vector<std::array<Index, D>> out;
-  for (const Index f : select_faces(mesh, selection, t)) out.push_back(mesh.boundary[f].vertices);
-  return out;
-}
+/// What is left of a normal up to which a fix counts as being across it, with friction: cosine of 10 degrees, by which
+/// a curved surface may be inclined at a plane of symmetry.
+constexpr double nearly_across = 0.985;
 
-/// Diagonal of the box around the mesh.
+/// More than an element of the coarsest mesh: what is admitted does not depend on refinement.
 template <int D>
-double extent(const Mesh<D>& mesh) {
-  double square = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    const auto [low, high] = std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
-    square += (high[i] - low[i]) * (high[i] - low[i]);
-  }
-  return std::sqrt(square);
-}
-
-template <int D>
-double longest_edge(const Mesh<D>& mesh, const std::array<Index, D>& face) {
-  double longest = 0;
-  for (const Index a : face)
-    for (const Index b : face) {
-      Point<D> edge = mesh.points[a];
-      for (int i = 0; i < D; ++i) edge[i] -= mesh.points[b][i];
-      longest = std::max(longest, std::sqrt(dot(edge, edge)));
-    }
-  return longest;
-}
-
-template <int D>
-void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<std::array<Index, D>>& slave,
+void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
                  const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0 || deepest.depth <= longest_edge<D>(mesh, slave[deepest.slave_face])) return;
-  input_error(term.origin, fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
-                                       "element; expected bodies apart from each other, or touching",
-                                       deepest.depth, fmt::join(deepest.place, ", ")));
+  if (deepest.slave_face < 0) return;
+  const Face<D>& face = mesh.boundary[slave[deepest.slave_face]];
+  if (deepest.depth <= std::ldexp(longest_edge(mesh, face), mesh.refinements)) return;
+  input_error(term.origin,
+              fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
+                          "element of the coarsest mesh; expected bodies apart from each other, or touching",
+                          deepest.depth, fmt::join(deepest.place, ", ")));
 }
 
 /// Couples one obstacle after the other.
@@ -64,15 +41,15 @@ class Coupler {
   void add(Index obstacle) {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
     const Mesh<D>& mesh = nodes_.mesh();
-    const auto slave = faces_of(mesh, *term.on, model_.t), master = faces_of(mesh, *term.other, model_.t);
-    const SurfaceFaces<D> of_slave{mesh.points, slave, term.origin}, of_master{mesh.points, master, term.origin};
-    const MortarCoupling<D> found = couple(of_slave, of_master, {.reach = extent(mesh)});
-    refuse_deep<D>(mesh, term, slave, found.deepest);
-    if (found.nodes() == 0)
-      input_error(term.origin,
-                  "no face of one body is in front of the other one's, opposite to it; expected sides that "
-                  "can touch");
+    const PairedFaces faces = paired_faces(mesh, term, model_.t);
+    const MortarCoupling<D> found = couple_sides(mesh, term, faces.slave, faces.master);
+    refuse_deep<D>(mesh, term, faces.slave, found.deepest);
+    const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
+    if (found.nodes() > 0 && rows_.size() == before)
+      input_error(term.origin,
+                  "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
+                  "the master off them; expected free nodes, or the other body as the slave");
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {
@@ -99,13 +76,15 @@ class Coupler {
 
   void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
     const Index p = nodes_.of_vertex(found.node[k]);
-    const FixedDirections<D>* fixed = fixed_at(p);
-    if (fixed && fixed->count == D) return;
-    take_side(slave_of_, master_of_, p, obstacle);
+    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, found.normal[k]);
+    if (!free) return;
     const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
-    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
-    for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
-    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed, with_friction)});
+    if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
+    take_side(slave_of_, master_of_, p, obstacle);
+    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
+    for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
+    node.gap = (found.gap[k] - free->prescribed) / free->part;
+    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
@@ -113,12 +92,17 @@ class Coupler {
     }
   }
 
-  const FixedDirections<D>* fixed_at(Index p) const {
-    const auto found = std::ranges::lower_bound(fixes_, p, {}, &FixedDirections<D>::vertex);
-    return found != fixes_.end() && found->vertex == p ? &*found : nullptr;
+  [[noreturn]] void refuse_inclined(Index p, Index obstacle) const {
+    input_error(
+        model_.obstacles[obstacle].origin,
+        fmt::format("with friction, meets a direction prescribed at ({}) that is neither along the slave's normal "
+                    "nor across it, which is not available in this version; expected the other body as the "
+                    "slave, or another fix",
+                    fmt::join(nodes_.at(p), ", ")));
   }
 
-  static std::array<double, D * D> onto_free(const FixedDirections<D>* fixed) {
+  std::array<double, D * D> onto_free(Index p) const {
+    const FixedDirections<D>* fixed = fixed_at(fixes_, p);
     std::array<double, D * D> out{};
     for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
     for (int k = 0; fixed && k < fixed->count; ++k)
@@ -127,20 +111,11 @@ class Coupler {
     return out;
   }
 
-  /// Onto the normal, as far as that is not prescribed: along the surfaces only friction holds the bodies together.
-  static std::array<double, D * D> projector(const Point<D>& normal, const FixedDirections<D>* fixed,
-                                             bool with_friction) {
-    if (with_friction) return onto_free(fixed);
-    Point<D> free = normal;
-    for (int k = 0; fixed && k < fixed->count; ++k) {
-      double part = 0;
-      for (int i = 0; i < D; ++i) part += fixed->direction[k][i] * normal[i];
-      for (int i = 0; i < D; ++i) free[i] -= part * fixed->direction[k][i];
-    }
-    const double square = dot(free, free);
-    std::array<double, D * D> out{};
-    for (int i = 0; i < D && square > 0; ++i)
-      for (int j = 0; j < D; ++j) out[i * D + j] = free[i] * free[j] / square;
+  /// Along the surfaces only friction holds the bodies together.
+  static std::array<double, D * D> onto(const Point<D>& normal) {
+    std::array<double, D * D> out;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) out[i * D + j] = normal[i] * normal[j];
     return out;
   }
 

@@ -13,8 +13,8 @@ template <int B>
 struct PairedNode {
   Index node;
   Index obstacle;              ///< number in Model::obstacles
-  std::array<double, B> away;  ///< unit normal from the master to the slave
-  double gap;                  ///< mean distance, weighted by the node's dual basis function
+  std::array<double, B> away;  ///< unit normal from the master to the slave, see free_normal()
+  double gap;                  ///< mean distance along it, weighted by the node's dual basis function
 };
 
 /// The sides of a model's bodies that may touch each other, coupled by mortar on one mesh.
@@ -24,9 +24,10 @@ struct PairedBodies {
   std::shared_ptr<const Jumps<B>> jumps;
 };
 
-/// Nodes whose displacement is prescribed completely are left out. Null where the model has no obstacle between bodies.
-/// Error(Exit::input) that names the obstacle: no face of one side in front of the other, a node on several sides, or
-/// sides that have faces in common; bodies that overlap at the start by more than an element.
+/// Nodes whose displacement is prescribed completely, or along the normal, are left out. Null where the model has no
+/// obstacle between bodies.
+/// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
+/// of whose nodes are prescribed; bodies that overlap at the start by more than an element of the coarsest mesh.
 /// @param fixes collect_fixes() of both
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,

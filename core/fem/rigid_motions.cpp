@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
+#include "core/mesh/join.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/jumps.hpp"
 
@@ -228,6 +229,19 @@ std::string RigidMotions<D, B>::at(const Body& body, const Point<D>& from_middle
   return text(x);
 }
 
+/// As join() calls it, for messages; empty where the mesh does not know.
+template <int D, int B>
+std::string RigidMotions<D, B>::name_of(std::size_t body) const {
+  const Mesh<D>& mesh = nodes_.mesh();
+  for (const Part& part : mesh.parts) {
+    const std::string name = body_of(part.name);
+    if (name.empty() || part.faces.empty()) continue;
+    const Index p = nodes_.of_vertex(mesh.boundary[part.faces.front()].vertices[0]);
+    if (of_node_[p] == static_cast<Index>(body)) return fmt::format(" '{}'", name);
+  }
+  return "";
+}
+
 // Of several bodies those that do not move are left out.
 template <int D, int B>
 std::string RigidMotions<D, B>::describe(const Motion& motion) const {
@@ -237,8 +251,8 @@ std::string RigidMotions<D, B>::describe(const Motion& motion) const {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     const One own = part(motion, body);
     if (!(own.norm() > still * motion.norm())) continue;
-    out += fmt::format("{}{} of the body around {}", out.empty() ? "" : " with ", describe(bodies_[body], own),
-                       at(bodies_[body], Point<D>{}));
+    out += fmt::format("{}{} of the body{} around {}", out.empty() ? "" : " with ", describe(bodies_[body], own),
+                       name_of(body), at(bodies_[body], Point<D>{}));
   }
   return out;
 }

@@ -62,6 +62,7 @@ class RigidMotions {
   One part(const Motion& motion, std::size_t body) const;
   std::string at(const Body& body, const Point<D>& from_middle) const;
   std::string describe(const Body& body, const One& motion) const;
+  std::string name_of(std::size_t body) const;
 
   const Nodes<D>& nodes_;
   bool axial_;  // no motion but along the axis

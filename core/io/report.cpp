@@ -32,6 +32,15 @@ Json record(const Summary& summary, const IterationRecord& record) {
           {"changed", record.changed},     {"levels", std::move(levels)}};
 }
 
+Json pair(const std::optional<PairReport>& pair) {
+  if (!pair) return nullptr;
+  return {{"slave", pair->slave},
+          {"master", pair->master},
+          {"reason", pair->reason},
+          {"force_on_other", pair->force},
+          {"moment_on_other", pair->moment}};
+}
+
 Json contact(const ContactReport& contact) {
   return {{"obstacle", contact.obstacle},
           {"body", contact.body},
@@ -54,7 +63,8 @@ Json contact(const ContactReport& contact) {
           {"undetermined_force", contact.undetermined_force},
           {"largest_penetration", contact.largest_penetration},
           {"largest_penetration_between_nodes", contact.penetration_between_nodes},
-          {"largest_opening", contact.largest_opening}};
+          {"largest_opening", contact.largest_opening},
+          {"pair", pair(contact.pair)}};
 }
 
 Json probe(const ProbeReport& probe) {

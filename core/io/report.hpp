@@ -9,6 +9,15 @@
 
 namespace signorini {
 
+/// Two bodies that touch each other.
+struct PairReport {
+  std::string slave, master;
+  std::string reason;  ///< why this one is the slave
+  /// What the obstacle exerts on the second body, and its moment about ContactReport::moment_about. The forces on both
+  /// sum to zero up to rounding; moments do as far as nodes on both sides are in the same places.
+  std::vector<double> force, moment;
+};
+
 /// What one obstacle does to the body it acts on.
 struct ContactReport {
   int obstacle = 0;           ///< number of the scene's [[obstacle]], from 0
@@ -33,6 +42,7 @@ struct ContactReport {
   /// contact is claimed, and the largest displacement at these; NaN where the obstacle could not tell.
   double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
   double penetration_between_nodes = 0;  ///< see violation_between_nodes(); NaN where it is not measured
+  std::optional<PairReport> pair{};      ///< nothing where it acts on one body
 };
 
 /// A total force on the body it acts on, one entry per unknown of a vertex.

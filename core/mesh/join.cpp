@@ -52,6 +52,11 @@ void append_sparse(std::vector<T>& all, std::size_t before, std::vector<T>& more
 
 std::string part_of(const std::string& body, const std::string& part) { return body + "/" + part; }
 
+std::string body_of(const std::string& part) {
+  const std::size_t slash = part.find('/');
+  return slash == std::string::npos ? "" : part.substr(0, slash);
+}
+
 template <int D>
 Mesh<D> join(std::vector<Mesh<D>> meshes, const std::vector<std::string>& bodies, const std::vector<int>& materials) {
   Mesh<D> all;

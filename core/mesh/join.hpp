@@ -10,6 +10,9 @@ namespace signorini {
 /// unless it has such a part.
 std::string part_of(const std::string& body, const std::string& part);
 
+/// The body that a part of this name is of; empty where it is none of several.
+std::string body_of(const std::string& part);
+
 /// Coarsest meshes of several bodies as one, which do not hang together. Parts are named by part_of(). Regions are
 /// counted on from one body to the next, each body's own material first: there is a region everywhere.
 /// @param materials per body how many it has beside its own

@@ -29,7 +29,6 @@ void check(const CoupleOptions& options, std::string_view place) {
   require(options.reach > 0, "expected a reach of the pairing larger than 0; it", options.reach);
   const double depth = options.depth.value_or(0);
   require(depth >= 0, "expected a depth of the pairing not less than 0; it", depth);
-  require(std::isfinite(options.offset), "expected a finite offset of gaps; it", options.offset);
   require(options.least_cover >= 0 && options.least_cover < 1, "expected a least cover from 0 to less than 1; it",
           options.least_cover);
 }
@@ -118,7 +117,7 @@ class Gathering {
     out.node.push_back(node);
     out.weight.push_back(weight);
     out.normal.push_back(normal);
-    out.gap.push_back(gap / std::max(common, least_common * weight) + options.offset);
+    out.gap.push_back(gap / std::max(common, least_common * weight));
     add_row(seats, weight, out);
     return true;
   }

@@ -6,6 +6,7 @@
 
 #include "core/base/crew.hpp"
 #include "core/base/types.hpp"
+#include "core/mortar/pairing.hpp"
 
 namespace signorini {
 
@@ -17,17 +18,10 @@ struct SurfaceFaces {
   std::string_view place = "surface";                ///< what messages call it
 };
 
-/// Along what the distance from the slave to the master is measured.
-enum class Pairing {
-  normal,   ///< the slave face's normal
-  closest,  ///< the mean normal of the master where a slave face sees it: towards its closest point
-};
-
 struct CoupleOptions {
   Pairing pairing = Pairing::normal;
   double reach = 0;               ///< faces farther apart do not see each other; the user's unit of length
   std::optional<double> depth{};  ///< how deep an overlap is looked for; none: `reach`
-  double offset = 0;              ///< what is added to every gap
   /// A node that the master covers less than this part of its area of is left alone.
   double least_cover = 1e-10;
 };
@@ -35,7 +29,7 @@ struct CoupleOptions {
 /// Where slave and master overlap most.
 template <int D>
 struct DeepestOverlap {
-  double depth = 0;  ///< 0: nowhere. Without `CoupleOptions::offset`
+  double depth = 0;  ///< 0: nowhere
   Point<D> place{};  ///< on the slave
   Index slave_face = -1, master_face = -1;
 };
@@ -72,7 +66,8 @@ struct MortarCoupling {
 /// with mortar contact formulations using dual Lagrange multipliers, 2011): rows of M̂ reproduce linear functions on
 /// flat interfaces, overhanging ones included.
 ///
-/// Faces pair whose normals are within 60 degrees of opposite. Where both surfaces have the same points (the same
+/// Faces pair whose normals are within 60 degrees of opposite; not through the master, out of which and into which the
+/// way back from the slave leads. Where both surfaces have the same points (the same
 /// memory), as parts of one body have, faces that share a node do not pair, and nodes of both are left alone.
 ///
 /// The result does not depend on the number of threads; on the order of nodes and faces by rounding only.

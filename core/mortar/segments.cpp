@@ -39,6 +39,7 @@ bool SegmentFinder<D>::find(Index face) {
       if (length<D>(difference<D>(next, frame_.direction)) < settled) break;
       look(face, next);
     }
+  drop_hidden();
   if (segments_.empty() || !in_reach()) return false;
   part_layers();
   return true;
@@ -47,6 +48,7 @@ bool SegmentFinder<D>::find(Index face) {
 template <int D>
 void SegmentFinder<D>::look(Index face, const Point<D>& direction) {
   segments_.clear();
+  turned_.clear();
   frame_ = FaceFrame<D>(slave_.corner[face], direction);
   low_ = high_ = frame_.corner[0];
   for (const Point<K>& y : frame_.corner)
@@ -87,6 +89,7 @@ bool SegmentFinder<D>::shares_node(Index face, Index other) const {
 template <int D>
 void SegmentFinder<D>::consider(Index face, Index other) {
   const Point<D>& normal = master_.normal[other];
+  if (dot(normal, frame_.direction) > 0) turned_.push_back(other);
   if (-dot(normal, slave_.normal[face]) < facing || -dot(normal, frame_.direction) < facing) return;
   if (one_numbering_ && shares_node(face, other)) return;
   std::array<Point<K>, D> corner;
@@ -113,6 +116,35 @@ bool SegmentFinder<D>::in_reach() const {
   return std::ranges::any_of(segments_, [&](const Segment<D>& s) {
     const auto [least, most] = range(s.gap, s.piece);
     return least <= front_ - 1 && most >= 1 - behind_;
+  });
+}
+
+// What lies behind a slave face is an overlap, unless the way there leads out of the master and into it again.
+template <int D>
+void SegmentFinder<D>::drop_hidden() {
+  if (turned_.empty()) return;
+  std::erase_if(segments_, [this](const Segment<D>& s) { return is_hidden(s); });
+}
+
+template <int D>
+bool SegmentFinder<D>::is_hidden(const Segment<D>& segment) const {
+  const Moments<K> m = moments(segment.piece);
+  Point<K> middle;
+  for (int k = 0; k < K; ++k) middle[k] = m.first[k] / m.measure;
+  const double behind = segment.gap(middle);
+  if (behind >= 0) return false;
+  return std::ranges::any_of(turned_, [&](Index other) {
+    std::array<Point<K>, D> corner;
+    std::array<double, D> height;
+    for (int i = 0; i < D; ++i) height[i] = frame_.map(master_.corner[other][i], corner[i]);
+    const auto shape = barycentric<K>(corner);
+    double gap = -frame_.height(middle);
+    for (int i = 0; i < D; ++i) {
+      const double part = shape[i](middle);
+      if (!(part >= 0)) return false;  // one that is seen from its edge has no coordinates
+      gap += part * height[i];
+    }
+    return behind < gap && gap < 0;
   });
 }
 

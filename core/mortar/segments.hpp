@@ -40,6 +40,8 @@ class SegmentFinder {
   bool shares_node(Index face, Index other) const;
   bool in_reach() const;
   Point<D> mean_direction() const;
+  void drop_hidden();
+  bool is_hidden(const Segment<D>& segment) const;
   void part_layers();
   bool in_one_sheet();
   double split_by_nearness();
@@ -55,6 +57,7 @@ class SegmentFinder {
   double front_ = 0, behind_ = 0;
   bool layered_ = false;
   std::vector<Segment<D>> segments_, nearest_;
+  std::vector<Index> turned_;  // faces of the master that face the same way
   std::vector<Piece<K>> rest_, next_;
   std::vector<Index> order_, sheet_;
   std::vector<double> away_;

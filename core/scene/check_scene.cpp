@@ -72,10 +72,9 @@ void check_fixes(const Scene& scene) {
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
 void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
-    for (const char* key : {"other_on", "other_where"})
+    for (const char* key : {"other_on", "other_where", "slave", "pairing"})
       if (obstacle.source.given(key))
-        input_error(obstacle.source.of(key),
-                    fmt::format("'{}' has no meaning without 'other', the body it is of", key));
+        input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the second body", key));
     return;
   }
   const std::string& place = obstacle.source.of("other");

@@ -46,6 +46,9 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   obstacle.on = reader.selection();
   if (reader.given("other")) obstacle.other = reader.text("other");
   obstacle.other_on = reader.selection("other_");
+  const std::string slave = reader.text("slave");
+  obstacle.slave = slave == "body" ? Slave::body : slave == "other" ? Slave::other : Slave::automatic;
+  obstacle.pairing = reader.text("pairing") == "closest" ? Pairing::closest : Pairing::normal;
   if (!spec) return obstacle;
   obstacle.shape_name = spec->name;
   obstacle.shape = shape(reader, table, spec->name);

@@ -120,6 +120,8 @@ struct Scene {
     std::optional<Selection> on;
     std::string other;  ///< the second body; empty: it acts on one
     std::optional<Selection> other_on;
+    Slave slave = Slave::automatic;
+    Pairing pairing = Pairing::normal;
     std::string shape_name;  ///< the key `shape`; empty without
     std::optional<ObstacleShape> shape;
     RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate

@@ -107,6 +107,10 @@ constexpr KeySpec obstacle[] = {
     {"other", text, "", "", "", "name of the second body, for types that act between two elastic bodies"},
     {"other_on", text, "", "", "", "part of the second body; by default all of its boundary"},
     {"other_where", condition, "", "", "", "the same by an expression, as `where`"},
+    {"slave", text, "auto", "auto | body | other", "",
+     "which of the two has the contact's unknowns: `body`, `other`, or the one that the program chooses"},
+    {"pairing", text, "normal", "normal | closest", "",
+     "how distances between two bodies are measured: along the slave's normal, or to the master's closest point"},
 };
 
 constexpr KeySpec plane_obstacle[] = {

@@ -59,5 +59,28 @@ TEST_F(Bodies, AreCheckedOneByOne) {
   EXPECT_THAT(ended.out, HasSubstr("obstacle 1: contact, 5 candidate"));
 }
 
+TEST_F(Bodies, WhichIsTheSlaveIsPrintedAndReported) {
+  write("press.toml", "title = 'press'\n" + tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
+                          tables::block("upper", "[0, 1]", "[1, 1.5]", "[4, 4]", "young = 5\npoisson = 0.3\n") +
+                          tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.01]") +
+                          "[[obstacle]]\ntype = 'elastic'\nbody = 'upper'\non = 'bottom'\nother = 'lower'\n"
+                          "other_on = 'top'\n");
+  const Ended checked = signorini({"check", "press.toml"});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("the slave is lower (softer: modulus 1 beside 5)"));
+  const Ended solved = signorini({"solve", "press.toml", "--out", "o"});
+  ASSERT_EQ(solved.status, 0) << solved.err;
+  EXPECT_THAT(solved.out, HasSubstr("force on upper; the slave is lower (softer: modulus 1 beside 5)"));
+  const auto contact = report("o").at("contact")[0];
+  EXPECT_EQ(contact.at("body"), "upper");
+  EXPECT_GT(contact.at("force")[1], 0);
+  const auto& pair = contact.at("pair");
+  EXPECT_EQ(pair.at("slave"), "lower");
+  EXPECT_EQ(pair.at("master"), "upper");
+  EXPECT_EQ(pair.at("reason"), "softer: modulus 1 beside 5");
+  EXPECT_NEAR(pair.at("force_on_other")[1].get<double>(), -contact.at("force")[1].get<double>(), 1e-15);
+  EXPECT_EQ(pair.at("moment_on_other").size(), 1u);
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -70,11 +70,8 @@ class FlatInterface : public testing::Test {
   }
 };
 
-template <int N>
-using Number = std::integral_constant<int, N>;
 template <class N>
 class Flat : public FlatInterface<N::value> {};
-using Dimensions = testing::Types<Number<2>, Number<3>>;
 TYPED_TEST_SUITE(Flat, Dimensions);
 
 TYPED_TEST(Flat, RowsReproduceLinearFunctions) {

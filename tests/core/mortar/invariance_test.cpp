@@ -9,10 +9,6 @@
 namespace signorini::test {
 namespace {
 
-template <int N>
-using Number = std::integral_constant<int, N>;
-using Dimensions = testing::Types<Number<2>, Number<3>>;
-
 template <class N>
 class Invariance : public testing::Test {};
 TYPED_TEST_SUITE(Invariance, Dimensions);
@@ -158,25 +154,34 @@ TYPED_TEST(Invariance, ThinStripsAreExactOrLumpedOrLeftOut) {
   Random random(37);
   Surface<D> slave = flat<D>(grid<D - 1>(0, 1, 4), random);
   slave.flip();
-  for (double strip = 1e-2; strip > 1e-17; strip /= 3) {
-    SCOPED_TRACE(strip);
+  const std::vector<double> whole = lumped_areas(slave);
+  for (double wanted = 1e-2; wanted > 1e-17; wanted /= 3) {
+    SCOPED_TRACE(wanted);
     Surface<D> master = flat<D>(grid<D - 1>(-0.1, 1.1, 3), random);
-    for (auto& x : master.points) x[0] = x[0] < 0 ? -0.1 : (x[0] + 0.1) / 1.2 * (0.35 + strip) - 0.1;
-    const double edge = 0.25 + strip;
+    for (auto& x : master.points) x[0] = x[0] < 0 ? -0.1 : (x[0] + 0.1) / 1.2 * (0.35 + wanted) - 0.1;
+    double edge = 0;  // rounded
+    for (const auto& x : master.points) edge = std::max(edge, x[0]);
+    const double strip = edge - 0.25;
     const auto c = couple<D>(slave.side(), master.side(), within(1));
     double covered = 0;
     for (const double weight : c.weight) {
       EXPECT_GT(weight, 0);
       covered += weight;
     }
-    EXPECT_NEAR(covered, edge, 1e-10);  // nodes that next to nothing is covered of are left out
+    // Nodes of which less than CoupleOptions::least_cover is covered are left out, with that.
+    double left_out = 0;
+    for (const Index p : c.alone)
+      if (slave.points[p][0] < 0.6) left_out += CoupleOptions().least_cover * whole[p];
+    EXPECT_LE(covered, edge + 1e-13);
+    EXPECT_GE(covered, edge - left_out - 1e-13);
     for (Index p = 0; p < c.nodes(); ++p) {
       const double x = slave.points[c.node[p]][0];
       EXPECT_LE(x, 0.5);
       EXPECT_NEAR(row_value(c, p, [](Index) { return 1.0; }), 1, 1e-12);
       EXPECT_NEAR(c.gap[p], 0, 1e-12);
       if (c.lumped == 0) {
-        EXPECT_NEAR(row_value(c, p, [&](Index q) { return master.points[q][0]; }), x, 4e-15 / strip + 1e-12);
+        // Rounding within the strip is amplified on the way to the far corner.
+        EXPECT_NEAR(row_value(c, p, [&](Index q) { return master.points[q][0]; }), x, 1e-17 / strip + 1e-12);
       }
     }
     const bool lumped = c.lumped > 0;

@@ -99,11 +99,8 @@ struct TwoBodies {
   }
 };
 
-template <int N>
-using Number = std::integral_constant<int, N>;
 template <class N>
 class JumpsOf : public testing::Test {};
-using Dimensions = testing::Types<Number<2>, Number<3>>;
 TYPED_TEST_SUITE(JumpsOf, Dimensions);
 
 TYPED_TEST(JumpsOf, ThereAndBackIsTheIdentity) {

@@ -12,10 +12,6 @@
 namespace signorini::test {
 namespace {
 
-template <int N>
-using Number = std::integral_constant<int, N>;
-using Dimensions = testing::Types<Number<2>, Number<3>>;
-
 template <class N>
 class Pairs : public testing::Test {
  protected:
@@ -80,14 +76,71 @@ TYPED_TEST(Pairs, TheDeepestOverlapIsFoundWithItsPlace) {
   EXPECT_EQ((couple<D>(through.side(), master.side(), options).nodes()), 0);
 }
 
-TYPED_TEST(Pairs, TheOffsetIsAddedToGaps) {
+// The upper side of a body that lies on another one does not overlap the lower side of that.
+TYPED_TEST(Pairs, TheFarSideIsNotSeenThroughBodies) {
   constexpr int D = TypeParam::value;
-  const auto slave = this->above(0.25), master = this->below(0);
-  CoupleOptions options = within(1);
-  options.offset = -0.75;
-  const auto c = couple<D>(slave.side(), master.side(), options);
-  for (const double gap : c.gap) EXPECT_NEAR(gap, -0.5, 1e-14);
+  const auto upper_side = this->below(0.3);
+  auto master = this->above(-0.5, -0.2, 1.2, 3);
+  EXPECT_NEAR((couple<D>(upper_side.side(), master.side(), within(1)).deepest.depth), 0.8, 1e-14);
+  master.add(this->below(0, -0.2, 1.2, 3));
+  const auto c = couple<D>(upper_side.side(), master.side(), within(1));
+  EXPECT_EQ(c.nodes(), 0);
   EXPECT_EQ(c.deepest.depth, 0);
+  // An overlap remains one.
+  const auto deep = couple<D>(this->above(-0.1).side(), master.side(), within(1));
+  EXPECT_GT(deep.nodes(), 0);
+  EXPECT_NEAR(deep.deepest.depth, 0.1, 1e-14);
+}
+
+// A sheet without thickness between two surfaces: there is no direction for its nodes.
+TYPED_TEST(Pairs, NodesWithoutADirectionAreLeftAlone) {
+  constexpr int D = TypeParam::value;
+  auto sheet = this->below(0.5);
+  auto turned = sheet;
+  turned.flip();
+  sheet.faces.insert(sheet.faces.end(), turned.faces.begin(), turned.faces.end());
+  auto master = this->below(0);
+  master.add(this->above(1));
+  const auto c = couple<D>(sheet.side(), master.side(), within(1));
+  EXPECT_EQ(c.nodes(), 0);
+  EXPECT_EQ(c.alone.size(), sheet.points.size());
+}
+
+TEST(Faces, PairUpToSixtyDegrees) {
+  for (const double angle : {0.0, 59.0, -59.0, 61.0, -61.0, 85.0}) {
+    SCOPED_TRACE(angle);
+    const double rise = std::tan(angle / 180 * std::numbers::pi);
+    const Surface<2> slave{{{0, 20}, {1, 20}}, {{0, 1}}}, master{{{-90, -90 * rise}, {90, 90 * rise}}, {{1, 0}}};
+    for (const Pairing pairing : {Pairing::normal, Pairing::closest})
+      EXPECT_EQ((couple<2>(slave.side(), master.side(), within(100, pairing)).nodes() > 0), std::abs(angle) < 60);
+  }
+}
+
+// The walls of a wedge cut into one body face each other, and meet at its tip.
+TEST(Faces, OfOneBodyThatMeetDoNotPair) {
+  const std::vector<Point<2>> points{{0, 0}, {1, 0.1}, {1, -0.1}, {2, 0.2}, {2, -0.2}};
+  const std::vector<std::array<Index, 2>> upper{{0, 1}, {1, 3}}, lower{{2, 0}, {4, 2}};
+  const auto c = couple<2>({points, upper, "upper"}, {points, lower, "lower"}, within(1));
+  EXPECT_THAT(c.node, testing::ElementsAre(1, 3));
+  for (Index p = 0; p < c.nodes(); ++p)
+    for (Offset k = c.row[p]; k < c.row[p + 1]; ++k) EXPECT_NE(c.column[k], 0) << "the tip";
+}
+
+// A tip in a groove whose walls are parallel to its sides, at a distance of 0.1: up to an angle of 120 degrees between
+// the normals the tip's distance is that along the mean direction, at sharper tips no more than twice 0.1.
+TEST(Tips, AreNoFartherOffThanTwiceTheirSides) {
+  for (const double angle : {30.0, 59.0, 61.0, 80.0}) {
+    SCOPED_TRACE(angle);
+    const double s = std::sin(angle / 180 * std::numbers::pi), c = std::cos(angle / 180 * std::numbers::pi);
+    const Surface<2> tip{{{-c, s}, {0, 0}, {c, s}}, {{0, 1}, {1, 2}}};
+    const Point<2> left{-0.1 * s, -0.1 * c}, right{0.1 * s, -0.1 * c};
+    Surface<2> groove{{{left[0] - 2 * c, left[1] + 2 * s}, {left[0] + c, left[1] - s}}, {{1, 0}}};
+    groove.add({{{right[0] - c, right[1] - s}, {right[0] + 2 * c, right[1] + 2 * s}}, {{1, 0}}});
+    const auto found = couple<2>(tip.side(), groove.side(), within(1));
+    ASSERT_EQ(found.nodes(), 3);
+    EXPECT_NEAR(found.gap[1], 0.1 / std::max(c, 0.5), 1e-12);
+    EXPECT_NEAR(found.normal[1][1], -1, 1e-12);
+  }
 }
 
 // Of masters behind each other the nearest counts, and the farther one where it shows.
@@ -226,9 +279,6 @@ TYPED_TEST(Pairs, WrongInputIsRefusedWithItsPlace) {
   CoupleOptions options = within(1);
   options.depth = std::nan("");
   EXPECT_THAT(message<D>(slave, master, options), testing::HasSubstr("depth"));
-  options = within(1);
-  options.offset = infinity;
-  EXPECT_THAT(message<D>(slave, master, options), testing::HasSubstr("offset"));
 }
 
 TYPED_TEST(Pairs, NoFacesAreNoCoupling) {

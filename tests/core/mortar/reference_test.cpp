@@ -8,10 +8,6 @@
 namespace signorini::test {
 namespace {
 
-template <int N>
-using Number = std::integral_constant<int, N>;
-using Dimensions = testing::Types<Number<2>, Number<3>>;
-
 template <class N>
 class RandomPairs : public testing::Test {};
 TYPED_TEST_SUITE(RandomPairs, Dimensions);

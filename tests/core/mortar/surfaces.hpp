@@ -1,4 +1,6 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
@@ -9,6 +11,11 @@
 
 /// Surfaces to couple.
 namespace signorini::test {
+
+/// The dimensions that typed tests are run in: `constexpr int D = TypeParam::value`.
+template <int N>
+using Number = std::integral_constant<int, N>;
+using Dimensions = testing::Types<Number<2>, Number<3>>;
 
 template <int D>
 struct Surface {

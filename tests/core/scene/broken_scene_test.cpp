@@ -253,7 +253,7 @@ TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
 TEST(BrokenScene, FacesOfASecondBodyThatIsNotNamed) {
   for (const char* key : {"other_on=boundary", "other_where=z>0"})
     EXPECT_THAT(test::outcome([&] { test::parse(ball, {std::string("obstacle.0.") + key}); }).message,
-                HasSubstr("has no meaning without 'other', the body it is of"));
+                HasSubstr("has no meaning without 'other', the second body"));
 }
 
 TEST(BrokenScene, ASecondBodyThatNothingHolds) {

@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "core/fem/contact.hpp"
+
+namespace signorini {
+
+/// A force that an obstacle exerts on a node, global coordinates.
+template <int B>
+struct NodalForce {
+  Index node;
+  Index obstacle;  ///< number in Model::obstacles
+  std::array<double, B> force;
+};
+
+/// What contact between bodies exerts on the masters: the force on a slave's node with the other sign, at the nodes of
+/// the master that it is coupled to, as their unknowns are jumps. One entry per such pair of nodes.
+template <int B>
+std::vector<NodalForce<B>> counterforces(const DiscreteProblem<B>& problem, const ContactState<B>& contact);
+
+/// Their sums, per obstacle of the model; zero for obstacles that act on one body.
+template <int B>
+std::vector<std::array<double, B>> totals(const std::vector<NodalForce<B>>& forces, std::size_t obstacles);
+
+}  // namespace signorini

@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "core/fem/fixes.hpp"
+#include "core/fem/model.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/mortar/couple.hpp"
+
+namespace signorini {
+
+/// The numbers of the faces that an obstacle between two bodies picks of each.
+struct PairedFaces {
+  std::vector<Index> slave, master;
+};
+
+template <int D>
+PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t);
+
+/// The sides of an obstacle between two bodies, coupled. They see each other from anywhere.
+template <int D>
+MortarCoupling<D> couple_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
+                               const std::vector<Index>& master);
+
+/// The normal of a slave's node where some of its displacement is prescribed: contact acts along what is left of it.
+/// (On a plane of symmetry the mean normal of a curved surface is inclined, for faces are on one side only.)
+template <int D>
+struct FreeNormal {
+  Point<D> direction;     ///< of length 1
+  double part = 1;        ///< of the whole normal along it
+  double prescribed = 0;  ///< how far the node is moved along the whole normal by what is prescribed
+};
+
+/// Nothing where the displacement along the normal is prescribed.
+template <int D>
+std::optional<FreeNormal<D>> free_normal(const std::vector<FixedDirections<D>>& fixes, Index node,
+                                         const Point<D>& normal);
+
+/// What is prescribed at a node; null: nothing.
+template <int D>
+const FixedDirections<D>* fixed_at(const std::vector<FixedDirections<D>>& fixes, Index node);
+
+/// Of a face.
+template <int D>
+double longest_edge(const Mesh<D>& mesh, const Face<D>& face);
+
+}  // namespace signorini

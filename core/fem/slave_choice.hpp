@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/fem/model.hpp"
+#include "core/fem/nodes.hpp"
+
+namespace signorini {
+
+/// Which of the two bodies of an obstacle is the slave, and why.
+struct SlaveChoice {
+  bool exchanged = false;  ///< the second one, ObstacleTerm::other
+  std::string reason;      ///< a few words: "softer: modulus 1 beside 100"
+};
+
+/// One per obstacle of the model; of those that act on one body the reason is empty. Where the model leaves it open the
+/// slave is the softer body, by the moduli next to the faces that are closest to the other body; where they differ by
+/// less than a factor of 2 the one with the smaller faces there; else the first one. A side is no slave as long as the
+/// other one may be where all of it is prescribed along its normals, or where another obstacle acts on some of its
+/// nodes: these may be masters only. Error(Exit::input) as couple() and select_faces() have them.
+/// @param nodes of the coarsest mesh: finer ones have the same ratios
+template <int D>
+std::vector<SlaveChoice> choose_slaves(const Nodes<D>& nodes, const Model<D>& model);
+
+/// Makes the slave's faces those of ObstacleTerm::on.
+template <int D>
+void exchange_sides(const std::vector<SlaveChoice>& choices, Model<D>& model);
+
+}  // namespace signorini

@@ -1,0 +1,226 @@
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "tests/bodies/scenes.hpp"
+
+// Blocks on each other: stacks, edges, partial overlap, and what cannot be.
+
+namespace signorini::test {
+namespace {
+
+using std::numbers::pi;
+using tables::block, tables::fix, tables::load;
+using testing::HasSubstr;
+
+// Each contact carries the weight of what is above it.
+TEST(Stack, OfEightBlocksCarriesItsWeight) {
+  constexpr int blocks = 8;
+  constexpr double weight = 1e-3, width = 1, height = 0.5;
+  std::string text;
+  for (int k = 0; k < blocks; ++k) {
+    const std::string name = fmt::format("b{}", k);
+    const double shift = 0.03 * (k % 3), bottom = k * height;
+    text += block(name, fmt::format("[{}, {}]", shift, bottom), fmt::format("[{}, {}]", shift + width, bottom + height),
+                  fmt::format("[{}, {}]", 3 + k % 4, 2 + k % 2), material(k % 2 == 0 ? 1 : 4)) +
+            load(name, fmt::format("[0, -{}]", weight)) + fix(name, "left", "[0, \"free\"]");
+    if (k > 0) text += pair(name, "bottom", fmt::format("b{}", k - 1), "top");
+  }
+  Driver driver(scene_of(text + fix("b0", "bottom", "[\"free\", 0]") + "[refine]\nuniform = 2\n"));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  const StepReport& step = report.last();
+  for (int k = 1; k < blocks; ++k) {
+    const ContactReport& contact = step.contact[k - 1];
+    EXPECT_NEAR(contact.force[1], (blocks - k) * weight * width * height, 1e-9 * weight);
+    expect_opposite(contact);
+    EXPECT_EQ(contact.pair->slave, fmt::format("b{}", k % 2 == 0 ? k : k - 1)) << "the softer one";
+  }
+  expect_balance(step, 1e-9 * weight);
+  show("{} iterations\n", step.summary.iterations);
+  EXPECT_LE(step.summary.iterations, 25);
+}
+
+/// What presses within `part` of half the width, as a part of the whole.
+double force_within(const Driver& driver, double part) {
+  return driver.visit(0, [&](const auto& run) {
+    double inside = 0, all = 0;
+    for (const auto& node : run.results().contact.nodes) {
+      all += node.force[1];
+      if (std::abs(run.nodes().at(node.vertex)[0]) < part) inside += node.force[1];
+    }
+    return inside / all;
+  });
+}
+
+// The edges of a stiff block press into a soft one like those of a rigid punch: p = F / (pi sqrt(a^2 - x^2)). K. L.
+// Johnson, Contact Mechanics, 1985, ch. 2.8. The edge of the master lies within faces of the slave.
+TEST(Edges, OfAStiffBlockPressAsAPunchDoes) {
+  std::vector<double> error;
+  for (const int refinements : {1, 2, 3}) {
+    const std::string text = block("soft", "[-10, -10]", "[10, 0]", "[41, 20]") +
+                             block("stiff", "[-1, 0]", "[1, 1]", "[8, 4]", material(1e5)) +
+                             fix("soft", "bottom", "[0, 0]") + fix("stiff", "top", "[0, -0.01]") +
+                             pair("stiff", "bottom", "soft", "top") +
+                             fmt::format("[refine]\nuniform = {}\n", refinements);
+    Driver driver(scene_of(text));
+    const Report& report = driver.solve();
+    ASSERT_TRUE(report.converged()) << report.reason();
+    const ContactReport& contact = report.last().contact[0];
+    EXPECT_EQ(contact.pair->slave, "soft");
+    expect_opposite(contact);
+    const double part = 0.7;
+    error.push_back(std::abs(force_within(driver, part) - 2 / pi * std::asin(part)));
+    show("{} iterations, force within 0.7 of the width off by {:.2e}\n", report.last().summary.iterations,
+         error.back());
+    EXPECT_LE(report.last().summary.iterations, 15);
+  }
+  EXPECT_LT(error.back(), 0.04);
+  EXPECT_GT(std::log2(error.front() / error.back()) / 2, 1);
+}
+
+// Each hangs over the other one; which is the slave matters within the error of the mesh only.
+TEST(Edges, HangOverBothWays) {
+  std::vector<double> difference;
+  for (const int refinements : {2, 3, 4}) {
+    std::vector<double> force;
+    for (const char* slave : {"body", "other"}) {
+      Driver driver(scene_of(block("lower", "[0, 0]", "[1, 1]", "[5, 5]") +
+                             block("upper", "[0.43, 1]", "[1.6, 1.7]", "[7, 4]") + fix("lower", "bottom", "[0, 0]") +
+                             fix("upper", "top", "[0, -0.02]") +
+                             pair("upper", "bottom", "lower", "top", fmt::format("slave = \"{}\"\n", slave)) +
+                             fmt::format("[refine]\nuniform = {}\n", refinements)));
+      const Report& report = driver.solve();
+      ASSERT_TRUE(report.converged()) << report.reason();
+      expect_opposite(report.last().contact[0]);
+      expect_balance(report.last(), 1e-10);
+      force.push_back(report.last().contact[0].force[1]);
+    }
+    difference.push_back(std::abs(force[0] - force[1]) / force[0]);
+    show("forces {:.8g} {:.8g} differ by {:.2e}\n", force[0], force[1], difference.back());
+  }
+  EXPECT_LT(difference.back(), 1e-4);
+  EXPECT_GT(std::log2(difference.front() / difference.back()) / 2, 1);
+}
+
+// A wedge that is moved along x by 0.02 on a slope of 30 degrees climbs, though its nodes are prescribed along x.
+TEST(Wedge, ThatIsMovedClimbs) {
+  const std::string rise = "0.57735026918962573";
+  const auto polygon = [](const char* name, const std::string& points, double young) {
+    return fmt::format("[[body]]\nname = \"{}\"\nshape = \"polygon\"\npoints = {}\nsize = 0.3\n{}", name, points,
+                       material(young));
+  };
+  const std::string text =
+      polygon("wedge", fmt::format("[[0, 0], [1, {}], [1, 1.2], [0, 1.2]]", rise), 1) +
+      polygon("slope", fmt::format("[[-1, -2], [2, -2], [2, 1.1547005383792515], [-1, -{}]]", rise), 1e4) +
+      fix("wedge", "boundary", "[0.02, \"free\"]") + fix("slope", "edge0", "[0, 0]") + load("wedge", "[0, -1e-6]");
+  const std::string obstacle = pair("wedge", "edge0", "slope", "edge2", "slave = \"body\"\n");
+  Driver driver(scene_of(text + obstacle));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  const ContactReport& contact = report.last().contact[0];
+  EXPECT_NEAR(contact.displacement[1], 0.02 * std::sqrt(1.0 / 3), 1e-5);
+  EXPECT_NEAR(contact.force[1], 1e-6 * (1.2 - 0.5 / std::sqrt(3)), 1e-10);
+  expect_opposite(contact);
+  expect_balance(report.last(), 1e-11);
+  // What slips on the slope has no direction among what is free.
+  expect_error(text + pair("wedge", "edge0", "slope", "edge2", "slave = \"body\"\nfriction = 0.1\n", "elastic_coulomb"),
+               Exit::input, "neither along the slave's normal nor across it");
+}
+
+// The slave's nodes are moved along the other body: friction acts on neither, which the report does not hide.
+TEST(Slave, HasNoFrictionAlongWhatIsPrescribed) {
+  Driver driver(
+      scene_of(block("lower", "[0, 0]", "[2, 1]", "[8, 4]") + block("upper", "[0.5, 1]", "[1.5, 1.5]", "[4, 2]") +
+               fix("lower", "bottom", "[0, 0]") + fix("upper", "bottom", "[0.01, \"free\"]") +
+               fix("upper", "top", "[0.01, -0.01]") +
+               pair("upper", "bottom", "lower", "top", "slave = \"body\"\nfriction = 0.3\n", "elastic_coulomb")));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_NEAR(report.last().contact[0].force[0], 0, 1e-12);
+  EXPECT_GT(report.last().contact[0].force[1], 0);
+  expect_opposite(report.last().contact[0]);
+  expect_balance(report.last(), 1e-10);
+}
+
+/// A half disk on a block, whose slave the program chooses.
+int iterations(double ratio, int refinements) {
+  Driver driver(scene_of(fmt::format("[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\n"
+                                     "size = \"0.06 + 0.3 * sqrt(x^2 + y^2)\"\n{}[refine]\nuniform = {}\n",
+                                     material(1), refinements) +
+                         block("block", "[-2, -2]", "[2, 0]", "[32, 16]", material(ratio)) +
+                         fix("disk", "flat", "[0, -0.02]") + fix("block", "bottom", "[0, 0]") +
+                         pair("disk", "curved", "block", "top")));
+  EXPECT_TRUE(driver.solve().converged());
+  return driver.report().last().summary.iterations;
+}
+
+TEST(Stiffness, OfAnyRatioTakesAFewCycles) {
+  std::vector<int> cycles;
+  for (int k = 0; k <= 10; ++k) cycles.push_back(iterations(std::pow(10, -6 + 1.2 * k), 2));
+  const auto [least, most] = std::ranges::minmax(cycles);
+  show("{} to {} iterations\n", least, most);
+  EXPECT_LE(most, 2 * least);
+}
+
+/// A block that lies on another one, 0.01 above it at the start.
+std::string lying(const std::string& traction, const std::string& obstacle) {
+  return block("below", "[0, 0]", "[2, 1]", "[8, 4]") + block("above", "[0.5, 1.01]", "[1.5, 1.5]", "[9, 5]") +
+         fix("below", "bottom", "[0, 0]") + load("above", traction) + obstacle + "[refine]\nuniform = 2\n";
+}
+
+const std::string on_top = pair("above", "bottom", "below", "top"), away = pair("above", "bottom", "below", "bottom");
+
+TEST(Unheld, BodiesAreNamed) {
+  expect_error(lying("[0, 0.01]", on_top), Exit::no_solution, "translation along (0, 1) of the body 'above' around");
+  expect_error(lying("[0.001, -0.01]", on_top), Exit::no_solution,
+               "translation along (1, 0) of the body 'above' around");
+  expect_error(lying("[0, -0.01]", away), Exit::no_solution, "translation along (0, -1) of the body 'above' around");
+}
+
+// No contact: a warning, and a linear solve.
+TEST(Apart, BodiesAreSolvedOneByOne) {
+  const std::string held = lying("[0, -0.01]", away) + fix("above", "left", "[0, 0]");
+  Driver driver(scene_of(held));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("obstacle.0: no face of one body is in front of the other one's"));
+  EXPECT_EQ(report.last().contact[0].nodes, 0);
+  EXPECT_EQ(report.last().contact[0].force[1], 0);
+  // Without the obstacle:
+  Driver alone(scene_of(lying("[0, -0.01]", "") + fix("above", "left", "[0, 0]")));
+  ASSERT_TRUE(alone.solve().converged());
+  const std::vector<double> u = driver.solution(), expected = alone.solution(1);
+  ASSERT_GT(u.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(u[u.size() - expected.size() + k], expected[k], 1e-7);
+  show("{} iterations, one by one {}\n", report.last().summary.iterations, alone.report().last().summary.iterations);
+}
+
+TEST(Overlap, OfMoreThanAnElementIsNamed) {
+  const auto overlapping = [](double by) {
+    return block("below", "[0, 0]", "[2, 1]", "[8, 4]") +
+           block("above", fmt::format("[0.5, {}]", 1 - by), "[1.5, 1.5]", "[4, 4]") + fix("below", "bottom", "[0, 0]") +
+           fix("above", "top", "[0, 0]") + on_top;
+  };
+  for (const char* refined : {"", "[refine]\nuniform = 2\n"}) {
+    Driver driver(scene_of(overlapping(0.2) + refined));  // elements are 0.25 long
+    ASSERT_TRUE(driver.solve().converged());
+    EXPECT_GT(driver.report().last().contact[0].force[1], 0);
+    expect_error(overlapping(0.3) + refined, Exit::input, "the bodies overlap at the start, by 0.3 at (");
+  }
+  expect_error(overlapping(0.3), Exit::input, "the bodies overlap at the start, by 0.3 at (");
+  expect_error(overlapping(0.3), Exit::input, ", 0.7)");
+}
+
+// All of the boundary on both sides: faces on the far side do not see each other through the bodies.
+TEST(Overlap, IsNotSeenThroughBodies) {
+  Driver driver(scene_of(block("below", "[0, 0]", "[2, 1]", "[8, 4]") +
+                         block("above", "[0.5, 1]", "[1.5, 1.5]", "[4, 4]") + fix("below", "bottom", "[0, 0]") +
+                         fix("above", "top", "[0, -0.01]") + pair("above", "boundary", "below", "boundary")));
+  ASSERT_TRUE(driver.solve().converged());
+  EXPECT_GT(driver.report().last().contact[0].force[1], 0);
+}
+
+}  // namespace
+}  // namespace signorini::test
