@@ -131,12 +131,11 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
         "poisson = {}: quadratic elements of displacements alone lose accuracy in nearly incompressible material, "
         "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not",
         poisson)};
-  const char* instead = body.plane == Plane::axisymmetric ? "" : "; order = 2 does not lock";
   return {
       fmt::format("poisson = {}: linear elements are too stiff for nearly incompressible material, and refinement "
                   "helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at 0.49, and "
-                  "290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}{}",
-                  poisson, 2 * poisson / (1 - 2 * poisson), instead)};
+                  "290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not lock",
+                  poisson, 2 * poisson / (1 - 2 * poisson))};
 }
 
 namespace {
