@@ -47,6 +47,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model(t);
+  check_symmetry(hierarchy_, now);
   append(warnings, model_warnings(scene_, nodes(), now, body_));
   append(warnings, start_warnings(Nodes(hierarchy_.levels.front()), now));
 }
@@ -127,6 +128,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_.follows = follows_;
   place_before(scene_, D, accepted_t_, body_, model_);
   t_ = t;
+  check_symmetry(hierarchy_, model_);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(nodes(), model_, solution);

@@ -10,6 +10,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "core/mesh/mirror.hpp"
 #include "driver/contact_report.hpp"
 #include "driver/materials.hpp"
 #include "driver/numbers.hpp"
@@ -23,7 +24,8 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     {},
                     {},
                     {},
-                    solution.pressure};
+                    solution.pressure,
+                    conditions_across(nodes.mesh(), model)};
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
@@ -32,6 +34,25 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   return out;
 }
 
+namespace {
+
+/// Replaces a point by its image on the side of each plane of symmetry that is meshed.
+template <int D>
+Planes move_to_part(const Mesh<D>& mesh, Point<D>& x) {
+  Planes beyond = 0;
+  for (std::size_t m = 0; m < mesh.mirrors.size(); ++m) {
+    const Mirror& mirror = mesh.mirrors[m];
+    const auto side = [&](const Point<D>& p) { return p[mirror.axis] - mirror.at; };
+    const bool above = std::ranges::any_of(mesh.points, [&](const Point<D>& p) { return side(p) > 0; });
+    if (!(above ? side(x) < 0 : side(x) > 0)) continue;
+    x = reflected<D>(mirror, x);
+    beyond |= 1u << m;
+  }
+  return beyond;
+}
+
+}  // namespace
+
 template <int D>
 Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body) {
   Probes<D> probes;
@@ -39,6 +60,7 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
     const Scene::Probe& probe = scene.probes[number];
     Point<D> at;
     std::copy_n(probe.at.begin(), D, at.begin());
+    probes.beyond.push_back(move_to_part<D>(mesh, at));
     probes.names.push_back(probe.name);
     probes.places.push_back(locate<D>(mesh, at, probe.source.of("at")));
   }
@@ -47,11 +69,16 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
 
 namespace {
 
+/// Of the whole of what each condition stands for.
 template <int B>
 std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
-                                       const std::vector<std::array<double, B>>& forces) {
+                                       const std::vector<std::array<double, B>>& forces,
+                                       const std::vector<Mirror>& mirrors, const std::vector<Planes>& across) {
   std::vector<ForceReport> reports;
-  for (std::size_t k = 0; k < forces.size(); ++k) reports.push_back({numbers[k], {forces[k].begin(), forces[k].end()}});
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const auto whole = Whole(mirrors, across[k]).total(forces[k]);
+    reports.push_back({numbers[k], {whole.begin(), whole.end()}});
+  }
   return reports;
 }
 
@@ -68,7 +95,8 @@ void add_forces(const std::vector<std::array<double, B>>& forces, const std::vec
 
 /// Of a body, or of its parts: what touches one of them pushes the other one back.
 template <int B>
-std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Forces<B>& forces) {
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Forces<B>& forces,
+                                    const Whole& whole) {
   std::vector<std::string> names{body.name};
   if (!body.parts.empty()) names.clear();
   for (const Scene::Body& part : body.parts) names.push_back(part.name);
@@ -82,8 +110,21 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
                   balance.reactions);
     add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::body, name, 1, balance.contact);
     add_forces<B>(forces.contact, obstacles, scene.obstacles, &Scene::Obstacle::other, name, -1, balance.contact);
+    for (std::vector<double>* sum : {&balance.applied, &balance.reactions, &balance.contact}) *sum = whole.total(*sum);
   }
   return out;
+}
+
+Summary of_whole(Summary summary, const Whole& whole) {
+  summary.energy *= whole.copies();
+  for (IterationRecord& record : summary.history) record.energy *= whole.copies();
+  return summary;
+}
+
+std::vector<std::string> plane_names(const std::vector<Mirror>& mirrors) {
+  std::vector<std::string> names;
+  for (const Mirror& mirror : mirrors) names.push_back(fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at));
+  return names;
 }
 
 template <int D>
@@ -99,20 +140,25 @@ template <int D, int B>
 StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
+  const std::vector<Mirror>& mirrors = nodes.mesh().mirrors;
+  const Whole whole(mirrors, all_planes(nodes.mesh()));
   StepReport report;
   report.t = t;
-  report.summary = summary;
+  report.summary = of_whole(summary, whole);
   const Forces<B>& forces = results.forces;
-  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
-  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
+  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
+  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
-  report.bodies = {{body.name, summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0}};
-  report.balance = balances(scene, body, forces);
+  report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
+                    plane_names(mirrors), whole.copies()}};
+  report.balance = balances(scene, body, forces, whole);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
     const auto probe = std::ranges::find(scene.probes, probes.names[k], &Scene::Probe::name);
     report.probes.push_back({probes.names[k], probe->body, {value.begin(), value.end()}});
+    for (std::size_t m = 0; m < mirrors.size() && B == D; ++m)
+      if (probes.beyond[k] >> m & 1u) report.probes.back().value[mirrors[m].axis] *= -1;
   }
   return report;
 }

@@ -8,6 +8,7 @@
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
 #include "driver/nested_solver.hpp"
+#include "driver/symmetry.hpp"
 
 namespace signorini {
 
@@ -20,6 +21,7 @@ struct Results {
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
+  ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
 };
 
 template <int D, int B>
@@ -30,6 +32,7 @@ template <int D>
 struct Probes {
   std::vector<std::string> names;
   std::vector<Place<D>> places;
+  std::vector<Planes> beyond;  ///< per probe the planes of symmetry on whose other side it is; places are images then
 };
 
 /// Those of a body; Error(Exit::input) for one outside it.

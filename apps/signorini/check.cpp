@@ -16,8 +16,8 @@
 #include "driver/nested_solver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
-
 #include "driver/results.hpp"
+#include "driver/symmetry.hpp"
 #include "driver/touching_bodies.hpp"
 #include "methods/automatic.hpp"
 #include "methods/solve.hpp"
@@ -37,6 +37,13 @@ void print_parts(const Mesh<D>& mesh) {
   fmt::print("parts of the coarsest mesh:\n");
   for (const Part& part : mesh.parts) fmt::print("  {:<16} {} faces\n", part.name, part.faces.size());
   fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
+}
+
+void print_symmetry(const std::vector<Mirror>& mirrors) {
+  if (mirrors.empty()) return;
+  fmt::print("symmetry: one of {} copies is meshed, beside", 1 << mirrors.size());
+  for (const Mirror& mirror : mirrors) fmt::print(" {} = {:g}", "xyz"[mirror.axis], mirror.at);
+  fmt::print("\n");
 }
 
 void print_geometry(const std::vector<SurfacePiece>& pieces) {
@@ -122,7 +129,8 @@ void print_solver(const Scene::Solver& options, std::optional<Coarsening> below,
 /// What is wrong somewhere in the body or with the obstacles shows in the discrete problems only. Returns the last
 /// model.
 template <int D, int B>
-Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t body, const Nodes<D>& nodes) {
+Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t body, const Nodes<D>& nodes,
+                     const MeshHierarchy<D>& hierarchy) {
   Model<B> model;
   Discretization<B> discretization;
   const bool alike = !uses_t(scene, scene.bodies[body]);
@@ -130,6 +138,7 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
     if (alike && t != scene.steps.at.back()) continue;
     at_step(scene, t, [&] {
       Model<B> now = build_model<B>(scene, D, registry, t, body);
+      check_symmetry(hierarchy, now);
       if (discretization.problem.A.size() == 0)
         discretization = discretize<D, B>(nodes, now);
       else
@@ -152,7 +161,8 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const int order = scene.bodies[body].order;
   const Nodes<D> nodes = nodes_of(hierarchy, order).back();
   locate_probes(hierarchy.finest(), scene, body);
-  const Model<B> model = check_steps<D, B>(scene, registry, body, nodes);
+  const Model<B> model = check_steps<D, B>(scene, registry, body, nodes, hierarchy);
+  print_symmetry(hierarchy.finest().mirrors);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);
   print_levels(hierarchy, order, model);

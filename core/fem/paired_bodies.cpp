@@ -10,6 +10,7 @@
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/mortar/couple.hpp"
 
 namespace signorini {
@@ -104,8 +105,11 @@ class Coupler {
     take_side(slave_of_, master_of_, p, obstacle);
     const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, found.gap[k]});
-    for (int i = 0; i < D; ++i) node.away[i] = -found.normal[k][i];
-    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(found.normal[k], fixed, with_friction)});
+    Point<D> normal = found.normal[k];
+    keep_within<D>(nodes_.mesh().mirrors, nodes_.at(p), normal);
+    normalise(normal);
+    for (int i = 0; i < D; ++i) node.away[i] = -normal[i];
+    Row& row = rows_.emplace_back(Row{p, {}, {}, projector(normal, fixed, with_friction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);

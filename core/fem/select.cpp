@@ -11,6 +11,7 @@
 #include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -52,8 +53,9 @@ double basis_integral(Plane plane, const Mesh<D>& mesh, const std::array<Index, 
 
 std::string describe(const Selection& selection) {
   if (!selection.where)
-    return fmt::format("part '{}' has no boundary face (the axis of an axisymmetric body is no boundary)",
-                       selection.part.value_or("boundary"));
+    return fmt::format(
+        "part '{}' has no boundary face (the axis of an axisymmetric body and planes of symmetry are no boundary)",
+        selection.part.value_or("boundary"));
   return fmt::format(
       "no boundary face{} has all its vertices where '{}'; faces of the coarsest mesh are picked, which a smaller "
       "'size' or more 'cells' makes smaller",
@@ -110,6 +112,7 @@ std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surf
       for (int i = 0; i < D; ++i) sum[i] += n[i];
       measure += std::sqrt(dot(n, n));
     }
+    keep_within<D>(mesh.mirrors, nodes.at(surface.nodes[v]), sum);
     if (normalise(sum) > 1e-12 * measure) normals[v] = sum;
   }
   return normals;
