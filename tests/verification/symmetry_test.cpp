@@ -175,8 +175,8 @@ Report solved_pair(const Mesh<D>& upper, const Mesh<D>& lower, const std::string
                         name, folder.write(name + std::string(".msh"), msh(*mesh, Motion<D>())));
   text += fmt::format(
       "[[obstacle]]\n{}\nbody = \"u\"\non = \"bottom\"\nother = \"l\"\nother_on = \"top\"\n"
-      "gap = \"0.02*(x^2 + {})\"\n[refine]\nuniform = 1\n[steps]\ncount = 2\n{}",
-      type, D == 3 ? "y^2" : "0", rest);
+      "gap = \"0.02*(x^2 + {})\"\n[refine]\nuniform = {}\n[steps]\ncount = 2\n{}",
+      type, D == 3 ? "y^2" : "0", D == 3 ? 2 : 1, rest);
   Driver driver(parse_scene(text, "test.toml", ".", std::vector<std::string>{"solver.tolerance=1e-13"}));
   driver.solve();
   EXPECT_TRUE(driver.report().converged()) << driver.report().reason();
@@ -309,7 +309,7 @@ TEST(Symmetry, QuarterOfHertzsBall) {
   EXPECT_NEAR(q.force[2] / w.force[2], 1, 2e-3);
   EXPECT_NEAR(q.radius / a, 1, 0.015);
   EXPECT_NEAR(q.max_pressure / p0, 1, 0.015);
-  EXPECT_LT(3 * quarter.last().summary.level_unknowns.back(), whole.last().summary.level_unknowns.back());
+  EXPECT_LT(2.5 * quarter.last().summary.level_unknowns.back(), whole.last().summary.level_unknowns.back());
   EXPECT_NEAR(q.displacement[2] / w.displacement[2], 1, 2e-3);
   EXPECT_EQ(q.force[0], 0);
 }
@@ -350,7 +350,7 @@ std::string floor(const std::string& more) {
 
 TEST(Symmetry, RefusesWhatIsNotSymmetric) {
   const std::string held = fix("on = \"top\"", "[0, 0]");
-  EXPECT_THAT(refusal(load("", "[0, -0.01]")), HasSubstr("(0, 1)"));  // falls along the plane
+  EXPECT_THAT(refusal(load("", "[0, -0.01]")), HasSubstr("translation along (0, -1)"));
   EXPECT_EQ(refusal(held), "");
   EXPECT_THAT(refusal(held, "\"x\", \"x = 1\""), HasSubstr("two planes of symmetry across x"));
   EXPECT_THAT(refusal(held, "\"r\""), HasSubstr("found 'r'"));
