@@ -165,6 +165,29 @@ TEST(Symmetry, QuarterOfAMembrane) {
   }
 }
 
+/// A cube squeezed between two spheres, of which one is in the scene of the eighth: its force is that of one, and not
+/// of both. Three planes hold the eighth.
+TEST(Symmetry, EighthOfASqueezedCube) {
+  const std::vector<Mirror> mirrors{{0, 0.0}, {1, 0.0}, {2, 0.0}};
+  const Mesh<3> eighth = box({0, 0, 0}, {1, 1, 1}, {3, 3, 3});
+  const auto sphere = [](int side) {
+    return fmt::format(
+        "[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\nwhere = \"z == {0}\"\nshape = \"sphere\"\n"
+        "center = [0, 0, {1}]\nradius = 3\n",
+        side, side * 3.98);
+  };
+  const std::string material = "young = 1\npoisson = 0.3\n", fine = "[refine]\nuniform = 1\n";
+  const Report part = solved(eighth, material, sphere(1) + fine + planes(mirrors)),
+               whole = solved(whole_of(eighth, mirrors), material, sphere(1) + sphere(-1) + fine);
+  const StepReport &a = part.last(), &b = whole.last();
+  EXPECT_EQ(a.bodies[0].copies, 8);
+  EXPECT_NEAR(a.summary.energy / b.summary.energy, 1, 1e-8);
+  EXPECT_NEAR(a.contact[0].force[2] / b.contact[0].force[2], 1, 1e-8);
+  EXPECT_NEAR(a.contact[0].area / b.contact[0].area, 1, 0.02);
+  EXPECT_NEAR(a.contact[0].max_pressure / b.contact[0].max_pressure, 1, 0.02);
+  EXPECT_LT(b.contact[0].force[2], -1e-3);
+}
+
 /// Two bodies from meshes, "u" on "l", the gap between their flat sides one of curved ones.
 template <int D>
 Report solved_pair(const Mesh<D>& upper, const Mesh<D>& lower, const std::string& type, const std::string& rest) {
