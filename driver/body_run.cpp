@@ -63,6 +63,7 @@ Model<B> BodyRun<D, B>::model(double t) const {
 template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model(t);
+  check_symmetry(hierarchy_, now);
   append(warnings, model_warnings(scene_, nodes(), now, body_));
   const Nodes<D> coarsest(hierarchy_.levels.front());
   append(warnings, start_warnings(coarsest, now));
@@ -145,6 +146,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   model_.follows = follows_;
   place_before(scene_, D, accepted_t_, body_, model_);
   t_ = t;
+  check_symmetry(hierarchy_, model_);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_);

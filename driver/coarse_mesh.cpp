@@ -14,8 +14,10 @@
 #include "core/io/surface_complaint.hpp"
 #include "core/mesh/join.hpp"
 #include "core/mesh/meridian.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/structured.hpp"
+#include "driver/halved_shape.hpp"
 #include "driver/materials.hpp"
 #include "driver/memory.hpp"
 #include "driver/mesh_warnings.hpp"
@@ -109,11 +111,13 @@ int dimension_of(const Scene& scene) {
 template <int D>
 Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::vector<std::string>* warnings,
                 const Progress& progress) {
-  Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, given.shape);
+  Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, halved_shape(scene, given));
+  set_mirrors(mesh, scene.symmetry.planes, scene.symmetry.source.of("planes"));
   if constexpr (D == 2)
     if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
   if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))
     geometry::give_geometry(mesh, file->reading.surfaces, file->reading.crease);
+  remove_faces_on_mirrors(mesh);
   return mesh;
 }
 

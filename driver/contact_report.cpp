@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/mesh/mirror.hpp"
 #include "core/scene/reference_point.hpp"
 #include "driver/numbers.hpp"
 
@@ -39,6 +40,17 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   return report;
 }
 
+/// Of what the obstacle stands for beyond planes of symmetry, too.
+template <int B>
+ContactSummary<B> of_whole(ContactSummary<B> contact, const Whole& whole) {
+  contact.area *= whole.copies();
+  contact.force = whole.total(contact.force);
+  contact.tangential_force = whole.total(contact.tangential_force);
+  contact.undetermined_force *= whole.copies();
+  contact.dissipated *= whole.copies();
+  return contact;
+}
+
 /// Of a disk with that area; in a plane half the width.
 double radius(int dimension, Plane plane, double area) {
   return dimension == 3 || plane == Plane::axisymmetric ? std::sqrt(area / std::numbers::pi) : area / 2;
@@ -54,6 +66,23 @@ void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::
   }
 }
 
+/// Calls use(x, force) for a force at a point and its images beyond planes of symmetry.
+template <int D, class Use>
+void each_image(const std::vector<Mirror>& mirrors, Planes across, const Point<D>& x,
+                const std::array<double, D>& force, const Use& use) {
+  for (Planes image = 0; image < 1u << mirrors.size(); ++image) {
+    if ((image & across) != image) continue;
+    Point<D> y = x;
+    std::array<double, D> f = force;
+    for (std::size_t m = 0; m < mirrors.size(); ++m) {
+      if (!(image >> m & 1u)) continue;
+      y = reflected<D>(mirrors[m], y);
+      f[mirrors[m].axis] *= -1;
+    }
+    use(y, f);
+  }
+}
+
 template <int D, int B>
 void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& results,
                  std::vector<ContactReport>& reports) {
@@ -65,9 +94,11 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
     if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
     const auto add = [&](Index node, Index obstacle, const std::array<double, B>& force, bool on_other) {
       ContactReport& report = reports[obstacle];
-      Point<D> lever = nodes.control_point(node);
-      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
-      add_moment<D>(lever, force, on_other ? report.pair->moment : report.moment);
+      each_image<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], nodes.control_point(node), force,
+                    [&](Point<D> lever, const std::array<double, D>& of_image) {
+                      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
+                      add_moment<D>(lever, of_image, on_other ? report.pair->moment : report.moment);
+                    });
     };
     for (const ContactNode<B>& node : results.contact.nodes)
       add(node.vertex, node.obstacle, node.force, results.slaves[node.obstacle].exchanged);
@@ -129,15 +160,19 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
                                            double t, std::size_t body) {
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
   const ContactForces<B> forces = contact_forces(results);
+  std::vector<Whole> whole;
+  for (const Planes across : results.across.obstacles) whole.emplace_back(nodes.mesh().mirrors, across);
   std::vector<ContactReport> reports;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    ContactReport& report = reports.emplace_back(totals(results.contact.obstacles[k], results.deformed[k]));
+    ContactReport& report =
+        reports.emplace_back(totals(of_whole(results.contact.obstacles[k], whole[k]), results.deformed[k]));
     report.penetration_between_nodes = results.between_nodes[k];
     report.obstacle = numbers[k];
     const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
     report.body = obstacle.body;
     if (!obstacle.other.empty())
-      add_pair<B>(obstacle, results.slaves[k], forces.on_body[k], forces.on_other[k], report);
+      add_pair<B>(obstacle, results.slaves[k], whole[k].total(forces.on_body[k]), whole[k].total(forces.on_other[k]),
+                  report);
     if (B == 1) continue;
     const std::array<double, 3> about = reference_point(obstacle, t);
     report.moment_about.assign(about.begin(), about.begin() + D);
@@ -145,6 +180,9 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
   add_moments(nodes, scene.bodies[body].plane, results, reports);
   for (ContactReport& report : reports) report.radius = radius(D, scene.bodies[body].plane, report.area);
   add_reachable(results, reports);
+  for (std::size_t k = 0; k < reports.size(); ++k)
+    for (std::size_t i = 0; i < D && B == D; ++i)
+      if (whole[k].cancels(static_cast<int>(i))) reports[k].displacement[i] = 0;
   return reports;
 }
 

@@ -10,6 +10,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "core/mesh/mirror.hpp"
 #include "driver/contact_report.hpp"
 #include "driver/materials.hpp"
 #include "driver/numbers.hpp"
@@ -26,7 +27,8 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     {},
                     solution.pressure,
                     {},
-                    std::move(slaves)};
+                    std::move(slaves),
+                    conditions_across(nodes.mesh(), model)};
   out.slaves.resize(model.obstacles.size());
   out.counterforces = counterforces(solution.discretization.problem, out.contact);
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
@@ -37,6 +39,25 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   return out;
 }
 
+namespace {
+
+/// Replaces a point by its image on the side of each plane of symmetry that is meshed.
+template <int D>
+Planes move_to_part(const Mesh<D>& mesh, Point<D>& x) {
+  Planes beyond = 0;
+  for (std::size_t m = 0; m < mesh.mirrors.size(); ++m) {
+    const Mirror& mirror = mesh.mirrors[m];
+    const auto side = [&](const Point<D>& p) { return p[mirror.axis] - mirror.at; };
+    const bool above = std::ranges::any_of(mesh.points, [&](const Point<D>& p) { return side(p) > 0; });
+    if (!(above ? side(x) < 0 : side(x) > 0)) continue;
+    x = reflected<D>(mirror, x);
+    beyond |= 1u << m;
+  }
+  return beyond;
+}
+
+}  // namespace
+
 template <int D>
 Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body) {
   Probes<D> probes;
@@ -44,6 +65,7 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
     const Scene::Probe& probe = scene.probes[number];
     Point<D> at;
     std::copy_n(probe.at.begin(), D, at.begin());
+    probes.beyond.push_back(move_to_part<D>(mesh, at));
     probes.names.push_back(probe.name);
     probes.places.push_back(locate<D>(mesh, at, probe.source.of("at")));
   }
@@ -52,11 +74,16 @@ Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t bod
 
 namespace {
 
+/// Of the whole of what each condition stands for.
 template <int B>
 std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
-                                       const std::vector<std::array<double, B>>& forces) {
+                                       const std::vector<std::array<double, B>>& forces,
+                                       const std::vector<Mirror>& mirrors, const std::vector<Planes>& across) {
   std::vector<ForceReport> reports;
-  for (std::size_t k = 0; k < forces.size(); ++k) reports.push_back({numbers[k], {forces[k].begin(), forces[k].end()}});
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const auto whole = Whole(mirrors, across[k]).total(forces[k]);
+    reports.push_back({numbers[k], {whole.begin(), whole.end()}});
+  }
   return reports;
 }
 
@@ -73,7 +100,8 @@ void add_forces(const std::vector<std::array<double, B>>& forces, const std::vec
 
 /// Of a body, or of its parts: what touches one of them pushes the other one back.
 template <int D, int B>
-std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Results<D, B>& results) {
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Results<D, B>& results,
+                                    const Whole& whole) {
   const Forces<B>& forces = results.forces;
   const ContactForces<B> contact = contact_forces(results);
   std::vector<std::string> names{body.name};
@@ -89,8 +117,21 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
                   balance.reactions);
     add_forces<B>(contact.on_body, obstacles, scene.obstacles, &Scene::Obstacle::body, name, balance.contact);
     add_forces<B>(contact.on_other, obstacles, scene.obstacles, &Scene::Obstacle::other, name, balance.contact);
+    for (std::vector<double>* sum : {&balance.applied, &balance.reactions, &balance.contact}) *sum = whole.total(*sum);
   }
   return out;
+}
+
+Summary of_whole(Summary summary, const Whole& whole) {
+  summary.energy *= whole.copies();
+  for (IterationRecord& record : summary.history) record.energy *= whole.copies();
+  return summary;
+}
+
+std::vector<std::string> plane_names(const std::vector<Mirror>& mirrors) {
+  std::vector<std::string> names;
+  for (const Mirror& mirror : mirrors) names.push_back(fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at));
+  return names;
 }
 
 template <int D>
@@ -106,20 +147,25 @@ template <int D, int B>
 StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
                        double t, const Summary& summary, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
+  const std::vector<Mirror>& mirrors = nodes.mesh().mirrors;
+  const Whole whole(mirrors, all_planes(nodes.mesh()));
   StepReport report;
   report.t = t;
-  report.summary = summary;
+  report.summary = of_whole(summary, whole);
   const Forces<B>& forces = results.forces;
-  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied);
-  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions);
+  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
+  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
-  report.bodies = {{body.name, summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0}};
-  report.balance = balances(scene, body, results);
+  report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
+                    plane_names(mirrors), whole.copies()}};
+  report.balance = balances(scene, body, results, whole);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
     const auto probe = std::ranges::find(scene.probes, probes.names[k], &Scene::Probe::name);
     report.probes.push_back({probes.names[k], probe->body, {value.begin(), value.end()}});
+    for (std::size_t m = 0; m < mirrors.size() && B == D; ++m)
+      if (probes.beyond[k] >> m & 1u) report.probes.back().value[mirrors[m].axis] *= -1;
   }
   return report;
 }
@@ -138,12 +184,11 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
         "poisson = {}: quadratic elements of displacements alone lose accuracy in nearly incompressible material, "
         "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not",
         poisson)};
-  const char* instead = body.plane == Plane::axisymmetric ? "" : "; order = 2 does not lock";
   return {
       fmt::format("poisson = {}: linear elements are too stiff for nearly incompressible material, and refinement "
                   "helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at 0.49, and "
-                  "290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}{}",
-                  poisson, 2 * poisson / (1 - 2 * poisson), instead)};
+                  "290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not lock",
+                  poisson, 2 * poisson / (1 - 2 * poisson))};
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include "core/fem/rigid_gap.hpp"
 #include "core/fem/slave_choice.hpp"
 #include "driver/nested_solver.hpp"
+#include "driver/symmetry.hpp"
 
 namespace signorini {
 
@@ -24,6 +25,7 @@ struct Results {
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
   std::vector<NodalForce<B>> counterforces;              ///< on masters
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
+  ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
 };
 
 /// @param slaves choose_slaves() of the model; none: of each obstacle the first body is
@@ -36,6 +38,7 @@ template <int D>
 struct Probes {
   std::vector<std::string> names;
   std::vector<Place<D>> places;
+  std::vector<Planes> beyond;  ///< per probe the planes of symmetry on whose other side it is; places are images then
 };
 
 /// Those of a body; Error(Exit::input) for one outside it.

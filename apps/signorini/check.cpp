@@ -17,8 +17,8 @@
 #include "driver/nested_solver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
-
 #include "driver/results.hpp"
+#include "driver/symmetry.hpp"
 #include "driver/touching_bodies.hpp"
 #include "methods/automatic.hpp"
 #include "methods/solve.hpp"
@@ -38,6 +38,13 @@ void print_parts(const Mesh<D>& mesh) {
   fmt::print("parts of the coarsest mesh:\n");
   for (const Part& part : mesh.parts) fmt::print("  {:<16} {} faces\n", part.name, part.faces.size());
   fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
+}
+
+void print_symmetry(const std::vector<Mirror>& mirrors) {
+  if (mirrors.empty()) return;
+  fmt::print("symmetry: one of {} copies is meshed, beside", 1 << mirrors.size());
+  for (const Mirror& mirror : mirrors) fmt::print(" {} = {:g}", "xyz"[mirror.axis], mirror.at);
+  fmt::print("\n");
 }
 
 void print_geometry(const std::vector<SurfacePiece>& pieces) {
@@ -138,6 +145,7 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
     if (alike && t != scene.steps.at.back()) continue;
     at_step(scene, t, [&] {
       Model<B> now = build_model<B>(scene, D, registry, t, body);
+      check_symmetry(hierarchy, now);
       if constexpr (D == B) {
         if (slaves.empty()) slaves = choose_slaves(Nodes(hierarchy.levels.front()), now);
         exchange_sides(slaves, now);
@@ -166,6 +174,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   locate_probes(hierarchy.finest(), scene, body);
   std::vector<SlaveChoice> slaves;
   const Model<B> model = check_steps<D, B>(scene, registry, body, hierarchy, nodes, slaves);
+  print_symmetry(hierarchy.finest().mirrors);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);
   print_levels(hierarchy, order, model);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -63,7 +64,10 @@ Point<D> ContactSurface<D, B>::middle(const ContactNode<B>& node) const {
     area += share;
   }
   for (double& x : sum) x /= area;
-  return area > 0 ? sum : nodes_.at(node.vertex);
+  if (!(area > 0)) return nodes_.at(node.vertex);
+  for (const Mirror& mirror : nodes_.mesh().mirrors)  // its hat function goes on beyond
+    if (lies_on<D>(mirror, nodes_.at(node.vertex))) sum[mirror.axis] = mirror.at;
+  return sum;
 }
 
 template class ContactSurface<2, 1>;

@@ -1,6 +1,7 @@
 #include "core/fem/fixes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -10,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -30,7 +32,7 @@ void snap_to_axis(double* d) {
 
 // One normal per group of faces that meet smoothly at a vertex.
 template <int D>
-std::vector<Point<D>> group_normals(const Mesh<D>& mesh, const Index* faces, std::size_t count) {
+std::vector<Point<D>> group_normals(const Mesh<D>& mesh, const Point<D>& x, const Index* faces, std::size_t count) {
   std::vector<Point<D>> area(count), unit(count);
   std::vector<std::size_t> group(count);
   std::iota(group.begin(), group.end(), std::size_t{0});
@@ -50,6 +52,7 @@ std::vector<Point<D>> group_normals(const Mesh<D>& mesh, const Index* faces, std
     for (std::size_t i = 0; i < count; ++i)
       if (group[i] == g)
         for (int k = 0; k < D; ++k) sum[k] += area[i][k];
+    keep_within<D>(mesh.mirrors, x, sum);
     if (normalise(sum) > 0) normals.push_back(sum);
   }
   return normals;
@@ -62,11 +65,15 @@ class FixCollector {
   FixCollector(const Nodes<D>& nodes, const Model<B>& model)
       : nodes_(nodes), mesh_(nodes.mesh()), t_(model.t), slot_(static_cast<std::size_t>(nodes.size()), -1) {
     // What is prescribed first stays, hence backwards.
-    if (B == D && model.plane == Plane::axisymmetric) add_axis();
+    if constexpr (B == D) {
+      if (model.plane == Plane::axisymmetric) add_plane({.axis = 0, .at = 0});
+      for (const Mirror& mirror : mesh_.mirrors) add_plane(mirror);
+    }
     for (auto number = static_cast<Index>(model.fixes.size()) - 1; number >= 0; --number)
       add_fix(model.fixes[number], number);
     for (const Doubt& doubt : doubts_)
-      if (doubt.later < 0 && doubt.by > same_value * largest_) refuse_on_axis(model.fixes[doubt.earlier], doubt);
+      if (doubt.later < 0 && doubt.by > same_value * largest_)
+        refuse_on_plane(model.fixes[doubt.earlier], doubt, model.plane);
   }
 
   std::vector<FixedDirections<B>> fixes;
@@ -97,19 +104,21 @@ class FixCollector {
     return fixes[slot_[p]];
   }
 
-  void add_axis() {
-    double radial[B] = {};
-    radial[0] = 1;
+  void add_plane(const Mirror& mirror) {
+    double across[B] = {};
+    across[mirror.axis] = 1;
     for (Index p = 0; p < nodes_.size(); ++p)
-      if (nodes_.at(p)[0] == 0) at(p).add(radial, 0, -1);
+      if (lies_on<D>(mirror, nodes_.at(p))) at(p).add(across, 0, -1);
   }
 
-  [[noreturn]] void refuse_on_axis(const Fix<B>& fix, const Doubt& doubt) const {
-    input_error(
-        fix.on.origin,
-        fmt::format("prescribes a radial displacement that is {} off at (0, {}), on the axis of an axisymmetric "
-                    "body, where it is zero; expected 0 or \"free\" there",
-                    doubt.by, nodes_.at(doubt.vertex)[1]));
+  [[noreturn]] void refuse_on_plane(const Fix<B>& fix, const Doubt& doubt, Plane plane) const {
+    const Point<D>& x = nodes_.at(doubt.vertex);
+    const bool axis = plane == Plane::axisymmetric && x[0] == 0;
+    input_error(fix.on.origin,
+                fmt::format("prescribes a {} displacement that is {} off at ({}), on {}, where it is zero; "
+                            "expected 0 or \"free\" there",
+                            axis ? "radial" : "normal", doubt.by, fmt::join(x, ", "),
+                            axis ? "the axis of an axisymmetric body" : "a plane of symmetry"));
   }
 
   void add_fix(const Fix<B>& fix, Index number) {
@@ -121,7 +130,7 @@ class FixCollector {
       if constexpr (B == D)
         if (fix.frame == Frame::normal) {
           const Index* faces = picked.around.data() + picked.first[v];
-          for (const Point<D>& n : group_normals(mesh_, faces, picked.first[v + 1] - picked.first[v]))
+          for (const Point<D>& n : group_normals<D>(mesh_, nodes_.at(p), faces, picked.first[v + 1] - picked.first[v]))
             add_normal(fix, number, p, n);
           continue;
         }
@@ -191,7 +200,7 @@ bool FixedDirections<B>::along_axes() const {
 
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model) {
-  if (model.fixes.empty() && model.plane != Plane::axisymmetric) return {};
+  if (model.fixes.empty() && model.plane != Plane::axisymmetric && nodes.mesh().mirrors.empty()) return {};
   std::vector<FixedDirections<B>> fixes = FixCollector<D, B>(nodes, model).fixes;
   std::erase_if(fixes, [](const auto& f) { return f.count == 0; });
   std::sort(fixes.begin(), fixes.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });

@@ -12,7 +12,8 @@ struct FixedDirections {
   int count = 0;
   double direction[B][B] = {};
   double value[B] = {};
-  Index fix[B] = {};  ///< number in Model::fixes that each comes from, -1: the axis of an axisymmetric body
+  /// Number in Model::fixes that each comes from, -1: the axis of an axisymmetric body, or a plane of symmetry.
+  Index fix[B] = {};
 
   /// Adds the condition d . v = v0 (d a unit vector), solved for the part of d that is not yet prescribed. Nothing
   /// happens where there is no such part; then what is returned says what holds instead.
@@ -35,8 +36,8 @@ struct FixConflict {
 /// the later [[fix]] holds. In a normal frame the components are those along the outer normal, averaged over the picked
 /// faces around the vertex, and along the tangents (see tangents()); where these faces fall into groups whose normals
 /// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal.
-/// On the axis of an axisymmetric elastic body, r = 0, the radial displacement is zero; Error(Exit::input) where a fix
-/// prescribes another one.
+/// On the axis of an axisymmetric elastic body, r = 0, the radial displacement is zero, and on planes of symmetry the
+/// one across them; Error(Exit::input) where a fix prescribes another one.
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model);
 

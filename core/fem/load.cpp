@@ -32,7 +32,7 @@ struct Loaded {
 /// is one degree more.
 template <int D, int K, int P>
 std::span<const QuadraturePoint<K>> rule_for(bool simple, bool axisymmetric) {
-  if (axisymmetric) return simple ? quadrature2<K>() : quadrature5<K>();
+  if (axisymmetric) return simple && P == 1 ? quadrature2<K>() : quadrature5<K>();
   if (simple) return P == 1 ? midpoint_rule<K>() : quadrature2<K>();
   return P == 1 && K == D ? quadrature2<K>() : quadrature5<K>();
 }

@@ -27,7 +27,7 @@ inline constexpr double lambda_of_displacements = 3;
 template <int B>
 bool has_pressure(const Model<B>& model, const Material<B>& material) {
   constexpr double above = 1 + 1e-9;  // Poisson's ratio 0.45 itself is not, whatever rounding makes of it
-  return model.pressure != Pressure::none && !(B == 2 && model.plane != Plane::strain) &&
+  return model.pressure != Pressure::none && !(B == 2 && model.plane == Plane::stress) &&
          material.lambda > above * nearly_incompressible * material.mu;
 }
 

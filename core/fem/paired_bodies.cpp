@@ -10,6 +10,7 @@
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -76,7 +77,10 @@ class Coupler {
 
   void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
     const Index p = nodes_.of_vertex(found.node[k]);
-    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, found.normal[k]);
+    Point<D> normal = found.normal[k];
+    keep_within<D>(nodes_.mesh().mirrors, nodes_.at(p), normal);
+    normalise(normal);
+    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
     if (!free) return;
     const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);

@@ -7,6 +7,7 @@
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
 #include "core/fem/polynomial_fit.hpp"
+#include "core/mesh/mirror.hpp"
 
 /// What recoveries of pressures and tractions have in common.
 namespace signorini {
@@ -123,24 +124,30 @@ class SurfaceSamples {
   SurfaceSamples(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
       : nodes_(nodes), surface_(surface), faces_(faces), middle_(static_cast<std::size_t>(faces.size())) {}
 
-  /// At the middles of the nodes in `some`, seen from node k in the plane that touches there. Where these reach the
-  /// axis of a body of revolution they are mirrored.
-  /// @param value value(node, mirrored)
+  /// At the middles of the nodes in `some`, seen from node k in the plane that touches there. Where these reach a plane
+  /// of symmetry, or the axis of a body of revolution, their mirror images count, too.
+  /// @param value value(node, mirrored): a bit for each axis along which the sample is mirrored
   template <class Value>
   std::vector<Sample<D - 1>> around(Index k, const std::vector<Index>& some, const Value& value) const {
     const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
     Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
+    keep_within<D>(nodes_.mesh().mirrors, origin, normal);
     normalise(normal);
     const auto axes = tangents(normal);
-    const bool both_sides = surface_.plane() == Plane::axisymmetric && std::ranges::any_of(some, [&](Index s) {
-                              return nodes_.at(faces_.node(s).vertex)[0] == 0;
-                            });
+    const std::vector<Mirror> near = mirrors_near(some);
     std::vector<Sample<D - 1>> out;
     for (const Index s : some)
-      for (const bool mirrored : {false, true}) {
-        if (mirrored && !both_sides) continue;
+      for (unsigned image = 0; image < 1u << near.size(); ++image) {
         Point<D> at = middle(s);
-        if (mirrored) at[0] = -at[0];
+        unsigned mirrored = 0;
+        bool again = false;  // on the plane it is its own image
+        for (std::size_t m = 0; m < near.size(); ++m) {
+          if (!(image >> m & 1u)) continue;
+          again = again || lies_on<D>(near[m], at);
+          at = reflected<D>(near[m], at);
+          mirrored |= 1u << near[m].axis;
+        }
+        if (again) continue;
         const Point<D> from = difference<D>(at, origin);
         Sample<D - 1>& sample = out.emplace_back();
         for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
@@ -150,6 +157,15 @@ class SurfaceSamples {
   }
 
  private:
+  std::vector<Mirror> mirrors_near(const std::vector<Index>& some) const {
+    std::vector<Mirror> out = nodes_.mesh().mirrors;
+    if (surface_.plane() == Plane::axisymmetric) out.push_back({.axis = 0, .at = 0});
+    std::erase_if(out, [&](const Mirror& mirror) {
+      return std::ranges::none_of(some, [&](Index s) { return lies_on<D>(mirror, nodes_.at(faces_.node(s).vertex)); });
+    });
+    return out;
+  }
+
   const Point<D>& middle(Index k) const {
     if (!middle_[k]) middle_[k] = surface_.middle(faces_.node(k));
     return *middle_[k];

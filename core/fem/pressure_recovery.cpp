@@ -58,7 +58,7 @@ class Recovery {
   }
 
   std::vector<Sample<D - 1>> samples(Index k) const {
-    return samples_.around(k, neighbourhood(k), [&](Index s, bool) {
+    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) {
       const double pressure = faces_.node(s).pressure;
       return pressure * pressure;
     });

@@ -5,6 +5,7 @@
 
 #include "core/fem/checked_element.hpp"
 #include "core/fem/quadrature.hpp"
+#include "core/fem/revolution.hpp"
 #include "core/mesh/red_refinement.hpp"
 
 namespace signorini {
@@ -132,10 +133,14 @@ class SpaceBuilder {
   void add(std::size_t f) {
     if constexpr (P == 2) {
       const ElementMap<D, D, 2> map(mesh_, mesh_.families[f]);
-      for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(law_.constant() && !map.curved())) {
+      const bool simple = law_.constant() && !map.curved() && model_.plane != Plane::axisymmetric;
+      for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(simple)) {
         const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
-        add_point(f, barycentric, weight * flat.measure, map(barycentric),
-                  basis_gradients<2>(flat.gradient, barycentric));
+        const Point<D> x = map(barycentric);
+        Gradients divergence = basis_gradients<2>(flat.gradient, barycentric);
+        const auto hoop = hoop_values<2, D>(model_.plane, x, barycentric);
+        for (std::size_t b = 0; b < family_nodes; ++b) divergence[b][0] += hoop[b];
+        add_point(f, barycentric, weight * flat.measure, x, divergence);
       }
     } else {
       for (const auto& child : RedRefinement<D>::children) add_child(f, child);
@@ -147,20 +152,26 @@ class SpaceBuilder {
     Simplex<D> corner;
     for (int k = 0; k <= D; ++k) corner[k] = mesh_.families[f][child[k]];
     const LinearElement<D> flat = checked_element(mesh_, corner, model_.origin);
-    Gradients gradient{};
-    for (int k = 0; k <= D; ++k) gradient[child[k]] = flat.gradient[k];
+    Gradients divergence{};
+    const double hoop = hoop_factor<D>(model_.plane, mesh_, corner) / (D + 1);
+    for (int k = 0; k <= D; ++k) {
+      divergence[child[k]] = flat.gradient[k];
+      divergence[child[k]][0] += hoop;
+    }
     for (const auto& [within, weight] : quadrature2<D>()) {
       Barycentric barycentric{};
       for (int k = 0; k <= D; ++k) {
         const Barycentric place = node_place<D>(child[k]);
         for (int a = 0; a <= D; ++a) barycentric[a] += within[k] * place[a];
       }
-      add_point(f, barycentric, weight * flat.measure, combine<D>(mesh_, corner, within), gradient);
+      add_point(f, barycentric, weight * flat.measure, combine<D>(mesh_, corner, within), divergence);
     }
   }
 
+  /// @param divergence that of each basis function times each unit vector
   void add_point(std::size_t f, const Barycentric& barycentric, double measure, const Point<D>& x,
-                 const Gradients& gradient) {
+                 const Gradients& divergence) {
+    measure *= circumference<D>(model_.plane, x);
     const Material<D> material = law_.at(site_of(f, x));
     const double own = std::max(lambda_of_pressure(material), material.mu * least);
     const double with = of_displacements(material).lambda + resistance * material.mu;
@@ -169,7 +180,7 @@ class SpaceBuilder {
       const Index k = out_.unknown[f][a];
       for (std::size_t b = 0; b < nodes.size(); ++b) {
         const Offset at = find(out_.row, out_.column, k, nodes[b]);
-        for (int i = 0; i < D; ++i) out_.value[at * D + i] += measure * barycentric[a] * gradient[b][i];
+        for (int i = 0; i < D; ++i) out_.value[at * D + i] += measure * barycentric[a] * divergence[b][i];
       }
       for (int b = 0; b <= D; ++b) {
         const Offset at = find(out_.mass_row, out_.mass_column, k, out_.unknown[f][b]);

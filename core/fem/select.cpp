@@ -11,6 +11,7 @@
 #include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -52,8 +53,9 @@ double basis_integral(Plane plane, const Mesh<D>& mesh, const std::array<Index, 
 
 std::string describe(const Selection& selection) {
   if (!selection.where)
-    return fmt::format("part '{}' has no boundary face (the axis of an axisymmetric body is no boundary)",
-                       selection.part.value_or("boundary"));
+    return fmt::format(
+        "part '{}' has no boundary face (the axis of an axisymmetric body and planes of symmetry are no boundary)",
+        selection.part.value_or("boundary"));
   return fmt::format(
       "no boundary face{} has all its vertices where '{}'; faces of the coarsest mesh are picked, which a smaller "
       "'size' or more 'cells' makes smaller",
@@ -110,6 +112,7 @@ std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surf
       for (int i = 0; i < D; ++i) sum[i] += n[i];
       measure += std::sqrt(dot(n, n));
     }
+    keep_within<D>(mesh.mirrors, nodes.at(surface.nodes[v]), sum);
     if (normalise(sum) > 1e-12 * measure) normals[v] = sum;
   }
   return normals;
@@ -133,6 +136,11 @@ double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
   // Each corner of an element's face lies on one face of the mesh, each midpoint on as many as the face has corners.
   const auto per_element = static_cast<std::size_t>(nodes.faces_per_element());
   const std::size_t k = place_on_element(nodes, face, at);
+  if (plane == Plane::axisymmetric) {
+    const auto vertices = nodes.template element_face<2>(face - face % nodes.faces_per_element());
+    return ring_measure<2, D, D - 1>(mesh, vertices) * circumference_share<2, D, D - 1>(mesh, vertices, k) /
+           (k < D ? 1 : D);
+  }
   return measure * static_cast<double>(per_element) * basis_mean<2, D - 1>(k) / (k < D ? 1 : D);
 }
 
@@ -176,6 +184,12 @@ std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
   std::vector<double> volumes(static_cast<std::size_t>(nodes.size()));
   if (nodes.order() == 2) {
     for (const Family<D>& family : mesh.families) {
+      if (plane == Plane::axisymmetric) {
+        const double ring = ring_measure<2, D, D>(mesh, family);
+        for (std::size_t k = 0; k < family.size(); ++k)
+          volumes[nodes.of_vertex(family[k])] += ring * circumference_share<2, D, D>(mesh, family, k);
+        continue;
+      }
       const ElementMap<D, D, 2> map(mesh, family);
       double measure = 0;
       for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(!map.curved()))

@@ -35,8 +35,8 @@ template <int D>
 std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface);
 
 /// Integrals of the basis functions over a surface, one per node of it: they are positive and sum to its measure.
-/// (Faces of quadratic elements count as if they were flat.) Of an axisymmetric body over what the surface stands for,
-/// here and below.
+/// (Faces of quadratic elements count as if they were flat, but of axisymmetric bodies.) Of such a body over what the
+/// surface stands for, here and below.
 template <int D>
 std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface, Plane plane = Plane::strain);
 

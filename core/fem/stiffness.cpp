@@ -81,36 +81,42 @@ inline void add_block(const Material<D>& material, double measure, const Point<D
   }
 }
 
-// What hoop strains add to it: that of a basis function is `hoop` per radial displacement.
+// What hoop strains add to it: those of the basis functions are `row` and `column` per radial displacement.
 template <int D>
-inline void add_hoop(const Material<D>& material, double measure, double hoop, const Point<D>& g, const Point<D>& h,
-                     double* entry) {
-  const double lambda = measure * material.lambda * hoop;
+inline void add_hoop(const Material<D>& material, double measure, double row, double column, const Point<D>& g,
+                     const Point<D>& h, double* entry) {
+  const double lambda = measure * material.lambda;
   for (int i = 0; i < D; ++i) {
-    entry[i] += lambda * h[i];
-    entry[i * D] += lambda * g[i];
+    entry[i] += lambda * row * h[i];
+    entry[i * D] += lambda * column * g[i];
   }
-  entry[0] += (lambda + 2 * measure * material.mu * hoop) * hoop;
+  entry[0] += (lambda + 2 * measure * material.mu) * row * column;
 }
 
 // An element at the points of a rule.
 template <int D, int B, int P>
 class ElementPoints {
  public:
-  ElementPoints(const Nodes<D>& nodes, const Model<B>& model) : nodes_(nodes), model_(model), law_(model) {
+  ElementPoints(const Nodes<D>& nodes, const Model<B>& model)
+      : nodes_(nodes), model_(model), law_(model), axisymmetric_(D == 2 && model.plane == Plane::axisymmetric) {
     if (law_.constant()) material_.fill(own_part(law_.at({}), law_.at({})));
   }
 
   void move_to(std::size_t e) {
     const auto& vertices = nodes_.template elements<P>()[e];
     const ElementMap<D, D, P> map(nodes_.mesh(), vertices);
-    const auto rule = stiffness_rule<D, P>(law_.constant() && !map.curved());
+    const auto rule = stiffness_rule<D, P>(law_.constant() && !map.curved() && !axisymmetric_);
     size_ = rule.size();
     for (std::size_t q = 0; q < size_; ++q) {
       const auto& [barycentric, weight] = rule[q];
       const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
       measure_[q] = P == 1 ? flat.measure : weight * flat.measure;
       gradient_[q] = basis_gradients<P>(flat.gradient, barycentric);
+      if (P == 2 && axisymmetric_) {
+        const Point<D> x = map(barycentric);
+        measure_[q] *= circumference<D>(model_.plane, x);
+        hoop_[q] = hoop_values<P, D>(model_.plane, x, barycentric);
+      }
       if (law_.constant()) continue;
       const Site where =
           P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
@@ -118,7 +124,7 @@ class ElementPoints {
     }
     if constexpr (P == 1) {
       measure_[0] *= mean_circumference<D>(model_.plane, nodes_.mesh(), vertices);
-      hoop_ = hoop_factor<D>(model_.plane, nodes_.mesh(), vertices) / (D + 1);
+      hoop_[0].fill(hoop_factor<D>(model_.plane, nodes_.mesh(), vertices) / (D + 1));
     }
   }
 
@@ -126,7 +132,8 @@ class ElementPoints {
   void add_block(std::size_t a, std::size_t b, double* entry) const {
     for (std::size_t q = 0; q < size_; ++q)
       signorini::add_block<D>(material_[q], measure_[q], gradient_[q][a], gradient_[q][b], entry);
-    if (P == 1 && hoop_ > 0) add_hoop<D>(material_[0], measure_[0], hoop_, gradient_[0][a], gradient_[0][b], entry);
+    for (std::size_t q = 0; axisymmetric_ && q < size_; ++q)
+      add_hoop<D>(material_[q], measure_[q], hoop_[q][a], hoop_[q][b], gradient_[q][a], gradient_[q][b], entry);
   }
 
  private:
@@ -143,9 +150,10 @@ class ElementPoints {
   const Nodes<D>& nodes_;
   const Model<B>& model_;
   const MaterialLaw<B> law_;
+  const bool axisymmetric_;
   std::size_t size_ = 0;
-  double hoop_ = 0;  // of axisymmetric bodies, whose elements are linear
   std::array<double, most> measure_;
+  std::array<std::array<double, element_nodes<D, P>>, most> hoop_;  // of axisymmetric bodies
   std::array<std::array<Point<D>, element_nodes<D, P>>, most> gradient_;
   std::array<Material<B>, most> material_;
 };

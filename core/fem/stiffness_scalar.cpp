@@ -54,13 +54,14 @@ class ScalarAssembler {
   using QuadraticStiffness = LocalStiffness<element_nodes<D, 2>, node_pairs<element_nodes<D, 2>>().size()>;
   QuadraticStiffness quadratic(const Family<D>& vertices, std::size_t e) const {
     const ElementMap<D, D, 2> map(mesh_, vertices);
+    const bool simple = law_.constant() && model_.plane != Plane::axisymmetric;
     QuadraticStiffness out{};
-    for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(law_.constant() && !map.curved())) {
+    for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(simple && !map.curved())) {
       const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
+      const double measure = weight * flat.measure * circumference<D>(model_.plane, map(barycentric));
       Site where;
       if (!law_.constant()) where = site_in<D>(nodes_, e, map(barycentric), model_.t);
-      add_stiffness(basis_gradients<2>(flat.gradient, barycentric), weight * flat.measure * law_.at(where).diffusion,
-                    out);
+      add_stiffness(basis_gradients<2>(flat.gradient, barycentric), measure * law_.at(where).diffusion, out);
     }
     clear_vanishing(out, node_pairs<element_nodes<D, 2>>());
     return out;

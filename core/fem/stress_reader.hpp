@@ -54,7 +54,7 @@ class StressReader {
     const auto node = nodes_.of(nodes_.template elements<P>()[e]);
     const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
     const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
-    const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : 0;
+    const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : hoop_at(node, map(barycentric), barycentric);
     const bool own = pressure_.space && pressure_.space->unknown[e][0] >= 0;
     Material<D> material = law_.at(where);
     if (own) material = of_displacements(material);
@@ -65,6 +65,14 @@ class StressReader {
   }
 
  private:
+  double hoop_at(const std::array<Index, element_nodes<D, P>>& node, const Point<D>& x,
+                 const Barycentric& barycentric) const {
+    const auto values = hoop_values<P, D>(model_.plane, x, barycentric);
+    double sum = 0;
+    for (std::size_t a = 0; a < node.size(); ++a) sum += values[a] * u_[Offset{node[a]} * D];
+    return sum;
+  }
+
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const MaterialLaw<D> law_;

@@ -5,6 +5,7 @@
 #include "core/fem/polynomial_fit.hpp"
 #include "core/fem/quadrature.hpp"
 #include "core/fem/stress_reader.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -152,8 +153,24 @@ class StressRecovery {
     for (const Index p : near_nodes_) near_.push_back({nodes_.at(p), recovered_[p]});
   }
 
+  /// Of a node on planes of symmetry the samples beyond them.
+  void add_images(Index p) {
+    constexpr int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}};  // those that change their sign
+    for (const Mirror& mirror : nodes_.mesh().mirrors) {
+      if (!lies_on<D>(mirror, nodes_.at(p))) continue;
+      for (std::size_t k = 0, count = near_.size(); k < count; ++k) {
+        if (lies_on<D>(mirror, near_[k].x)) continue;
+        Sample<D, 6> image = near_[k];
+        image.x = reflected<D>(mirror, image.x);
+        for (const int s : shear[mirror.axis]) image.value[s] = -image.value[s];
+        near_.push_back(image);
+      }
+    }
+  }
+
   template <int Degree>
   std::optional<Stress> fitted(Index p) {
+    add_images(p);
     if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     for (auto& sample : near_)
       for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];

@@ -77,9 +77,17 @@ class TractionRecovery {
     return sum;
   }
 
+  /// The same, as it is at a mirror image of the node.
+  Vector mean_at_image(Index k, unsigned mirrored) const {
+    Vector out = mean(k);
+    for (int i = 0; i < B; ++i)
+      if (mirrored >> i & 1u) out[i] = -out[i];
+    return out;
+  }
+
   /// How much less than friction bears there is along a direction of slip, as a mean around the node.
-  double left(Index k, const Vector& direction) const {
-    return slips(k) ? 0 : std::max(limit(k, faces_.node(k).pressure) - dot(mean(k), direction), 0.0);
+  double left(Index k, const Vector& direction, unsigned mirrored = 0) const {
+    return slips(k) ? 0 : std::max(limit(k, faces_.node(k).pressure) - dot(mean_at_image(k, mirrored), direction), 0.0);
   }
 
   Vector near_edge(Index k, const Vector& direction) const {
@@ -87,8 +95,8 @@ class TractionRecovery {
         faces_.around(k, {rings_at_edge, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
     const Vector around = mean(k);
     if (some.size() < enough<D>) return around;
-    const auto fit = polynomial_values<1>(samples_.around(k, some, [&](Index s, bool) {
-      const double value = left(s, direction);
+    const auto fit = polynomial_values<1>(samples_.around(k, some, [&](Index s, unsigned mirrored) {
+      const double value = left(s, direction, mirrored);
       return value * value;
     }));
     if (!fit) return around;
@@ -108,8 +116,9 @@ class TractionRecovery {
     if (some.size() < enough<D>) return out;
     for (int i = 0; i < B; ++i) {
       const auto component = [&](Index j) { return mean(j)[static_cast<std::size_t>(i)]; };
-      const auto fit = fitted_value(samples_.around(
-          k, some, [&](Index s, bool mirrored) { return mirrored && i == 0 ? -component(s) : component(s); }));
+      const auto fit = fitted_value(samples_.around(k, some, [&](Index s, unsigned mirrored) {
+        return mean_at_image(s, mirrored)[static_cast<std::size_t>(i)];
+      }));
       if (fit) out[i] = between_means(k, *fit, component);
     }
     return out;

@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,18 +25,24 @@ struct Disk {
   double radius;
   bool lower_half = false;
   bool right_half = false;  ///< its straight side there has no name
+  bool upper_half = false;  ///< likewise; not beside lower_half
 };
 struct Polygon {
   std::vector<Point<2>> points;
+  std::vector<int> edges = {};  ///< the number in the name of each edge, -1: it has none; empty: their places
 };
+/// Per axis, whether only the part with the larger coordinates is there, cut at the centre. Faces there have no name.
+using Halved = std::array<bool, 3>;
 struct Ball {
   Point<3> center;
   double radius;
   bool lower_half = false;
+  Halved halved = {};  ///< along z not beside lower_half
 };
 struct Cylinder {
   Point<3> center;
   double radius, height;
+  Halved halved = {};
 };
 struct Solid {
   std::string file;

@@ -105,7 +105,9 @@ Json body(const BodyReport& body) {
           {"limited_by_rounding", limited_by_rounding(summary)},
           {"reason", summary.reason},
           {"axisymmetric", body.axisymmetric},
-          {"axis_nodes", body.axis_nodes}};
+          {"axis_nodes", body.axis_nodes},
+          {"symmetry", body.symmetry},
+          {"copies", body.copies}};
 }
 
 Json solver(const SolverOptions& options) {

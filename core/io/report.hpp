@@ -65,6 +65,10 @@ struct BodyReport {
   Summary summary;
   bool axisymmetric = false;  ///< forces, areas and energies are those of the whole body
   Index axis_nodes = 0;       ///< held on the axis, where the radial displacement is zero
+  /// Planes of symmetry, "x = 0". Forces, areas and energies are those of the whole body, which consists of so many
+  /// copies of what is meshed; numbers of nodes and unknowns are those of one.
+  std::vector<std::string> symmetry = {};
+  int copies = 1;
 };
 
 /// The solution at a point.

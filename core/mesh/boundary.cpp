@@ -68,6 +68,25 @@ void attach_parts(Mesh<D>& mesh, const std::vector<FaceGroup<D>>& groups) {
 }
 
 template <int D>
+void keep_faces(Mesh<D>& mesh, const std::vector<bool>& kept) {
+  std::vector<Index> number(kept.size(), -1);
+  std::vector<Face<D>> faces;
+  std::vector<CubicPatch<D>> patches;
+  for (std::size_t f = 0; f < kept.size(); ++f) {
+    if (!kept[f]) continue;
+    number[f] = static_cast<Index>(faces.size());
+    faces.push_back(mesh.boundary[f]);
+    if (mesh.patches) patches.push_back((*mesh.patches)[f]);
+  }
+  mesh.boundary = std::move(faces);
+  if (mesh.patches) mesh.patches = std::make_shared<const std::vector<CubicPatch<D>>>(std::move(patches));
+  for (Part& part : mesh.parts) {
+    for (Index& face : part.faces) face = number[face];
+    std::erase(part.faces, -1);
+  }
+}
+
+template <int D>
 std::vector<Index> faces_of(const Mesh<D>& mesh, std::string_view name, std::string_view place) {
   for (const Part& part : mesh.parts)
     if (part.name == name) return part.faces;
@@ -114,6 +133,7 @@ std::array<std::array<double, D>, D> in_coarsest_face(Index face, int refinement
 #define SIGNORINI_INSTANTIATE(D)                                                                       \
   template std::vector<Face<D>> find_boundary<D>(Index, const std::vector<std::array<Index, D + 1>>&); \
   template void attach_parts(Mesh<D>&, const std::vector<FaceGroup<D>>&);                              \
+  template void keep_faces(Mesh<D>&, const std::vector<bool>&);                                        \
   template std::vector<Index> faces_of(const Mesh<D>&, std::string_view, std::string_view);            \
   template std::array<Index, D> coarsest_face<D>(const Mesh<D>&, Index);                               \
   template std::array<std::array<double, D>, D> in_coarsest_face<D>(Index, int);

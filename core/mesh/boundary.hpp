@@ -23,6 +23,11 @@ std::vector<Face<D>> find_boundary(Index vertices, const std::vector<std::array<
 template <int D>
 void attach_parts(Mesh<D>& mesh, const std::vector<FaceGroup<D>>& groups);
 
+/// Takes faces out of the boundary of a coarsest mesh, and out of its parts.
+/// @param kept per boundary face
+template <int D>
+void keep_faces(Mesh<D>& mesh, const std::vector<bool>& kept);
+
 /// The numbers of the boundary faces of a part in ascending order. "boundary" is all of them unless a part has that
 /// name. An unknown name is an Error(Exit::input) at `place` with the nearest name and the list of parts.
 template <int D>

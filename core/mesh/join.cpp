@@ -62,9 +62,10 @@ Mesh<D> join(std::vector<Mesh<D>> meshes, const std::vector<std::string>& bodies
   Mesh<D> all;
   std::vector<CubicPatch<D>> patches;
   Index region = 0;
+  if (!meshes.empty()) all.mirrors = meshes.front().mirrors;
   for (std::size_t k = 0; k < meshes.size(); ++k) {
     Mesh<D>& mesh = meshes[k];
-    assert(mesh.refinements == 0 && mesh.families.empty());
+    assert(mesh.refinements == 0 && mesh.families.empty() && mesh.mirrors.size() == all.mirrors.size());
     std::vector<CubicPatch<D>> own;
     if (mesh.patches) own = *mesh.patches;
     append_sparse(patches, all.boundary.size(), own, mesh.boundary.size());

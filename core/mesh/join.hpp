@@ -14,7 +14,8 @@ std::string part_of(const std::string& body, const std::string& part);
 std::string body_of(const std::string& part);
 
 /// Coarsest meshes of several bodies as one, which do not hang together. Parts are named by part_of(). Regions are
-/// counted on from one body to the next, each body's own material first: there is a region everywhere.
+/// counted on from one body to the next, each body's own material first: there is a region everywhere. All have the
+/// same planes of symmetry.
 /// @param materials per body how many it has beside its own
 template <int D>
 Mesh<D> join(std::vector<Mesh<D>> meshes, const std::vector<std::string>& bodies, const std::vector<int>& materials);

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/mesh/boundary.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -27,19 +30,11 @@ void move_onto_axis(Mesh<2>& mesh, std::string_view place) {
 
 void read_as_meridian(Mesh<2>& mesh, std::string_view place) {
   move_onto_axis(mesh, place);
-  std::vector<Index> number(mesh.boundary.size(), -1);
-  std::vector<Face<2>> kept;
-  for (std::size_t f = 0; f < number.size(); ++f) {
-    const auto [a, b] = mesh.boundary[f].vertices;
-    if (mesh.points[a][0] == 0 && mesh.points[b][0] == 0) continue;
-    number[f] = static_cast<Index>(kept.size());
-    kept.push_back(mesh.boundary[f]);
-  }
-  mesh.boundary = std::move(kept);
-  for (Part& part : mesh.parts) {
-    for (Index& face : part.faces) face = number[face];
-    std::erase(part.faces, -1);
-  }
+  std::vector<bool> kept;
+  for (const Face<2>& face : mesh.boundary)
+    kept.push_back(
+        !std::ranges::all_of(face.vertices, [&](Index v) { return lies_on<2>({.axis = 0, .at = 0}, mesh.points[v]); }));
+  keep_faces(mesh, kept);
 }
 
 }  // namespace signorini

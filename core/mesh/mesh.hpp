@@ -67,6 +67,12 @@ struct SurfacePiece {
 template <int D>
 using Bends = std::array<Point<D>, D*(D + 1) / 2>;
 
+/// A plane of symmetry: where coordinate `axis` is `at`.
+struct Mirror {
+  int axis = 0;
+  double at = 0;
+};
+
 /// One conforming simplicial mesh: D = 2 triangles, D = 3 tetrahedra.
 template <int D>
 struct Mesh {
@@ -85,6 +91,8 @@ struct Mesh {
   std::vector<Index> family_region;  ///< per family, as `region`
   std::vector<Index> layer;          ///< per vertex, see core/mesh/layers.hpp; refined meshes are numbered by it
   int refinements = 0;               ///< uniform ones that made it from the coarsest mesh
+  /// The mesh lies on one side of each and stands for the body with its mirror images; see core/mesh/mirror.hpp.
+  std::vector<Mirror> mirrors;
 
   Index vertices() const { return static_cast<Index>(points.size()); }
 };

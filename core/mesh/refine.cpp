@@ -12,6 +12,7 @@
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
 #include "core/mesh/layers.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/mesh/red_refinement.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
@@ -60,6 +61,7 @@ class Refiner {
     fine_.curves = coarse_.curves;
     fine_.patches = coarse_.patches;
     fine_.refinements = coarse_.refinements + 1;
+    fine_.mirrors = coarse_.mirrors;
     bend();
     return std::move(refinement_);
   }
@@ -221,8 +223,11 @@ class Refiner {
   void bend() {
     std::vector<Move<D>> moves;
     std::vector<std::uint8_t> seen(fine_.points.size(), 0);
-    const auto add = [&](Index v, const Point<D>& target) {
-      if (seen[v]++ == 0) moves.push_back({v, target});
+    const auto add = [&](Index v, Point<D> target) {
+      if (seen[v]++ != 0) return;
+      for (const Mirror& mirror : coarse_.mirrors)
+        if (lies_on<D>(mirror, fine_.points[v])) target[mirror.axis] = mirror.at;
+      moves.push_back({v, target});
     };
     if (!fine_.curves.empty()) add_moves_of_boundary(add);
     add_moves_of_elements(add);
@@ -284,6 +289,8 @@ class Refiner {
         patch = f;
     }
     const Point<D>& middle = fine_.points[v];
+    for (const Mirror& mirror : coarse_.mirrors)
+      if (lies_on<D>(mirror, middle)) planes.push_back(plane_of(mirror));
     if (shapes.empty()) return patch < 0 ? middle : on_patch(v, patch);
     const Point<D> alone = project<D>(*shapes[0], middle);
     if (shapes.size() + planes.size() == 1) return alone;
@@ -293,6 +300,13 @@ class Refiner {
         std::abs(dot(difference<D>(alone, planes[0].point), planes[0].normal)) <= tie * tie * reach)
       return alone;
     return project<D>(shapes, planes, middle, reach);
+  }
+
+  static Flat<D> plane_of(const Mirror& mirror) {
+    Flat<D> out{};
+    out.point[mirror.axis] = mirror.at;
+    out.normal[mirror.axis] = 1;
+    return out;
   }
 
   Flat<D> plane_of(const Face<D>& face) const {

@@ -117,9 +117,20 @@ bool is_touched(const Scene& scene, const Scene::Body& body) {
 
 void check_held(const Scene& scene, const std::string& place) {
   for (const Scene::Body& body : scene.bodies)
-    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body) && !is_touched(scene, body))
+    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body) && !is_touched(scene, body) &&
+        scene.symmetry.planes.empty())
       input_error(scene.bodies.size() == 1 ? place : body.source.table,
                   "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
+}
+
+// Across the radius every axisymmetric body is symmetric already.
+void check_symmetry(const Scene& scene) {
+  for (const Scene::Body& body : scene.bodies)
+    if (body.plane == Plane::axisymmetric && std::ranges::count(scene.symmetry.planes, 0, &Mirror::axis) > 0)
+      input_error(scene.symmetry.source.of("planes"),
+                  fmt::format("a plane of symmetry across x, which is the radius of the axisymmetric body {}; expected "
+                              "\"y\", across its axis, alone",
+                              in_quotes(body.name)));
 }
 
 void check_common_dimension(const Scene& scene) {
@@ -178,6 +189,11 @@ void check_dimension(const Scene& scene, int dimension) {
   for (const Scene::Body& body : scene.bodies)
     if (dimension == 3 && body.source.given("plane"))
       input_error(body.source.of("plane"), "'plane' is for 2D bodies, this one is 3D");
+  for (const Mirror& mirror : scene.symmetry.planes)
+    if (mirror.axis >= dimension)
+      input_error(
+          scene.symmetry.source.of("planes"),
+          fmt::format("a plane of symmetry across {}, and the scene has {} dimensions", "xyz"[mirror.axis], dimension));
   for (const Scene::Fix& fix : scene.fixes)
     expect_length(fix.value.size(), components(fix.body), fix.source.of("value"), "component");
   for (const Scene::Load& load : scene.loads)
@@ -201,6 +217,7 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_fixes(scene);
   check_obstacles(scene);
   check_held(scene, place);
+  check_symmetry(scene);
   check_common_dimension(scene);
   if (scene.dimension != 0) check_dimension(scene, scene.dimension);
 }

@@ -16,7 +16,7 @@ void choose_elements(Scene& scene) {
   for (Scene::Body& body : scene.bodies) {
     if (body.pressure) continue;
     body.pressure = Pressure::none;
-    if (body.equation != Scene::Equation::elasticity || body.plane != Plane::strain) continue;
+    if (body.equation != Scene::Equation::elasticity || body.plane == Plane::stress) continue;
     const bool any = locks(body.poisson) || std::ranges::any_of(scene.materials, [&](const Scene::Material& material) {
                        return material.body == body.name && locks(material.poisson);
                      });

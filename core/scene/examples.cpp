@@ -128,6 +128,48 @@ material by itself. Where materials meet the VTU has the mean of them. A body wi
 `young = "x < 1 ? 5 : 210000"`.
 )";
 
+constexpr const char* symmetry_details = R"(
+A quarter of a ball that is pressed on a plane, reported as the whole ball:
+
+```
+[symmetry]
+planes = ["x", "y"]                # x = 0 and y = 0
+```
+
+**What is meshed.** Planes hold for all bodies.
+
+- A shape that lies on both sides of a plane is cut there. The side of the larger coordinates is meshed.
+- Rectangles and boxes need an even number of `cells` across the plane, round shapes their centre on it. Polygons must be
+  symmetric.
+- A `solid`, and a body from a mesh file, is what lies on one side already, with faces on the plane. So is any other shape
+  that lies on one side.
+
+**On the plane** an elastic body moves along it only. A scalar one has no flux through it. The faces there are no boundary:
+no part has faces on it, and `on = "boundary"` leaves it out.
+
+**Fixes, loads and obstacles** hold on both sides.
+
+- One that picks faces at the plane, or of the whole boundary, must be symmetric, values and selection alike. This is checked
+  at the vertices of the body and their mirror images, and refused where it is not so.
+- One whose faces are on one side, as `on = "right"` of a box that is cut across x, holds there, and mirrored on the other
+  side.
+- Parts that are cut off have no faces and cannot be picked.
+
+**What is of the whole body.**
+
+- Energies, and the sums in `balance`.
+- `applied`, `reactions`, and force, moment, area and dissipation of an obstacle: of all the faces that the condition stands
+  for in the scene as it is written. Those of a load on `right` are of the whole right side, not of the left one.
+- Forces across a plane cancel and are zero.
+- A `probe` may lie on either side.
+
+**What is of the part that is meshed.** Numbers of unknowns, nodes and faces, the VTU and the pictures. `symmetry` of an entry
+of `bodies` in the report lists the planes, `copies` how many such parts the body has: 2, 4 or 8.
+
+A solution that is not symmetric, such as that of a body that buckles, is not found. Bodies that touch each other may have
+planes of symmetry, too, where all of them lie on each plane. `apps/scenes/quarter_ball_on_plane.toml` is a scene.
+)";
+
 constexpr const char* steps_details = R"(
 Steps may be uneven. This one has three:
 
@@ -184,6 +226,9 @@ tolerance = 1e-10)",
     {"refine", R"([refine]
 uniform = 1                        # halves all edges once)",
      ""},
+    {"symmetry", R"([symmetry]
+planes = ["y = 0.5"]               # half of the block is meshed: y >= 0.5)",
+     symmetry_details},
     {"steps", R"([steps]
 count = 4                          # t is 0.25, 0.5, 0.75 and 1)",
      steps_details},

@@ -97,11 +97,6 @@ void read_pressure(const TableReader& reader, Scene::Body& body) {
   const std::string& origin = reader.origin("pressure");
   if (body.plane == Plane::stress)
     input_error(origin, fmt::format("'{}' is for plane strain and 3D: in plane stress elements do not lock", kind));
-  if (body.plane == Plane::axisymmetric)
-    input_error(origin,
-                fmt::format("'{}' needs quadratic elements, which are not available for an axisymmetric body in "
-                            "this version",
-                            kind));
   if (reader.given("order") && body.order == 1)
     input_error(origin,
                 fmt::format("'{}' is for quadratic elements, and the body has order = 1; expected order = 2", kind));
@@ -151,8 +146,6 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
   if (reader.given("order")) body.order = reader.integer("order");
   body.plane = plane(reader.text("plane"));
-  if (body.order == 2 && body.plane == Plane::axisymmetric)
-    input_error(reader.origin("order"), "quadratic elements of an axisymmetric body are not available in this version");
   cut_at_axis(body);
   read_pressure(reader, body);
   read_material(reader, body);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -73,6 +75,35 @@ Scene::Steps read_steps(const TableReader& table) {
   return steps;
 }
 
+/// "y", or "y = 0.5".
+Mirror read_plane(const std::string& text, const std::string& origin) {
+  std::string plain;
+  std::ranges::copy_if(text, std::back_inserter(plain), [](char c) { return c != ' ' && c != '\t'; });
+  Mirror mirror{plain.empty() ? -1 : plain[0] - 'x', 0};
+  const bool named = mirror.axis >= 0 && mirror.axis < 3;
+  bool understood = named && plain.size() == 1;
+  if (named && plain.size() > 2 && plain[1] == '=') {
+    const char* last = plain.data() + plain.size();
+    const auto [end, error] = std::from_chars(plain.data() + 2, last, mirror.at);
+    understood = error == std::errc() && end == last && std::isfinite(mirror.at);
+  }
+  if (!understood)
+    input_error(origin, fmt::format("expected a plane such as \"x\", \"y\" or \"z = 0.5\", found {}", in_quotes(text)));
+  return mirror;
+}
+
+Scene::Symmetry read_symmetry(const TableReader& table) {
+  Scene::Symmetry symmetry{{}, table.source()};
+  for (const std::string& text : table.texts("planes")) {
+    const Mirror mirror = read_plane(text, table.origin("planes"));
+    if (std::ranges::count(symmetry.planes, mirror.axis, &Mirror::axis) > 0)
+      input_error(table.origin("planes"),
+                  fmt::format("two planes of symmetry across {}, expected one at most", "xyz"[mirror.axis]));
+    symmetry.planes.push_back(mirror);
+  }
+  return symmetry;
+}
+
 void read_settings(const RawDocument& document, const std::filesystem::path& folder, Scene& scene) {
   RawTable empty;
   scene.solver = read_solver(single(document, "solver", empty), folder);
@@ -84,6 +115,7 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
   const TableReader refine = reader("refine");
   refine.flag("adaptive");  // only false passes
   scene.refine = {refine.integer("uniform"), refine.source()};
+  scene.symmetry = read_symmetry(reader("symmetry"));
   scene.steps = read_steps(reader("steps"));
   const TableReader output = reader("output");
   scene.output = {output.flag("vtu"), output.flag("pictures"), output.flag("convergence")};

@@ -15,6 +15,7 @@
 #include "core/geometry/geometry.hpp"
 #include "core/input/field.hpp"
 #include "core/input/raw.hpp"
+#include "core/mesh/mesh.hpp"
 #include "core/solver/options.hpp"
 
 namespace signorini {
@@ -144,6 +145,12 @@ struct Scene {
     Source source;
   };
 
+  /// All bodies are symmetric about these planes, and the part on one side is meshed.
+  struct Symmetry {
+    std::vector<Mirror> planes;
+    Source source;
+  };
+
   /// Quasi-static steps. Nothing has happened yet at t = 0.
   struct Steps {
     std::vector<double> at{1.0};  ///< the values of t, ascending, the last one 1
@@ -174,6 +181,7 @@ struct Scene {
   std::vector<Obstacle> obstacles;
   Solver solver;
   Refine refine;
+  Symmetry symmetry;
   Steps steps;
   std::vector<Probe> probes;
   std::vector<std::filesystem::path> plugin_path;  ///< absolute, or relative as the scene's file is

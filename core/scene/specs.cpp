@@ -157,6 +157,10 @@ constexpr KeySpec refine[] = {
     {"estimator", text, "", "", every_value, "an estimator of `signorini list estimators`"},
 };
 
+constexpr KeySpec symmetry[] = {
+    {"planes", texts, "[]", "", "", "\"x\", \"y\" or \"z\" for the plane where it is 0, or \"x = 0.5\""},
+};
+
 constexpr KeySpec steps[] = {
     {"count", integer, "1", "[1, 1000000]", "", "number of equal steps, `t` running from 1/count to 1"},
     {"at", ascending, "", "(0, 1]", "", "in place of `count` the values of `t`, the last one 1"},
@@ -194,6 +198,10 @@ const std::vector<TableSpec>& tables() {
       {"obstacle", true, "What the body may not penetrate.", obstacle},
       {"solver", false, "How the algebraic problem is solved.", solver_keys()},
       {"refine", false, "How the mesh is refined.", refine},
+      {"symmetry", false,
+       "Planes of symmetry of the whole scene: a half, a quarter or an eighth of every body is meshed, and the report "
+       "is that of the whole.",
+       symmetry},
       {"steps", false,
        "Quasi-static loading: several solves, one after the other. Numbers may depend on the step by `t`.", steps},
       {"probe", true, "A point whose result is reported.", probe},

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
+#include "core/fem/quadrature.hpp"
 #include "core/fem/select.hpp"
 #include "core/fem/stress.hpp"
 #include "core/mesh/structured.hpp"
@@ -256,6 +257,236 @@ TEST(Axisymmetric, FrictionInABore) {
   EXPECT_EQ(coulomb.contact().slip_nodes, coulomb.contact().nodes);
   EXPECT_LT(coulomb.contact().force[0], -0.01);
   EXPECT_NEAR(coulomb.contact().tangential_force[1], -0.2 * coulomb.contact().force[0], 1e-8);
+}
+
+/// Root of the mean square over the body of what quadratic elements are off, relative to the exact value's.
+template <int B>
+double quadratic_error(const Run<2, B>& r, const ExactValue<2, B>& exact) {
+  double error = 0, size = 0;
+  for (const Family<2>& family : r.mesh().families) {
+    const ElementMap<2, 2, 2> map(r.mesh(), family);
+    for (const auto& [barycentric, weight] : quadrature5<2>()) {
+      const Point<2> x = map(barycentric);
+      const double part = weight * linear_element(map.flat(barycentric)).measure * x[0];
+      const auto value = basis<2>(barycentric);
+      const std::array<double, B> wanted = exact(x);
+      for (std::size_t i = 0; i < B; ++i) {
+        double found = 0;
+        for (std::size_t a = 0; a < family.size(); ++a) found += value[a] * r.u()[std::size_t(family[a]) * B + i];
+        error += part * std::pow(found - wanted[i], 2);
+        size += part * wanted[i] * wanted[i];
+      }
+    }
+  }
+  return std::sqrt(error / size);
+}
+
+std::string quadratic(std::string text) {
+  const std::string before = "plane = \"axisymmetric\"\n";
+  return text.replace(text.find(before), before.size(), before + "order = 2\n");
+}
+
+TEST(AxisymmetricQuadratic, OrdersOfLamesTube) {
+  for (const bool held : {false, true}) {
+    const Tube exact(held);
+    Errors displacement, energy, stress, force;
+    for (int k = 0; k <= 3; ++k) {
+      const auto r = run<2, 2>(quadratic(tube(held)), {uniform(k), "solver.tolerance=1e-12"});
+      displacement.add(quadratic_error<2>(r, [&](const Point<2>& x) {
+        return std::array{exact.displacement(x[0]), 0.0};
+      }));
+      const double of_load = -0.5 * Tube::p * exact.displacement(1) * 2 * pi;
+      energy.add(std::sqrt(std::abs(r.summary().energy / of_load - 1)));  // in the energy norm
+      double most = 0;
+      const auto recovered = nodal_stress(r.nodes(), r.model, r.u());
+      for (Index v = 0; v < r.mesh().vertices(); ++v) {
+        const double at = r.mesh().points[v][0];
+        most =
+            std::max({most, std::abs(recovered[v][0] - exact.radial(at)), std::abs(recovered[v][2] - exact.hoop(at))});
+      }
+      stress.add(most / Tube::p);
+      show(
+          "quadratic tube: displacement {:.2e} order {:.2f}, energy {:.2e} order {:.2f}, largest stress {:.2e} order "
+          "{:.2f}\n",
+          displacement.value.back(), displacement.last_order(), energy.value.back(), energy.last_order(),
+          stress.value.back(), stress.last_order());
+      if (!held) continue;
+      force.add(std::abs(r.contact().force[0] / (4 * pi * exact.radial(2)) - 1));
+      EXPECT_NEAR(r.contact().area, 4 * pi, 1e-10);
+      EXPECT_NEAR(r.contact().max_pressure / -exact.radial(2), 1, 1e-3);
+      show("  force in the bore {:.2e} order {:.2f}\n", force.value.back(), force.last_order());
+    }
+    EXPECT_GE(displacement.last_order(), 2.9);
+    EXPECT_GE(energy.last_order(), 1.9);
+    EXPECT_GE(stress.last_order(), 1.9);
+    EXPECT_TRUE(!held || force.value.back() <= 1e-6);
+  }
+}
+
+/// Curved elements: circles are found in the mesh.
+TEST(AxisymmetricQuadratic, OrdersOfLamesHollowSphere) {
+  for (const double ratio : {0.3, 0.4999}) {
+    const double a = 1, b = 2, p = 0.01;
+    const auto radial = [&](double R) {
+      return p * a * a * a / (E * (b * b * b - a * a * a)) *
+             ((1 - 2 * ratio) * R + (1 + ratio) * b * b * b / (2 * R * R));
+    };
+    std::string material = elastic;
+    material.replace(material.find("poisson = 0.3"), 13, fmt::format("poisson = {}", ratio));
+    Errors error;
+    for (const Index n : {2, 4, 8, 16}) {
+      Mesh<2> mesh = rectangle({1, 0}, {2, 1}, {n, 2 * n});
+      for (Point<2>& x : mesh.points) {
+        const double angle = pi / 2 * x[1];
+        x = {x[0] * std::cos(angle), x[0] * std::sin(angle)};
+      }
+      const TemporaryFolder folder;
+      const auto r =
+          run<2, 2>(quadratic(fmt::format("[[body]]\nname = \"b\"\nmesh = \"{}\"\n{}",
+                                          folder.write("sphere.msh", msh(mesh, Motion<2>())), material)) +
+                        fixed("where = \"abs(y) < 1e-9\"", "[\"free\", 0]") +
+                        loaded("where = \"x^2 + y^2 < 1.001\"", fmt::format("[\"-{0}*nx\", \"-{0}*ny\"]", p)),
+                    {"solver.tolerance=1e-12"});
+      error.add(quadratic_error<2>(r, [&](const Point<2>& x) {
+        const double R = std::hypot(x[0], x[1]), u = radial(R);
+        return std::array{u * x[0] / R, u * x[1] / R};
+      }));
+      const std::vector<double> volume = node_volumes(r.nodes(), Plane::axisymmetric);
+      EXPECT_GT(*std::min_element(volume.begin(), volume.end()), 0);
+      double whole = 0;
+      for (const double v : volume) whole += v;
+      EXPECT_NEAR(whole / (2 * pi / 3 * 7), 1, 0.02 / std::pow(n / 2.0, 4));
+      show("quadratic hollow sphere of nu = {}, {} cells: {:.2e}, order {:.2f}\n", ratio, n, error.value.back(),
+           error.last_order());
+    }
+    EXPECT_GE(error.last_order(), 2.8);
+    EXPECT_LE(error.value.back(), 5e-5);
+  }
+}
+
+TEST(AxisymmetricQuadratic, UniformStressIsExact) {
+  const auto r =
+      run<2, 2>(quadratic(rectangle_body("[0, 0]", "[2, 1]", "[5, 3]")) + fixed("on = \"top\"", "[\"free\", -0.01]") +
+                    plane_obstacle("bottom", "[0, 0]", "[0, 1]"),
+                {uniform(1), "solver.tolerance=1e-13"});
+  for (Index v = 0; v < r.mesh().vertices(); ++v) {
+    const Point<2>& x = r.mesh().points[v];
+    ASSERT_NEAR(r.u()[2 * v], nu * 0.01 * x[0], 1e-12);
+    ASSERT_NEAR(r.u()[2 * v + 1], -0.01 * x[1], 1e-12);
+  }
+  for (const Stress& stress : nodal_stress(r.nodes(), r.model, r.u()))  // those on the axis, too
+    for (std::size_t i = 0; i < stress.size(); ++i) ASSERT_NEAR(stress[i], i == 1 ? -0.01 : 0, 1e-11);
+  for (const auto& node : r.results.contact.nodes)
+    if (node.contact) {
+      ASSERT_GT(node.area, 0);
+      ASSERT_NEAR(node.pressure, 0.01, 1e-9);
+      ASSERT_NEAR(node.recovered, 0.01, 1e-9);
+    }
+  EXPECT_NEAR(r.contact().area, 4 * pi, 1e-10);
+  EXPECT_NEAR(r.contact().force[1], 0.04 * pi, 1e-11);
+}
+
+TEST(AxisymmetricQuadratic, LoadsAreThoseOfTheWholeBody) {
+  const auto r =
+      run<2, 2>(quadratic(rectangle_body("[1, 0]", "[3, 2]", "[3, 4]")) + fixed("on = \"bottom\"", "[0, 0]") +
+                loaded("", "[0, -0.001]") + loaded("on = \"right\"", "[0, \"0.001*y\"]"));
+  EXPECT_NEAR(r.results.forces.applied[0][1], -0.001 * pi * (9 - 1) * 2, 1e-13);
+  EXPECT_NEAR(r.results.forces.applied[1][1], 0.001 * 2 * 2 * pi * 3, 1e-13);
+  EXPECT_NEAR(r.results.forces.applied[0][1] + r.results.forces.applied[1][1] + r.results.forces.reactions[0][1], 0,
+              1e-9);
+}
+
+// The flux through a hollow cylinder: log r.
+TEST(AxisymmetricQuadratic, OrdersOfAScalarBody) {
+  Errors error;
+  for (int k = 0; k <= 3; ++k) {
+    const auto r = run<2, 1>(
+        "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [1, 0]\nto = [2, 1]\ncells = [2, 2]\norder = 2\n"
+        "equation = \"diffusion\"\nplane = \"axisymmetric\"\n" +
+            fixed("on = \"left\"", "0") + loaded("on = \"right\"", "0.5"),
+        {uniform(k), "solver.tolerance=1e-12"});
+    error.add(quadratic_error<1>(r, [](const Point<2>& x) { return std::array{std::log(x[0])}; }));
+    show("quadratic scalar: {:.2e} order {:.2f}\n", error.value.back(), error.last_order());
+  }
+  EXPECT_GE(error.last_order(), 2.9);
+}
+
+TEST(AxisymmetricQuadratic, ScalarObstacleOfABall) {
+  const double A = 0.800588621249054;
+  Errors force;
+  for (int k = 0; k <= 3; ++k) {
+    const auto r = run<2, 1>(
+        "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, -2]\nto = [2, 2]\ncells = [8, 16]\norder = 2\n"
+        "equation = \"diffusion\"\nplane = \"axisymmetric\"\n" +
+            fixed("on = \"boundary\"", "['0.800588621249054*(1/sqrt(x^2+y^2) - 0.5)']") +
+            "[[obstacle]]\ntype = \"scalar\"\nbody = \"b\"\n"
+            "lower = 'x^2+y^2 <= 0.81 ? sqrt(1 - x^2 - y^2) : sqrt(0.19) - 0.9/sqrt(0.19)*(sqrt(x^2+y^2) - 0.9)'\n",
+        {uniform(k)});
+    force.add(std::abs(r.contact().force[0] / (4 * pi * A) - 1));
+    show("quadratic scalar obstacle: force {:.2e} off\n", force.value.back());
+  }
+  EXPECT_LE(force.value.back(), 2e-3);
+}
+
+TEST(AxisymmetricQuadratic, HertzsBall) {
+  const double delta = 0.011, modulus = E / (1 - nu * nu);
+  std::vector<double> forces;
+  for (int k = 0; k <= 3; ++k) {
+    const auto r = run<2, 2>(quadratic(ball(delta)), {uniform(k)});
+    const double force = r.contact().force[1], a = std::cbrt(3 * force / (4 * modulus)),
+                 p0 = 3 * force / (2 * pi * a * a);
+    forces.push_back(force);
+    show("quadratic ball, {} unknowns: force {:.6e}, radius {:+.4f}, pressure {:+.4f}, {} cycles\n",
+         r.summary().level_unknowns.back(), force, std::sqrt(r.contact().area / pi) / a - 1,
+         r.contact().max_pressure / p0 - 1, r.summary().iterations);
+    for (Index v = 0; v < r.mesh().vertices(); ++v)
+      if (r.mesh().points[v][0] == 0) {
+        ASSERT_EQ(r.u()[2 * v], 0);
+      }
+    if (k < 3) continue;
+    EXPECT_NEAR(std::sqrt(r.contact().area / pi) / a, 1, 0.005);
+    EXPECT_NEAR(r.contact().max_pressure / p0, 1, 0.005);
+  }
+  std::vector<double> linear;
+  for (const int k : {4, 6}) linear.push_back(run<2, 2>(ball(delta), {uniform(k)}).contact().force[1]);
+  show("linear ball: forces {:.6e}, {:.6e}\n", linear[0], linear[1]);
+  EXPECT_NEAR(forces[3] / linear[1], 1, 3e-4);
+  // Linear elements with as many unknowns are further off.
+  EXPECT_LE(2 * std::abs(forces[3] - linear[1]), std::abs(linear[0] - linear[1]));
+}
+
+TEST(AxisymmetricQuadratic, FrictionInABore) {
+  const std::string body = quadratic(rectangle_body("[1, 0]", "[2, 1]", "[4, 4]")) +
+                           fixed("on = \"left\"", "[0.01, -0.1]"),
+                    bore = "body = \"b\"\non = \"right\"\nshape = \"plane\"\npoint = [2, 0]\nnormal = [-1, 0]\n";
+  const auto tresca = run<2, 2>(body + "[[obstacle]]\ntype = \"tresca\"\nbound = 0.001\n" + bore, {uniform(1)});
+  EXPECT_EQ(tresca.contact().slip_nodes, tresca.contact().nodes);
+  EXPECT_NEAR(tresca.contact().tangential_force[1], 0.001 * 4 * pi, 1e-9);
+  const auto coulomb = run<2, 2>(body + "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.2\n" + bore, {uniform(1)});
+  EXPECT_EQ(coulomb.contact().slip_nodes, coulomb.contact().nodes);
+  EXPECT_LT(coulomb.contact().force[0], -0.01);
+  EXPECT_NEAR(coulomb.contact().tangential_force[1], -0.2 * coulomb.contact().force[0], 1e-8);
+}
+
+// Of rubber a tube in a bore is hardly deformed, and its pressure is that which acts within.
+TEST(AxisymmetricQuadratic, RubberDoesNotLock) {
+  for (const double ratio : {0.3, 0.499, 0.4999}) {
+    const double m = E / (2 * (1 + ratio)), l = E * ratio / ((1 + ratio) * (1 - 2 * ratio));
+    // u = A r + B / r between the pressure 0.01 at r = 1 and none at r = 2, no axial strain
+    const double A = 0.01 / (2 * (l + m) * 3), B = 0.04 / (2 * m * 3);
+    std::string text = quadratic(tube(false));
+    text.replace(text.find("poisson = 0.3"), 13, fmt::format("poisson = {}", ratio));
+    Errors error;
+    int cycles = 0;
+    for (int k = 0; k <= 2; ++k) {
+      const auto r = run<2, 2>(text, {uniform(k), "solver.tolerance=1e-11"});
+      cycles = r.summary().iterations;
+      error.add(quadratic_error<2>(r, [&](const Point<2>& x) { return std::array{A * x[0] + B / x[0], 0.0}; }));
+    }
+    show("tube of nu = {}: {:.2e} order {:.2f}, {} cycles\n", ratio, error.value.back(), error.last_order(), cycles);
+    EXPECT_GE(error.last_order(), 2.7);
+    EXPECT_LE(error.value.back(), 1e-4);
+  }
 }
 
 std::string refusal(const std::string& text) {

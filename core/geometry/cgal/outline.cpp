@@ -25,6 +25,10 @@ Outline outline_of(const Disk& disk) {
   const Point<2> top{c[0], c[1] + r}, bottom{c[0], c[1] - r};
   if (disk.lower_half && disk.right_half)
     result.sides = {{bottom, right, true, "curved"}, {right, c, false, "flat"}, {c, bottom, false, ""}};
+  else if (disk.upper_half && disk.right_half)
+    result.sides = {{right, top, true, ""}, {top, c, false, ""}, {c, right, false, ""}};
+  else if (disk.upper_half)
+    result.sides = {{right, left, true, ""}, {left, right, false, ""}};
   else if (disk.right_half)
     result.sides = {{bottom, top, true, ""}, {top, bottom, false, ""}};
   else if (disk.lower_half)
@@ -41,7 +45,9 @@ Outline outline_of(const Polygon& polygon) {
   result.narrowest = narrowest_place(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point<2>&a = points[i], &b = points[(i + 1) % points.size()];
-    result.sides.push_back({clockwise ? b : a, clockwise ? a : b, false, fmt::format("edge{}", i)});
+    const int number = polygon.edges.empty() ? static_cast<int>(i) : polygon.edges[i];
+    result.sides.push_back(
+        {clockwise ? b : a, clockwise ? a : b, false, number < 0 ? "" : fmt::format("edge{}", number)});
     result.diameter = std::max(result.diameter, length<2>(difference<2>(a, points[0])));
   }
   if (clockwise) std::reverse(result.sides.begin(), result.sides.end());

@@ -184,7 +184,9 @@ void refine(Triangulation& triangulation, Sizing<2>& sizing) {
 OwnUnits<2> units_of(const Disk& disk) { return {disk.center, disk.radius}; }
 OwnUnits<2> units_of(const Polygon& polygon) { return own_units<2>(polygon.points); }
 
-Disk in_own_units(const Disk& disk, const OwnUnits<2>&) { return {{0, 0}, 1, disk.lower_half, disk.right_half}; }
+Disk in_own_units(const Disk& disk, const OwnUnits<2>&) {
+  return {{0, 0}, 1, disk.lower_half, disk.right_half, disk.upper_half};
+}
 Polygon in_own_units(Polygon polygon, const OwnUnits<2>& units) {
   for (Point<2>& p : polygon.points) p = units.own(p, shape_digits);
   return polygon;

@@ -4,20 +4,29 @@
 
 namespace signorini::geometry {
 
-/// A ball or an upright circular cylinder, cut by horizontal planes.
+/// A plane where a coordinate has a value.
+struct CutPlane {
+  int axis;
+  double at;
+};
+
+/// A ball or an upright circular cylinder, cut by planes: those along x or y go through its centre.
 struct RoundShape {
   Curve<3> curve;
-  std::vector<double> planes;  ///< their z
+  std::vector<CutPlane> planes;
 
   /// Squared distance to the centre of the ball or to the axis of the cylinder.
   double square(const Point<3>& p) const;
   /// Index into `planes`, or -1.
   int nearest_plane(const Point<3>& p, double within) const;
+  /// The plane that all of these points are on, or -1.
+  int common_plane(const std::array<Point<3>, 3>& points) const;
   /// Moves a point that is near the surface, or near a rim, exactly onto it.
   Point<3> onto_surface(Point<3> p, bool on_crease) const;
 };
 
-/// Ball, half ball and cylinder as one convex domain, whose queries are answered in closed form. Units are the radius.
+/// Ball, half ball and cylinder, or what is left of them at one side of planes through their centre, as one convex
+/// domain, whose queries are answered in closed form. Units are the radius.
 class RoundDomain : public Domain {
  public:
   explicit RoundDomain(const Ball& ball);
@@ -40,10 +49,16 @@ class RoundDomain : public Domain {
  private:
   std::string name_;
   OwnUnits<3> units_;
-  RoundShape given_, own_;                // in the user's coordinates, and in its own
-  std::vector<std::string> plane_parts_;  // per plane
+  RoundShape given_, own_;  // in the user's coordinates, and in its own
+  void halve(const Halved& halved);
+  bool halved(std::size_t axis) const { return low_[axis] == 0; }
+  void add_rims(std::vector<Polyline>& creases) const;
+  void add_arcs_of_sphere(std::vector<Polyline>& creases) const;
+  void add_segments(std::vector<Polyline>& creases) const;
+
+  std::vector<std::string> plane_parts_;  // per plane, "" for none
   std::string curved_part_;               // "" if it is all of the boundary
-  double low_, high_;                     // range of z
+  Point<3> low_{-1, -1, -1}, high_{1, 1, 1};
   double volume_, coarsest_size_;
 };
 
