@@ -211,7 +211,9 @@ TEST(Symmetry, BodiesThatTouchEachOther) {
       "[[fix]]\nbody = \"u\"\non = \"top\"\nvalue = [{0}, \"-0.02*t\"]\n"
       "[[fix]]\nbody = \"l\"\non = \"bottom\"\nvalue = [{0}, 0]\n";
   const std::vector<Mirror> in_plane{{0, 0.0}}, in_space{{0, 0.0}, {1, 0.0}};
-  const Mesh<2> upper = rectangle({0, 1}, {1, 2}, {7, 6}), lower = rectangle({0, 0}, {1.5, 1}, {6, 4});
+  Mesh<2> upper = rectangle({0, 1}, {1, 2}, {7, 6});
+  for (Point<2>& x : upper.points) x[1] += 0.02 * x[0] * x[0];  // the normal at the plane is not that of its one face
+  const Mesh<2> lower = rectangle({0, 0}, {1.5, 1}, {6, 4});
   const Mesh<3> cube = box({0, 0, 1}, {1, 1, 2}, {3, 3, 3}), slab = box({0, 0, 0}, {1.5, 1.5, 1}, {4, 4, 2});
   for (const char* type : {"type = \"elastic\"", "type = \"elastic_coulomb\"\nfriction = 0.2"}) {
     SCOPED_TRACE(type);
