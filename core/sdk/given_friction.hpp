@@ -127,8 +127,8 @@ struct GivenFriction {
     return false;
   }
 
-  /// Minimises 1/2 d'Sd - q'd + g sqrt(|w|^2 + resting) for the slip w = from + d, up to two components. The step is the
-  /// shorter one of d and w, which leaves less of it to rounding: whether it is d.
+  /// Minimises 1/2 d'Sd - q'd + g sqrt(|w|^2 + resting) for the slip w = from + d, up to two components. The step is
+  /// the shorter one of d and w, which leaves less of it to rounding: whether it is d.
   static bool minimise_sliding(const double* S, const double* q, const double* from, int count, double g,
                                double resting, double* step) {
     if (count == 0) return false;

@@ -79,7 +79,8 @@ void expect_hertz(double delta, const std::string& size, int refinements) {
          r.summary().level_unknowns.back(), r.contact().nodes, radius, d.radius, d.pressure, d.approach);
   }
   const Differences &first = found.front(), &last = found.back();
-  // In 3D the finest meshes of sizes from 0.046 to 0.054 are off by up to 0.0097 and 0.0061, this one by 0.0015, 0.0060.
+  // In 3D the finest meshes of sizes from 0.046 to 0.054 are off by up to 0.0097 and 0.0061, this one by 0.0015,
+  // 0.0060.
   EXPECT_LE(std::abs(last.radius), D == 2 ? 0.003 : 0.01);
   EXPECT_LE(std::abs(last.pressure), D == 2 ? 0.004 : 0.0065);
   EXPECT_LE(std::abs(last.approach), 0.03);
