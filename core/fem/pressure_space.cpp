@@ -97,7 +97,7 @@ class SpaceBuilder {
 
   Index new_unknown(std::size_t f) {
     const Index region = mesh_.family_region.empty() ? -1 : mesh_.family_region[f];
-    const auto at = static_cast<std::size_t>(region + 1);
+    const auto at = static_cast<std::size_t>(region) + 1;
     material_.resize(std::max(material_.size(), at + 1), -1);
     if (material_[at] < 0) material_[at] = out_.materials++;
     out_.material.push_back(material_[at]);

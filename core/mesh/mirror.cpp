@@ -43,7 +43,7 @@ void move_onto(Mesh<D>& mesh, const Mirror& mirror, std::string_view place) {
 
 }  // namespace
 
-template <int D>
+template <int D>  // NOLINTNEXTLINE(performance-unnecessary-value-param): the move depends on the template's mesh
 void set_mirrors(Mesh<D>& mesh, std::vector<Mirror> mirrors, std::string_view place) {
   for (const Mirror& mirror : mirrors) move_onto(mesh, mirror, place);
   mesh.mirrors = std::move(mirrors);
