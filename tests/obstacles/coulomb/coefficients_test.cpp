@@ -146,5 +146,14 @@ TEST(Coefficients, ContactLoadsNoLibraryOfFriction) {
   });
 }
 
+// Starts from coarser meshes count, though their residuals are larger than that of zero.
+TEST(Wedge, UnloadingBeginsAtTheLastStep) {
+  Driver driver(bench::wedge(3).with(0.3));
+  for (const StepReport& step : driver.solve().steps) {
+    ASSERT_TRUE(step.summary.converged()) << step.summary.reason;
+    EXPECT_LE(step.summary.iterations, 16) << "t = " << step.t;
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test
