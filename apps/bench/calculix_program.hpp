@@ -8,6 +8,7 @@ namespace signorini::bench {
 /// One run of CalculiX, Debian's program ccx.
 struct CalculixRun {
   double seconds = 0;  ///< of processor time, one thread
+  double memory_mb = 0;
   int iterations = 0;
   std::array<double, 3> force{};  ///< the last total that the deck prints
 };
@@ -15,7 +16,8 @@ struct CalculixRun {
 /// Runs a deck `folder/name.inp`. Nothing where it ends without a result, or takes more than `limit` seconds.
 std::optional<CalculixRun> run_calculix(const std::filesystem::path& folder, const std::string& name, double limit);
 
-/// A new folder for decks. Error(Exit::input) without the program.
-std::filesystem::path calculix_folder();
+bool has_calculix();
+/// Error(Exit::input) without the program.
+void require_calculix();
 
 }  // namespace signorini::bench
