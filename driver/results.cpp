@@ -226,7 +226,7 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
   const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];
-    if (!model.obstacles[k].obstacle->nonlinearity() || !drags_unknown(obstacle)) continue;
+    if (!model.obstacles[k].obstacle->functional() || !drags_unknown(obstacle)) continue;
     warnings.push_back(fmt::format(
         "{}: 'distance' depends on t and tells how the obstacle moves across its surface, not along it: friction takes "
         "it to be at rest along it; a plane, sphere or cylinder that moves drags the body with it",

@@ -188,7 +188,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const bool factorised = factorised_meshes(hierarchy, options, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(options, B, hierarchy.levels[first].vertices());
   const bool functional =
-      std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
+      std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->functional() != nullptr; });
   print_solver(options, below, first == 0, B, free_unknowns(nodes, model), functional || pressures > 0);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));

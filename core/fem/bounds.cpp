@@ -39,7 +39,7 @@ struct Candidates {
                         : signorini::surface(nodes)),
         normals(node_normals(nodes, surface)),
         everywhere(!term.on) {
-    if (!term.obstacle->nonlinearity()) return;
+    if (!term.obstacle->functional()) return;
     if (B == 1 && everywhere)
       volumes = node_volumes(nodes, model.plane);
     else
@@ -82,7 +82,7 @@ class Collector {
     const Candidates<D> candidates(nodes_, model_, model_.obstacles[obstacle]);
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
     const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
-    functional_ = of.nonlinearity() != nullptr;
+    functional_ = of.functional() != nullptr;
     needs_numbers_ = of.descriptor().data > 0;
     if (model_.obstacles[obstacle].other)
       collect_paired(candidates);

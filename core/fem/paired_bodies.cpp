@@ -82,7 +82,7 @@ class Coupler {
     normalise(normal);
     const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
     if (!free) return;
-    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    const bool with_friction = model_.obstacles[obstacle].obstacle->functional() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
