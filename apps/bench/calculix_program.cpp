@@ -28,7 +28,6 @@ std::optional<CalculixRun> run_calculix(const fs::path& folder, const std::strin
       run_child(fmt::format("sh -c \"cd '{}' && exec ccx -i {} > log 2>&1\"", folder.string(), name), limit);
   CalculixRun out;
   out.seconds = child.seconds;
-  out.memory_mb = child.memory_mb;
   const std::string result = text_of(folder / (name + ".dat")), log = text_of(folder / "log");
   const std::size_t total = result.rfind("total force");
   if (!child.ended_well || total == std::string::npos) return {};

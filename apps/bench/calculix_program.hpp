@@ -8,7 +8,6 @@ namespace signorini::bench {
 /// One run of CalculiX, Debian's program ccx.
 struct CalculixRun {
   double seconds = 0;  ///< of processor time, one thread
-  double memory_mb = 0;
   int iterations = 0;
   std::array<double, 3> force{};  ///< the last total that the deck prints
 };

@@ -6,8 +6,7 @@ namespace signorini::bench {
 /// One run of another program.
 struct ChildRun {
   bool ended_well = false;
-  double seconds = 0;    ///< of processor time
-  double memory_mb = 0;  ///< at most
+  double seconds = 0;  ///< of processor time
 };
 
 /// Runs a shell's command line on one thread. It is ended after `limit` seconds.
