@@ -171,7 +171,7 @@ void print_accuracy_peers(bool quick, const std::string& only) {
   const bool with_getfem = wanted("GetFEM") && has_getfem(), with_calculix = wanted("CalculiX") && has_calculix();
   if (!with_getfem && !with_calculix)
     throw Error(Exit::input, "there is neither ccx nor Python's getfem: ./dev setup peers installs both");
-  AccuracyProblem problem = ball_in_space(quick ? 2 : 0, scratch.path());
+  AccuracyProblem problem = ball_in_space(1, scratch.path());
   problem.exact.stress.clear();  // peers are asked for force and pressure
   fmt::print(
       "\n## The ball on the same quadratic meshes\n\n| unknowns | solver | seconds | ratio | iterations | force | "

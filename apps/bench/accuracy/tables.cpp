@@ -120,8 +120,7 @@ void print_cheapest(const std::vector<Row>& rows, double force, double peak) {
       best = &row;
   fmt::print("\nForce to {:g} % and largest pressure to {:g} %: ", 100 * force, 100 * peak);
   if (best)
-    fmt::print("{:.2f} s, {} elements with {:.0f} unknowns.\n", best->answer.seconds, best->series,
-               best->answer.unknowns);
+    fmt::print("{:.2f} s ({}, {:.0f} unknowns).\n", best->answer.seconds, best->series, best->answer.unknowns);
   else
     fmt::print("by none of these.\n");
 }
@@ -136,7 +135,10 @@ void print_accuracy(bool quick, const std::string& only, const std::filesystem::
     Table table(problem);
     table.print();
     if (named.make == ball_in_space) print_cheapest(table.rows(), 0.001, 0.005);
-    if (!pictures.empty()) table.draw(pictures / fmt::format("accuracy_{}.png", named.name));
+    if (pictures.empty()) continue;
+    const std::string picture = fmt::format("accuracy_{}.png", named.name);
+    table.draw(pictures / picture);
+    fmt::print("\n![{}: errors over unknowns and over seconds]({})\n", problem.title, picture);
   }
 }
 
