@@ -131,7 +131,7 @@ Summary of_whole(Summary summary, const Whole& whole) {
 std::vector<std::string> plane_names(const std::vector<Mirror>& mirrors) {
   std::vector<std::string> names;
   names.reserve(mirrors.size());
-  for (const Mirror& mirror : mirrors) names.push_back(fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at));
+  for (const Mirror& mirror : mirrors) names.push_back(plane_name(mirror));
   return names;
 }
 

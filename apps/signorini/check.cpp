@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/fem/pressure_space.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
@@ -43,7 +44,7 @@ void print_parts(const Mesh<D>& mesh) {
 void print_symmetry(const std::vector<Mirror>& mirrors) {
   if (mirrors.empty()) return;
   fmt::print("symmetry: one of {} copies is meshed, beside", 1 << mirrors.size());
-  for (const Mirror& mirror : mirrors) fmt::print(" {} = {:g}", "xyz"[mirror.axis], mirror.at);
+  for (const Mirror& mirror : mirrors) fmt::print(" {}", plane_name(mirror));
   fmt::print("\n");
 }
 
