@@ -142,6 +142,14 @@ TEST(Coulomb, LevelsByTheMatrixTakeHardlyMoreCyclesThanWithoutFriction) {
   }
 }
 
+// Where all slips in the end what sticks meanwhile gives way layer by layer: acceleration does not wait for that.
+TEST(Coulomb, CyclesAreAcceleratedWhilePhasesComeToRest) {
+  const std::vector<std::string> pushed{"solver.hierarchy=matrix", "fix.0.value=[0.1, -0.01]"};
+  const auto with = run<2, 2>(block2(coulomb(on_plane, "0.3"), 6), pushed);
+  const auto without = run<2, 2>(block2(coulomb(on_plane, "0"), 6), pushed);
+  EXPECT_LE(with.summary().iterations, 1.5 * without.summary().iterations);
+}
+
 const Report& solve(Driver& driver) {
   const Report& report = driver.solve();
   for (const StepReport& step : report.steps) EXPECT_TRUE(step.summary.converged()) << step.summary.reason;
