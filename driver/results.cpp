@@ -30,7 +30,10 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     std::move(slaves),
                     conditions_across(nodes.mesh(), model)};
   out.slaves.resize(model.obstacles.size());
-  out.counterforces = counterforces(solution.discretization.problem, out.contact);
+  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
+  const auto back = totals(out.counterforces, model.obstacles.size(), true);
+  for (std::size_t k = 0; k < back.size(); ++k)
+    for (int i = 0; i < B; ++i) out.contact.obstacles[k].force[i] += back[k][i];
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));

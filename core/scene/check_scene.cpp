@@ -90,12 +90,14 @@ void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (slave.plane != master.plane)
     input_error(place, fmt::format("bodies '{}' and '{}' differ in 'plane'; bodies that touch have the same",
                                    slave.name, master.name));
-  for (const Scene::Body* body : {&slave, &master})
-    if (body->order != 1)
-      input_error(body->source.of(body->source.given("order") ? "order" : "poisson"),
-                  fmt::format("body '{}' has quadratic elements; bodies that touch each other have linear ones in this "
-                              "version: expected order = 1",
-                              body->name));
+  if (slave.order != master.order)
+    input_error((slave.order == 1 ? slave : master).source.of("order"),
+                fmt::format("bodies '{}' and '{}' have elements of order {} and {}; bodies that touch each other have "
+                            "the same in this version",
+                            slave.name, master.name, slave.order, master.order));
+  if (slave.pressure != master.pressure)
+    input_error(place, fmt::format("bodies '{}' and '{}' differ in 'pressure'; bodies that touch have the same",
+                                   slave.name, master.name));
 }
 
 // Without normals (inside the body) only a scalar unknown can meet an obstacle.
