@@ -25,6 +25,7 @@ constexpr double rounding = 1e-14;        // of a motion: what is left out bends
 constexpr double projected = 1e-13;       // of what is projected: rounding
 constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
 constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
+constexpr double near = 0.1;              // of prescribed values: a motion that takes most of them away
 constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Index columns) {
@@ -409,16 +410,32 @@ std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
   return way;
 }
 
-// The rigid motion next to the prescribed values.
+// The rigid motion next to the prescribed values. None where these are far from it and nothing else moves the body
+// rigidly: what is left of them would be as large as they are.
 template <int D, int B>
 std::vector<double> LooseBody<D, B>::as_prescribed() const {
   const DiscreteProblem<B>& problem = discretization_.problem;
   const auto motion = motions_.nearest_to_prescribed(problem);
-  if (motion.isZero(0) && free_.cols() == 0) return {};
+  if (free_.cols() == 0 && (motion.isZero(0) || !is_near(motion))) return {};
   std::vector<double> out(problem.start.size());
   for (Index p = 0; p < nodes_.size(); ++p)
     for (int k = 0; k < B; ++k) out[Offset{p} * B + k] = motions_.along(problem, p, k) * motion;
   return out;
+}
+
+// Whether prescribed values are next to a motion.
+template <int D, int B>
+bool LooseBody<D, B>::is_near(const typename Motions::Motion& motion) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  double largest = 0, rest = 0;
+  for (std::size_t p = 0; p < problem.fixed.size(); ++p)
+    for (int k = 0; k < B && problem.fixed[p] != 0; ++k) {
+      if (!(problem.fixed[p] >> k & 1u)) continue;
+      const double value = problem.start[p * B + static_cast<std::size_t>(k)];
+      largest = std::max(largest, std::abs(value));
+      rest = std::max(rest, std::abs(value - motions_.along(problem, static_cast<Index>(p), k) * motion));
+    }
+  return rest < near * largest;
 }
 
 // The least motion that takes x out of all obstacles, by which it moves x; zero where there is none.

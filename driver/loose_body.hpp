@@ -51,6 +51,7 @@ class LooseBody {
   double coefficient_of_friction(Index slot) const;
   bool slides_along(const std::vector<double>& step, double least) const;
   std::vector<double> as_prescribed() const;
+  bool is_near(const typename Motions::Motion& motion) const;
   Eigen::VectorXd come_clear(std::vector<double>& x) const;
   Eigen::VectorXd let_fall(std::vector<double>& x) const;
   void touch(double rounding, std::vector<double>& x) const;

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <type_traits>
@@ -14,6 +16,7 @@
 #include "core/base/error.hpp"
 #include "core/input/field.hpp"
 #include "core/input/values.hpp"
+#include "core/sdk/obstacle.hpp"
 
 namespace signorini {
 namespace {
@@ -127,23 +130,49 @@ class CompiledSettings final : public Settings {
 
   double value(const char* name, std::size_t k, const double* point, const double* normal,
                Status& status) const noexcept override {
-    try {
-      const auto& fields = get<std::vector<Field>>(name);
-      if (k >= fields.size()) {
-        if (const std::string wrong = complaint(); !wrong.empty()) throw Error(Exit::plugin, wrong);
-        throw Error(Exit::input,
-                    fmt::format("value {} of option '{}' was asked for, which has {}", k + 1, name, fields.size()));
+    double out = 0;
+    guard(status, [&] { out = entry(name, k)(site(point, normal)); });
+    return out;
+  }
+
+  void values(const char* name, const SurfaceVertex* vertices, std::size_t count, double* out,
+              Status& status) const noexcept override {
+    guard(status, [&] {
+      const Field& field = entry(name, 0);
+      Site sites[64];
+      for (std::size_t first = 0; first < count; first += std::size(sites)) {
+        const std::size_t some = std::min(std::size(sites), count - first);
+        for (std::size_t k = 0; k < some; ++k)
+          sites[k] = site(vertices[first + k].position, vertices[first + k].normal);
+        field.values({sites, some}, out + first);
       }
-      return fields[k]({{point[0], point[1], point[2]}, {normal[0], normal[1], normal[2]}, t_});
+    });
+  }
+
+ private:
+  template <class Evaluate>
+  static void guard(Status& status, const Evaluate& evaluate) noexcept {
+    try {
+      evaluate();
     } catch (const Error& error) {
       status.fail(static_cast<int>(error.status()), error.what());
     } catch (const std::exception& error) {
       status.fail(static_cast<int>(Exit::input), error.what());
     }
-    return 0;
   }
 
- private:
+  const Field& entry(const char* name, std::size_t k) const {
+    const auto& fields = get<std::vector<Field>>(name);
+    if (k < fields.size()) return fields[k];
+    if (const std::string wrong = complaint(); !wrong.empty()) throw Error(Exit::plugin, wrong);
+    throw Error(Exit::input,
+                fmt::format("value {} of option '{}' was asked for, which has {}", k + 1, name, fields.size()));
+  }
+
+  Site site(const double* point, const double* normal) const {
+    return {{point[0], point[1], point[2]}, {normal[0], normal[1], normal[2]}, t_};
+  }
+
   struct Option {
     OptionType type = OptionType::text;
     bool given = false;

@@ -333,16 +333,24 @@ void add_functionals(const NodeReader<B>& reader, const Model<B>& model, const D
 
 /// The nodes of one vertex and obstacle, one for each direction, are one vertex in contact.
 template <int B>
-void add_vertex(const std::vector<const ContactNode<B>*>& nodes, ContactSummary<B>& summary) {
-  const auto any = [&](const auto& is) {
-    return std::ranges::any_of(nodes, [&](const auto* node) { return is(*node); });
-  };
-  if (!any([](const auto& node) { return node.contact; })) return;
-  ++summary.nodes;
-  summary.slip_nodes += any([](const auto& node) { return node.friction && !node.sticks; });
-  summary.stick_nodes += any([](const auto& node) { return node.friction && node.sticks; });
-  summary.undetermined_nodes += any([](const auto& node) { return node.contact && (node.held || node.shared); });
-}
+struct ContactVertex {
+  Index vertex = -1;
+  bool contact = false, slips = false, sticks = false, undetermined = false;
+
+  void add(const ContactNode<B>& node) {
+    contact |= node.contact;
+    slips |= node.friction && !node.sticks;
+    sticks |= node.friction && node.sticks;
+    undetermined |= node.contact && (node.held || node.shared);
+  }
+  void add_to(ContactSummary<B>& summary) const {
+    if (!contact) return;
+    ++summary.nodes;
+    summary.slip_nodes += slips;
+    summary.stick_nodes += sticks;
+    summary.undetermined_nodes += undetermined;
+  }
+};
 
 template <int B>
 void add_forces(const ContactNode<B>& node, ContactSummary<B>& summary) {
@@ -359,17 +367,17 @@ void add_forces(const ContactNode<B>& node, ContactSummary<B>& summary) {
 /// Of one obstacle.
 template <int B>
 void add_to(ContactSummary<B>& summary, const std::vector<ContactNode<B>>& nodes, Index obstacle) {
-  std::vector<const ContactNode<B>*> here;
+  ContactVertex<B> here;
   for (const ContactNode<B>& node : nodes) {
     if (node.obstacle != obstacle) continue;
-    if (!here.empty() && here.front()->vertex != node.vertex) {
-      add_vertex(here, summary);
-      here.clear();
+    if (here.vertex != node.vertex) {
+      here.add_to(summary);
+      here = {node.vertex};
     }
-    here.push_back(&node);
+    here.add(node);
     add_forces(node, summary);
   }
-  if (!here.empty()) add_vertex(here, summary);
+  here.add_to(summary);
 }
 
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
@@ -395,6 +403,7 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
                               const std::vector<double>& x) {
   ContactState<B> state;
   state.obstacles.resize(model.obstacles.size());
+  state.nodes.reserve(discretization.problem.constraints.vector.size());  // there may be one for every unknown
   const NodeReader<B> reader(discretization, x);
   for (Index slot = 0; slot < discretization.problem.constraints.size(); ++slot) {
     if (reader.has_facets(slot)) {

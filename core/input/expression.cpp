@@ -4,12 +4,14 @@
 #include <muParserBase.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
 #include <mutex>
 #include <numbers>
 #include <numeric>
+#include <span>
 
 #include "core/base/error.hpp"
 #include "core/input/expression_scan.hpp"
@@ -159,10 +161,12 @@ class Compiled {
     parser_.Eval();  // parses
   }
 
-  double operator()(const Site& site) {
+  void values(std::span<const Site> sites, double* out) {
     const std::lock_guard lock(mutex_);
-    site_ = site;
-    return parser_.Eval();
+    for (const Site& site : sites) {
+      site_ = site;
+      *out++ = parser_.Eval();
+    }
   }
 
  private:
@@ -203,10 +207,13 @@ std::string in_quotes(std::string_view text) {
 Field compile_expression(const std::string& text, const std::string& origin) {
   const ScannedExpression scanned = scan_expression(text, origin);
   const std::shared_ptr<Compiled> compiled = compile(scanned.text, text, origin);
-  if (!scanned.has_variables)
-    if (const double value = (*compiled)(Site{}); std::isfinite(value)) return value;
-  return Field([compiled](const Site& site) { return (*compiled)(site); }, text, origin, scanned.has_normal,
-               scanned.has_t);
+  const auto values = [compiled](std::span<const Site> sites, double* out) { compiled->values(sites, out); };
+  if (!scanned.has_variables) {
+    double value;
+    values(std::array{Site{}}, &value);
+    if (std::isfinite(value)) return value;
+  }
+  return Field(values, text, origin, scanned.has_normal, scanned.has_t);
 }
 
 }  // namespace signorini

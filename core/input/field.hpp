@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace signorini {
@@ -23,7 +24,10 @@ class Field {
   /// @param uses_normal whether the value depends on Site::n
   /// @param uses_t whether it may depend on Site::t
   Field(std::function<double(const Site&)> function, std::string text, std::string origin, bool uses_normal = false,
-        bool uses_t = true)
+        bool uses_t = true);
+  /// @param function writes the values at many sites
+  Field(std::function<void(std::span<const Site>, double*)> function, std::string text, std::string origin,
+        bool uses_normal = false, bool uses_t = true)
       : function_(std::move(function)),
         text_(std::move(text)),
         origin_(std::move(origin)),
@@ -33,6 +37,8 @@ class Field {
   /// The value; Error(Exit::input) that names origin, text and position where it is not finite, or uses the normal
   /// where there is none.
   double operator()(const Site& site) const;
+  /// The same at many sites, which takes less time than one by one.
+  void values(std::span<const Site> sites, double* out) const;
   /// The number, if this is no expression.
   std::optional<double> constant() const;
   /// As the user wrote it; a constant as a number.
@@ -43,7 +49,7 @@ class Field {
   bool same(double t, const Field& other, double t_other) const;
 
  private:
-  std::function<double(const Site&)> function_;
+  std::function<void(std::span<const Site>, double*)> function_;
   double constant_ = 0;
   std::string text_, origin_;
   bool uses_normal_ = false, uses_t_ = false;

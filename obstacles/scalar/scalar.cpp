@@ -1,4 +1,5 @@
 /// Bounds on a scalar unknown: lower(x) <= u(x) <= upper(x), of which one may be missing.
+#include <algorithm>
 #include <cstdio>
 #include <iterator>
 
@@ -19,21 +20,26 @@ class Scalar final : public BoxObstacle<1> {
 
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
                 Status& status) const noexcept override {
-    for (std::size_t k = 0; k < count && status.ok(); ++k) {
-      LocalConstraint<1>& c = constraints[k];
-      c.directions = 1;
-      c.direction[0][0] = 1;
-      c.lower[0] = has_lower_ ? value("lower", vertices[k], status) : -infinity;
-      c.upper[0] = has_upper_ ? value("upper", vertices[k], status) : infinity;
-      if (status.ok() && c.lower[0] > c.upper[0]) infeasible(vertices[k], c, status);
+    constexpr std::size_t some = 64;
+    double lower[some], upper[some];
+    std::fill_n(lower, some, -infinity);
+    std::fill_n(upper, some, infinity);
+    for (std::size_t first = 0; first < count && status.ok(); first += some) {
+      const std::size_t here = std::min(some, count - first);
+      if (has_lower_) settings_.values("lower", vertices + first, here, lower, status);
+      if (has_upper_) settings_.values("upper", vertices + first, here, upper, status);
+      for (std::size_t k = 0; k < here && status.ok(); ++k) {
+        LocalConstraint<1>& c = constraints[first + k];
+        c.directions = 1;
+        c.direction[0][0] = 1;
+        c.lower[0] = lower[k];
+        c.upper[0] = upper[k];
+        if (c.lower[0] > c.upper[0]) infeasible(vertices[first + k], c, status);
+      }
     }
   }
 
  private:
-  double value(const char* name, const SurfaceVertex& vertex, Status& status) const noexcept {
-    return settings_.value(name, 0, vertex.position, vertex.normal, status);
-  }
-
   static void infeasible(const SurfaceVertex& vertex, const LocalConstraint<1>& c, Status& status) noexcept {
     char message[256];
     std::snprintf(message, sizeof message, "no solution: at (%g, %g, %g) 'lower' is %.10g and 'upper' is %.10g",

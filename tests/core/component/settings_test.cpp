@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/sdk/obstacle.hpp"
 
 namespace signorini {
 namespace {
@@ -104,6 +105,20 @@ TEST(Settings, AFieldThatIsNotFiniteIsAStatusThatNamesItsPlace) {
   settings->value("bound", 0, point, normal, status);
   EXPECT_EQ(status.code, static_cast<int>(Exit::input));
   EXPECT_THAT(status.message, AllOf(HasSubstr("scene.toml:9"), HasSubstr("1/(x-1)")));
+}
+
+TEST(Settings, ValuesAtManyVerticesAreThoseOneByOne) {
+  const auto settings = compile_settings("obstacle 'test'", specs,
+                                         table({{"bound", raw(std::string("x < 50 ? x : nz * t"))}}), {}, nullptr, 0.5);
+  std::vector<SurfaceVertex> vertices(150);
+  for (std::size_t k = 0; k < vertices.size(); ++k) vertices[k] = {{static_cast<double>(k)}, {0, 0, -1}};
+  std::vector<double> values(vertices.size());
+  Status status;
+  settings->values("bound", vertices.data(), vertices.size(), values.data(), status);
+  ASSERT_TRUE(status.ok()) << status.message;
+  for (std::size_t k = 0; k < vertices.size(); ++k) EXPECT_EQ(values[k], k < 50 ? static_cast<double>(k) : -0.5);
+  settings->values("extra", vertices.data(), 1, values.data(), status);
+  EXPECT_FALSE(status.ok());
 }
 
 TEST(Settings, AFieldWithoutValueIsAStatus) {

@@ -319,6 +319,34 @@ TEST(Expression, LengthAndNestingAreLimited) {
   EXPECT_EQ(compile(powers).constant(), 1);
 }
 
+TEST(Expression, ManySitesHaveTheValuesOfEachByItself) {
+  std::string deep = "x";
+  for (int k = 0; k < 30; ++k) deep = "y + (z - " + deep + " * 0.9)";
+  for (const std::string& text :
+       {std::string("x < y ? sqrt(y - x) : -(x - y)^2 / (1 + z^2)"), std::string("max(x, y, z) - min(sin(x), 2^-y)"),
+        std::string("!(x > 0) + -!z"), deep}) {
+    const Field field = compile(text);
+    for (const std::size_t count : {1u, 2u, 63u, 64u, 65u, 200u}) {
+      std::vector<Site> sites;
+      for (std::size_t k = 0; k < count; ++k) {
+        const double t = static_cast<double>(k);
+        sites.push_back(site(std::sin(t), std::sin(1.7 * t), k % 7 == 0 ? 0 : std::cos(t)));
+      }
+      std::vector<double> values(count);
+      field.values(sites, values.data());
+      for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(values[k], field(sites[k])) << text << " at " << k;
+    }
+  }
+}
+
+TEST(Expression, OfManySitesTheOneWithoutAFiniteValueIsNamed) {
+  std::vector<Site> sites(100, site(1));
+  sites[77] = site(0, 5);
+  std::vector<double> values(sites.size());
+  const Field field = compile("1 / x");
+  EXPECT_THAT(test::outcome([&] { field.values(sites, values.data()); }).message, HasSubstr("[0, 5, 0]"));
+}
+
 TEST(Expression, CopiesMayBeUsedFromSeveralThreads) {
   const Field field = compile("x*x + y");
   std::vector<std::thread> threads;
