@@ -319,7 +319,6 @@ template <int B>
 std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
                                       std::span<const Prolongation> prolongations, const SolverOptions& options,
                                       const Registry& registry, const Monitor& monitor, std::vector<Stage>* dropped) {
-  constexpr double small = 0.1;  // part of what coarser levels get wrong
   if (prolongations.empty()) return given;
   std::vector<double> x;
   {
@@ -332,7 +331,8 @@ std::vector<double> nested_start_from(const std::vector<double>& given, Discrete
   std::vector<double> correction = x;
   for (std::size_t k = 0; k < x.size(); ++k) correction[k] -= given[k];
   const Prolongation& P = prolongations.back();
-  if (rough_energy(problem, P, correction) <= small * small * rough_energy(problem, P, x)) return x;
+  // What coarser levels get wrong of the correction is less than what they would of all.
+  if (rough_energy(problem, P, correction) <= rough_energy(problem, P, x)) return x;
   std::vector<double> none = nested_start(problem, prolongations, options, registry, monitor, dropped);
   make_admissible(problem, none);
   return lowers(problem, x, none) ? x : none;

@@ -23,7 +23,7 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
                                  std::vector<Stage>* dropped = nullptr);
 
 /// The same from a start that is given: nested iteration for the correction to it, so that what coarser levels get
-/// wrong is that of the correction only. Where they represent the correction hardly better than the solution, nested
+/// wrong is that of the correction only. Where they represent the correction no better than the solution, nested
 /// iteration without the given start as well, and of the two what has less energy.
 /// @param problem without frames; is changed meanwhile, and put back
 /// @param given B per vector, need not be admissible
