@@ -9,10 +9,14 @@ struct PartialSlipStep {
   double normal = 0, tangential = 0;  ///< forces on the body, the latter as it pulls
   double contact = 0, contact_in_theory = 0;
   double stick = 0, stick_in_theory = 0;  ///< radii; computed ones from the areas of the nodes
-  /// Of the tangential traction, in parts of the largest one before the force turned: the root of the mean square over
-  /// the contact, and the largest difference at a node. Of the recovered one, and of force over area.
-  double mean_error = 0, largest_error = 0;
+  /// Of the tangential traction along the force, in parts of the largest one before the force turned: the root of the
+  /// mean square over the contact, the largest difference at a node, and at a node more than two spacings away from
+  /// where sticking and contact end, for the traction's slope is infinite there. Of the recovered one, and of force
+  /// over area.
+  double mean_error = 0, largest_error = 0, largest_inside = 0;
   double nodal_mean_error = 0, nodal_largest_error = 0;
+  /// The same mean of the traction across the force, which the theory neglects.
+  double across = 0;
   double dissipated = 0;  ///< since the first step
   int nodes = 0, iterations = 0;
 };
