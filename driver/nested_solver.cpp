@@ -17,7 +17,6 @@
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/sticking.hpp"
-#include "core/solver/weights.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
 #include "methods/nested_iteration.hpp"
@@ -161,6 +160,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       nodes_(nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
       options_(options),
       first_(first_mesh(hierarchy, options, B, nodes_.back().order())),
+      pairs_(hierarchy, nodes_, first_),
       factorised_(factorised_meshes(hierarchy, options, B)),
       registry_(registry),
       progress_(progress),
@@ -181,9 +181,6 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
   spaces_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
-  pairings_.resize(hierarchy.levels.size());
-  pairs_.resize(hierarchy.levels.size());
-  connected_.resize(hierarchy.refinements.size());
   times_.setup += watch.elapsed();
 }
 
@@ -198,7 +195,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     solution.discretization = std::move(*renewed);
   } else {
     changed_[level] = true;
-    solution.discretization = discretize<D, B>(nodes_[level], model, pairings_[level]);
+    solution.discretization = discretize<D, B>(nodes_[level], model, pairs_.at(level));
     Assemblies& count = times_.assemblies;
     ++count.stiffness, ++count.load, ++count.constraints;
   }
@@ -214,44 +211,30 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   return solution;
 }
 
-/// Where bodies may touch each other. What holds a loose body may be far from where it is.
+/// Where bodies may touch each other.
 template <int D, int B>
 void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
-  if constexpr (D == B) {
-    if (!is_paired(model)) return;
-    const Stopwatch watch;
-    for (std::size_t level = first_; level < nodes_.size(); ++level)
-      pairs_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
-    drop_algebraic_levels();
-    pairings_ = pairs_;
-    held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, pairs_[first_])).held();
-    times_.setup += watch.elapsed();
-  }
+  if (D != B || !is_paired(model)) return;
+  const Stopwatch watch;
+  pairs_.find(model);
+  drop_algebraic_levels();
+  times_.setup += watch.elapsed();
 }
 
 /// Unknowns of a mesh are jumps where a solution on the next coarser one nearly touches.
 template <int D, int B>
 void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
-  if constexpr (D == B) {
-    if (!pairs_[level] || !held_) return;
-    const Stopwatch watch;
-    const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
-    const Prolongation P = prolongation(hierarchy_.refinements[level - 1], nodes_[level - 1], nodes_[level]);
-    std::vector<double> refined(static_cast<std::size_t>(P.fine()) * B);
-    weights::with<B>(P, [&](const auto& weight) {
-      for (Index p = 0; p < P.fine(); ++p)
-        weights::interpolate<B>(P, weight, p, u.data(), refined.data() + Offset{p} * B);
-    });
-    pairings_[level] = near_contact(nodes_[level], model, *pairs_[level], refined);
-    times_.setup += watch.elapsed();
-  }
+  if (!pairs_.may_narrow(level)) return;
+  const Stopwatch watch;
+  pairs_.narrow_by_coarser(model, level, to_global(coarse.discretization.problem, coarse.x));
+  times_.setup += watch.elapsed();
 }
 
 /// Without a coarser mesh a rough solution tells where bodies touch.
 template <int D, int B>
 void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
   constexpr double roughly = 1e-3;
-  if (!pairs_[first_] || !held_) return;
+  if (!pairs_.may_narrow(first_)) return;
   SolverOptions options = options_;
   options.tolerance = std::max(options.tolerance, roughly);
   solve_level(model, first_, options, nullptr, solution);
@@ -261,15 +244,13 @@ void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution)
 /// Once the coarsest mesh has a solution it is a level like the others.
 template <int D, int B>
 void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
-  if constexpr (D == B) {
-    if (!pairs_[first_] || !held_) return;
-    const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
-    pairings_[first_] = near_contact(nodes_[first_], model, *pairs_[first_], u);
-    drop_algebraic_levels();
-    coarse = discretize_level(model, first_);
-    coarse.x = to_local(coarse.discretization.problem, u);
-    continue_algebraically(coarse.discretization.problem);
-  }
+  if (!pairs_.may_narrow(first_)) return;
+  const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
+  pairs_.narrow(model, first_, u);
+  drop_algebraic_levels();
+  coarse = discretize_level(model, first_);
+  coarse.x = to_local(coarse.discretization.problem, u);
+  continue_algebraically(coarse.discretization.problem);
 }
 
 template <int D, int B>
@@ -284,15 +265,8 @@ void NestedSolver<D, B>::drop_algebraic_levels() {
 /// Interpolation between the meshes up to this one is one between the jumps that they have now.
 template <int D, int B>
 void NestedSolver<D, B>::connect_jumps(std::size_t level) {
-  if (!pairs_[level]) return;
   const Stopwatch watch;
-  for (std::size_t k = first_; k < level; ++k) {
-    const std::array now{pairings_[k], pairings_[k + 1]};
-    if (connected_[k] == now) continue;
-    prolongations_[number(k)] = between_jumps(prolongation(hierarchy_.refinements[k], nodes_[k], nodes_[k + 1]),
-                                              *now[1]->jumps, *now[0]->jumps);
-    connected_[k] = now;
-  }
+  pairs_.connect(level, std::span(prolongations_).subspan(algebraic_));
   times_.setup += watch.elapsed();
 }
 
@@ -300,21 +274,17 @@ void NestedSolver<D, B>::connect_jumps(std::size_t level) {
 /// a start.
 template <int D, int B>
 bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution) {
-  if constexpr (D == B) {
-    const std::size_t finest = nodes_.size() - 1;
-    if (!pairs_[finest] || pairings_[finest] == pairs_[finest]) return false;
-    const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
-    if (!touches_elsewhere(nodes_[finest], model, *pairs_[finest], *pairings_[finest], u)) return false;
-    pairings_[finest] = near_contact(nodes_[finest], model, *pairs_[finest], u, pairings_[finest].get());
-    connect_jumps(finest);
-    Solution<B> next = discretize_level(model, finest);
-    next.x = to_local(next.discretization.problem, u);
-    make_admissible(next.discretization.problem, next.x);
-    next.summary = std::move(solution.summary);
-    solution = std::move(next);
-    return true;
-  }
-  return false;
+  const std::size_t finest = nodes_.size() - 1;
+  if (!pairs_.at(finest)) return false;
+  const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
+  if (!pairs_.widen(model, u)) return false;
+  connect_jumps(finest);
+  Solution<B> next = discretize_level(model, finest);
+  next.x = to_local(next.discretization.problem, u);
+  make_admissible(next.discretization.problem, next.x);
+  next.summary = std::move(solution.summary);
+  solution = std::move(next);
+  return true;
 }
 
 /// From what the last solve left, if that is all there.
@@ -328,7 +298,7 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
     problem.A = std::move(galerkin_[number(level)].A);
     problem.fixed = std::move(galerkin_[number(level)].off);
   }
-  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization, pairings_[level]);
+  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization, pairs_.at(level));
   changed_[level] = !assembled.same_matrix();
   times_.assemblies.stiffness += assembled.stiffness;
   times_.assemblies.load += assembled.load;

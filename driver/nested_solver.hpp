@@ -1,6 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/solver/prolongation.hpp"
 #include "core/solver/summary.hpp"
+#include "driver/level_pairs.hpp"
 #include "driver/own_numbers.hpp"
 #include "driver/progress.hpp"
 #include "methods/configuration.hpp"
@@ -134,7 +134,8 @@ class NestedSolver {
   const MeshHierarchy<D>& hierarchy_;
   const std::vector<Nodes<D>> nodes_;  // per mesh
   Scene::Solver options_;
-  const std::size_t first_;       // the coarsest mesh that gives a level, or a start
+  const std::size_t first_;  // the coarsest mesh that gives a level, or a start
+  LevelPairs<D, B> pairs_;
   const std::size_t factorised_;  // the number of meshes that have no coarser level
   const Registry& registry_;
   const Progress& progress_;
@@ -142,11 +143,6 @@ class NestedSolver {
   const Monitor monitor_;
   std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
   std::size_t algebraic_ = 0;                // number of the latter
-  // Of bodies that may touch each other, per mesh: all that may, and what unknowns are jumps for.
-  std::vector<std::shared_ptr<const PairedBodies<B>>> pairs_, pairings_;
-  bool held_ = false;  // prescribed values hold them
-  // Per refinement: what interpolation across it is between.
-  std::vector<std::array<std::shared_ptr<const PairedBodies<B>>, 2>> connected_;
   std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
   std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
   std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve

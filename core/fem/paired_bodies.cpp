@@ -43,7 +43,7 @@ class Coupler {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
     const Mesh<D>& mesh = nodes_.mesh();
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
-    const MortarCoupling<D> found = couple_sides(mesh, term, faces.slave, faces.master);
+    const MortarCoupling<D> found = couple_sides(nodes_, model_, term, faces.slave, faces.master);
     refuse_deep<D>(mesh, term, faces.slave, found.deepest);
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
@@ -82,17 +82,18 @@ class Coupler {
     normalise(normal);
     const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
     if (!free) return;
-    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    const bool with_friction = model_.obstacles[obstacle].obstacle->functional() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
-    node.gap = (found.gap[k] - free->prescribed) / free->part;
+    node.part = found.part(k);
+    node.gap = (found.gap[k] / node.part - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
-      take_side(master_of_, slave_of_, row.column.back(), obstacle);
+      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, row.column.back(), obstacle);
     }
   }
 

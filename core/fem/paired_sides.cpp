@@ -39,11 +39,13 @@ PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, doubl
 }
 
 template <int D>
-MortarCoupling<D> couple_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
-                               const std::vector<Index>& master) {
+MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                               const std::vector<Index>& slave, const std::vector<Index>& master) {
+  const Mesh<D>& mesh = nodes.mesh();
   const auto of_slave = corners(mesh, slave), of_master = corners(mesh, master);
-  return couple<D>({mesh.points, of_slave, term.origin}, {mesh.points, of_master, term.origin},
-                   {.pairing = term.pairing, .reach = extent(mesh)});
+  return couple<D>(
+      {mesh.points, of_slave, term.origin, nodes.order()}, {mesh.points, of_master, term.origin, nodes.order()},
+      {.pairing = term.pairing, .reach = extent(mesh), .axisymmetric = model.plane == Plane::axisymmetric});
 }
 
 template <int D>
@@ -90,9 +92,9 @@ template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
-template MortarCoupling<2> couple_sides(const Mesh<2>&, const ObstacleTerm<2>&, const std::vector<Index>&,
-                                        const std::vector<Index>&);
-template MortarCoupling<3> couple_sides(const Mesh<3>&, const ObstacleTerm<3>&, const std::vector<Index>&,
-                                        const std::vector<Index>&);
+template MortarCoupling<2> couple_sides(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                        const std::vector<Index>&, const std::vector<Index>&);
+template MortarCoupling<3> couple_sides(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                        const std::vector<Index>&, const std::vector<Index>&);
 
 }  // namespace signorini

@@ -17,10 +17,11 @@ struct PairedFaces {
 template <int D>
 PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t);
 
-/// The sides of an obstacle between two bodies, coupled. They see each other from anywhere.
+/// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere. Its nodes
+/// are vertices of the mesh.
 template <int D>
-MortarCoupling<D> couple_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
-                               const std::vector<Index>& master);
+MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                               const std::vector<Index>& slave, const std::vector<Index>& master);
 
 /// The normal of a slave's node where some of its displacement is prescribed: contact acts along what is left of it.
 /// (On a plane of symmetry the mean normal of a curved surface is inclined, for faces are on one side only.)

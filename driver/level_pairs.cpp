@@ -1,0 +1,70 @@
+#include "driver/level_pairs.hpp"
+
+#include "core/fem/discretize.hpp"
+#include "core/fem/nested.hpp"
+#include "core/solver/weights.hpp"
+#include "driver/loose_body.hpp"
+
+namespace signorini {
+
+/// What holds a loose body may be far from where it is.
+template <int D, int B>
+void LevelPairs<D, B>::find(const Model<B>& model) {
+  if constexpr (D == B) {
+    for (std::size_t level = first_; level < nodes_.size(); ++level)
+      all_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
+    chosen_ = all_;
+    held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, all_[first_])).held();
+  }
+}
+
+template <int D, int B>
+void LevelPairs<D, B>::narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
+  if constexpr (D == B) chosen_[level] = near_contact(nodes_[level], model, *all_[level], u);
+}
+
+template <int D, int B>
+void LevelPairs<D, B>::narrow_by_coarser(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
+  const Prolongation P = interpolation(level - 1);
+  std::vector<double> refined(static_cast<std::size_t>(P.fine()) * B);
+  weights::with<B>(P, [&](const auto& weight) {
+    for (Index p = 0; p < P.fine(); ++p)
+      weights::interpolate<B>(P, weight, p, u.data(), refined.data() + Offset{p} * B);
+  });
+  narrow(model, level, refined);
+}
+
+template <int D, int B>
+bool LevelPairs<D, B>::widen(const Model<B>& model, const std::vector<double>& u) {
+  if constexpr (D == B) {
+    const Pairs& all = all_.back();
+    Pairs& chosen = chosen_.back();
+    if (!all || chosen == all || !touches_elsewhere(nodes_.back(), model, *all, *chosen, u)) return false;
+    chosen = near_contact(nodes_.back(), model, *all, u, chosen.get());
+    return true;
+  }
+  return false;
+}
+
+template <int D, int B>
+void LevelPairs<D, B>::connect(std::size_t level, std::span<Prolongation> between) {
+  if (!all_[level]) return;
+  for (std::size_t k = first_; k < level; ++k) {
+    const std::array now{chosen_[k], chosen_[k + 1]};
+    if (connected_[k] == now) continue;
+    between[k - first_] = between_jumps(interpolation(k), *now[1]->jumps, *now[0]->jumps);
+    connected_[k] = now;
+  }
+}
+
+template <int D, int B>
+Prolongation LevelPairs<D, B>::interpolation(std::size_t refinement) const {
+  return prolongation(hierarchy_.refinements[refinement], nodes_[refinement], nodes_[refinement + 1]);
+}
+
+template class LevelPairs<2, 1>;
+template class LevelPairs<3, 1>;
+template class LevelPairs<2, 2>;
+template class LevelPairs<3, 3>;
+
+}  // namespace signorini

@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/fem/model.hpp"
+#include "core/fem/paired_bodies.hpp"
+#include "core/mesh/mesh.hpp"
+#include "core/solver/prolongation.hpp"
+
+namespace signorini {
+
+/// Where, on each mesh, unknowns are jumps between bodies that may touch each other: where a solution says that they
+/// nearly do, and all over the slaves where prescribed values do not hold all bodies.
+template <int D, int B>
+class LevelPairs {
+ public:
+  using Pairs = std::shared_ptr<const PairedBodies<B>>;
+
+  /// Keeps references.
+  /// @param nodes of each mesh
+  /// @param first the coarsest mesh that is a level
+  LevelPairs(const MeshHierarchy<D>& hierarchy, const std::vector<Nodes<D>>& nodes, std::size_t first)
+      : hierarchy_(hierarchy), nodes_(nodes), first_(first) {
+    all_.resize(nodes.size());
+    chosen_.resize(nodes.size());
+    connected_.resize(hierarchy.refinements.size());
+  }
+
+  /// Of a new model all that may touch; to be called where is_paired().
+  void find(const Model<B>& model);
+
+  /// What unknowns of a mesh are jumps for; null: for nothing.
+  const Pairs& at(std::size_t level) const { return chosen_[level]; }
+
+  /// Whether a solution is to choose among all.
+  bool may_narrow(std::size_t level) const { return all_[level] && held_; }
+  /// Jumps are where a displacement of that mesh nearly touches, or one of the next coarser mesh does.
+  void narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u);
+  void narrow_by_coarser(const Model<B>& model, std::size_t level, const std::vector<double>& u);
+  /// Where a displacement of the finest mesh touches elsewhere as well jumps are there, too.
+  /// @return whether it does
+  bool widen(const Model<B>& model, const std::vector<double>& u);
+
+  /// Interpolation between the meshes up to this one, `between` from the first one on, becomes one between the jumps
+  /// that they have now.
+  void connect(std::size_t level, std::span<Prolongation> between);
+
+ private:
+  Prolongation interpolation(std::size_t refinement) const;
+
+  const MeshHierarchy<D>& hierarchy_;
+  const std::vector<Nodes<D>>& nodes_;
+  const std::size_t first_;
+  std::vector<Pairs> all_, chosen_;              // per mesh
+  std::vector<std::array<Pairs, 2>> connected_;  // per refinement: what interpolation across it is between
+  bool held_ = false;                            // prescribed values hold all bodies
+};
+
+}  // namespace signorini
