@@ -63,28 +63,55 @@ class Recovery {
   }
 
   std::vector<Sample<D - 1>> samples(Index k) const {
-    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) { return at_middle_[s] * at_middle_[s]; });
+    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) {
+      const double pressure = inside_[k] ? at_middle_[s] : faces_.node(s).pressure;
+      return pressure * pressure;
+    });
   }
 
+  /// Away from the edge: next to it the polynomials change from node to node.
   void take_off_curvature() {
     std::vector<double> found = at_middle_;
     for (Index k = 0; k < faces_.size(); ++k)
-      if (inside_[k]) found[k] -= curvature(k);
+      if (inside_[k] && std::ranges::all_of(faces_.around(k), [&](Index other) -> bool { return inside_[other]; }))
+        found[k] -= curvature(k);
     at_middle_ = std::move(found);
   }
 
-  /// By how much the mean around a node is larger than the pressure at its middle, were it what is fitted to the means.
+  using Place = std::array<double, D - 1>;
+
+  /// By how much the mean around a node differs from the pressure at its middle, were it what is fitted to the means.
+  /// Only where that bulges: pressures under a punch do not, and no polynomial follows them.
   double curvature(Index k) const {
     const auto some = samples(k);
     if (!enough_for_quadratic(some)) return 0;
-    const PolynomialFit<2, D - 1> fit(some);
-    const TangentPlane<D> plane = samples_.plane_at(k);
-    const auto fitted = [&](const Point<D>& x) {
-      const auto square = fit.at(plane(x));
+    const PolynomialFit<2, D - 1> squares(some);
+    const auto pressure = [&](const Place& x) {
+      const auto square = squares.at(x);
       return square ? std::sqrt(std::max(square->front(), 0.0)) : 0;
     };
-    const double most = (excess - 1) * faces_.node(k).pressure;
-    return std::clamp(surface_.mean(faces_.node(k), fitted) - fitted(surface_.middle(faces_.node(k))), -most, most);
+    const ContactNode<B>& node = faces_.node(k);
+    const TangentPlane<D> plane = samples_.plane_at(k);
+    if (!bulges(k, plane, pressure)) return 0;
+    const double more = surface_.mean(node, [&](const Point<D>& x) { return pressure(plane(x)); }) -
+                        pressure(plane(surface_.middle(node)));
+    const double most = (excess - 1) * node.pressure;
+    return std::clamp(more, -most, most);
+  }
+
+  /// By differences over the way to the neighbours.
+  template <class Pressure>
+  bool bulges(Index k, const TangentPlane<D>& plane, const Pressure& pressure) const {
+    double way = 0, sum = 0;
+    for (const Index other : faces_.around(k))
+      for (const double x : plane(nodes_.at(faces_.node(other).vertex))) way = std::max(way, std::abs(x));
+    for (std::size_t i = 0; i < D - 1; ++i)
+      for (const double side : {-way, way}) {
+        Place x{};
+        x[i] = side;
+        sum += pressure(x) - pressure({});
+      }
+    return sum < 0;
   }
 
   /// At the edge of a punch: the pressure is larger than at all neighbours.

@@ -64,7 +64,7 @@ void expect_hertz(int order, double most) {
   const auto hertz = [](const Point<D>& x) {
     return std::sqrt(std::max(0.16 - std::pow(Bottom<D>::distance(x), 2), 0.0)) / 0.4;
   };
-  const double error = Bottom<D>(12, order, hertz).error(0.2);
+  const double error = Bottom<D>(12, order, hertz).error(0.1);
   EXPECT_LE(error, most) << D << "D, order " << order;
 }
 
