@@ -79,7 +79,8 @@ class Table {
       std::vector<std::string> overrides = series.overrides;
       overrides.push_back(fmt::format("refine.uniform={}", k));
       const Answer answer = solve(problem_.question, overrides);
-      const Row& row = rows_.emplace_back(series.name, answer, errors_of(answer, problem_.exact, problem_.pressure));
+      const Row& row =
+          rows_.emplace_back(Row{series.name, answer, errors_of(answer, problem_.exact, problem_.pressure)});
       fmt::print("| {} | {:.0f} | {:.2f} | {} |", row.series, answer.unknowns, answer.seconds, answer.cycles);
       for (const std::size_t q : shown_) fmt::print(" {} |", percent(q, row.errors[q]));
       fmt::print("\n");
