@@ -76,6 +76,8 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
                {},
                {},
                {}};
+  out.two_bodies =
+      std::ranges::any_of(results.slaves, [](const SlaveChoice& choice) { return !choice.reason.empty(); });
   std::vector<bool> touched(nodes.size());
   for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
   for (Index v = 0; v < nodes.mesh().vertices(); ++v)
