@@ -104,8 +104,7 @@ void BodyRun<D, B>::accept() {
 
 template <int D, int B>
 bool BodyRun<D, B>::remembers() const {
-  return std::ranges::any_of(model_.obstacles,
-                             [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
+  return std::ranges::any_of(model_.obstacles, [](const auto& term) { return term.obstacle->functional() != nullptr; });
 }
 
 template <int D, int B>

@@ -89,6 +89,9 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   if (const int found = obstacle->descriptor().data; found < 0 || found > most_data)
     throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' has {} numbers of its own, expected 0 to {}", origin,
                                           scene.type, found, most_data));
+  if (obstacle->functional() && !obstacle->linearisation())
+    throw Error(Exit::plugin,
+                fmt::format("{}: the plugin of '{}' has a functional without its linearisation", origin, scene.type));
   check_asked(*settings, origin);
   std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
   return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
@@ -149,7 +152,7 @@ void place_before(const Scene& scene, int dimension, double t, std::size_t body,
   for (const int k : numbers_of(scene.obstacles, scene.bodies[body])) {
     ObstacleTerm<B>& term = model.obstacles[next++];
     const auto& shape = scene.obstacles[k].shape;
-    if (!term.obstacle->nonlinearity() || !shape || std::holds_alternative<Scene::SurfaceShape>(*shape)) continue;
+    if (!term.obstacle->functional() || !shape || std::holds_alternative<Scene::SurfaceShape>(*shape)) continue;
     term.shape_before = rigid_shape(*shape, dimension, t, term.origin);
   }
 }

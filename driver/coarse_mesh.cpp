@@ -112,7 +112,8 @@ template <int D>
 Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::vector<std::string>* warnings,
                 const Progress& progress) {
   Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, halved_shape(scene, given));
-  set_mirrors(mesh, scene.symmetry.planes, scene.symmetry.source.of("planes"));
+  for (const Mirror& mirror : scene.symmetry.planes)
+    add_mirror(mesh, mirror, scene.symmetry.source.of(axis_name(mirror.axis)));
   if constexpr (D == 2)
     if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
   if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))

@@ -108,7 +108,7 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
     for (const ContactNode<B>& node : results.contact.nodes)
       add(node.vertex, node.obstacle, node.force, results.slaves[node.obstacle].exchanged);
     for (const NodalForce<B>& back : results.counterforces)
-      add(back.node, back.obstacle, back.force, !results.slaves[back.obstacle].exchanged);
+      add(back.node, back.obstacle, back.force, back.on_slave == results.slaves[back.obstacle].exchanged);
   }
 }
 

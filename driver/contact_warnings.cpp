@@ -67,7 +67,7 @@ std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& mo
     for (const ObstacleTerm<D>& term : model.obstacles) {
       if (!term.other) continue;
       const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
-      if (couple_sides(nodes.mesh(), term, faces.slave, faces.master).nodes() > 0) continue;
+      if (couple_sides(nodes, model, term, faces.slave, faces.master).nodes() > 0) continue;
       warnings.push_back(fmt::format(
           "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
           "another side meant?",

@@ -135,6 +135,10 @@ void DirichletNeumann<D>::number_nodes(const MeshHierarchy<D>& joint) {
 /// A pair is an obstacle of the slave alone.
 template <int D>
 void DirichletNeumann<D>::build_models(const Model<D>& model) {
+  for (const Scene::Body& body : scene_.bodies)
+    if (body.order != 1)
+      input_error(body.source.of(body.source.given("order") ? "order" : "poisson"),
+                  "quadratic elements are not available with bodies = \"dirichlet-neumann\"; expected order = 1");
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     Part& part = *parts_[k];
     part.model = build_model<D>(scene_, D, registry_, model.t, k);
@@ -144,7 +148,7 @@ void DirichletNeumann<D>::build_models(const Model<D>& model) {
     for (Index j = 0; j < std::ssize(model.obstacles); ++j) {
       const ObstacleTerm<D>& term = model.obstacles[j];
       if (!term.other) continue;
-      if (term.obstacle->nonlinearity())
+      if (term.obstacle->functional())
         input_error(term.origin,
                     "friction between bodies is not available with bodies = \"dirichlet-neumann\"; "
                     "expected \"jumps\"");

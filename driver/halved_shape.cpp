@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -24,10 +25,8 @@ class Halving {
     const double low = block.from[axis_], high = block.to[axis_];
     if (beside(low, high)) return;
     check_middle((low + high) / 2, high - low);
-    if (block.cells[axis_] % 2 != 0)
-      refuse(fmt::format("cuts through the middle one of its {} cells; expected an even number", block.cells[axis_]));
     block.from[axis_] = at_;
-    block.cells[axis_] /= 2;
+    block.cells[axis_] = (block.cells[axis_] + 1) / 2;
   }
 
   void operator()(geometry::Disk& disk) const {
@@ -76,12 +75,12 @@ class Halving {
 
   void check_middle(double middle, double extent) const {
     if (std::abs(middle - at_) > rounding * extent)
-      refuse(fmt::format("is not in its middle, {} = {:g}", "xyz"[axis_], middle));
+      refuse(fmt::format("is not in its middle, {} = {:g}", axis_name(axis_), middle));
   }
 
   [[noreturn]] void refuse(const std::string& why) const {
     input_error(place_,
-                fmt::format("the plane of symmetry {} = {:g} of body '{}' {}", "xyz"[axis_], at_, body_.name, why));
+                fmt::format("the plane of symmetry {} = {:g} of body '{}' {}", axis_name(axis_), at_, body_.name, why));
   }
 
   /// Whether the corners, one after the other, have their images in the opposite order.
@@ -137,7 +136,7 @@ class Halving {
 Scene::BodyShape halved_shape(const Scene& scene, const Scene::Body& body) {
   Scene::BodyShape shape = body.shape;
   for (const Mirror& mirror : scene.symmetry.planes)
-    std::visit(Halving(mirror, body, scene.symmetry.source.of("planes")), shape);
+    std::visit(Halving(mirror, body, scene.symmetry.source.of(axis_name(mirror.axis))), shape);
   return shape;
 }
 

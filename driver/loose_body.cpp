@@ -263,9 +263,8 @@ bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least
 template <int D, int B>
 double LooseBody<D, B>::coefficient_of_friction(Index slot) const {
   const Constraints<B>& c = discretization_.problem.constraints;
-  const Nonlinearity<B>& phi = *model_.obstacles[discretization_.functional[slot]].obstacle->nonlinearity();
-  FrictionLaw law;
-  return phi.friction(c.data.data() + Offset{slot} * c.width, law) ? law.coefficient : 0;
+  const Friction* friction = model_.obstacles[discretization_.functional[slot]].obstacle->friction();
+  return friction ? friction->law(c.data.data() + Offset{slot} * c.width).coefficient : 0;
 }
 
 /// The same of what presses on a vertex with faces, among which the force is divided.

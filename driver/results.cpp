@@ -31,7 +31,10 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     std::move(shift),
                     conditions_across(nodes.mesh(), model)};
   out.slaves.resize(model.obstacles.size());
-  out.counterforces = counterforces(solution.discretization.problem, out.contact);
+  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
+  const auto back = totals(out.counterforces, model.obstacles.size(), true);
+  for (std::size_t k = 0; k < back.size(); ++k)
+    for (int i = 0; i < B; ++i) out.contact.obstacles[k].force[i] += back[k][i];
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
@@ -132,7 +135,7 @@ Summary of_whole(Summary summary, const Whole& whole) {
 std::vector<std::string> plane_names(const std::vector<Mirror>& mirrors) {
   std::vector<std::string> names;
   names.reserve(mirrors.size());
-  for (const Mirror& mirror : mirrors) names.push_back(fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at));
+  for (const Mirror& mirror : mirrors) names.push_back(plane_name(mirror));
   return names;
 }
 
@@ -227,7 +230,7 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
   const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];
-    if (!model.obstacles[k].obstacle->nonlinearity() || !drags_unknown(obstacle)) continue;
+    if (!model.obstacles[k].obstacle->functional() || !drags_unknown(obstacle)) continue;
     warnings.push_back(fmt::format(
         "{}: 'distance' depends on t and tells how the obstacle moves across its surface, not along it: friction takes "
         "it to be at rest along it; a plane, sphere or cylinder that moves drags the body with it",

@@ -23,7 +23,7 @@ struct Results {
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
-  std::vector<NodalForce<B>> counterforces;              ///< on masters
+  std::vector<NodalForce<B>> counterforces;              ///< see there
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
   std::vector<Point<B>> shift;                           ///< of slaves, see NestedSolver
   ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed

@@ -28,8 +28,6 @@ Point<D> reflected_direction(const Mirror& mirror, Point<D> d) {
   return d;
 }
 
-std::string plane_name(const Mirror& mirror) { return fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at); }
-
 template <int D>
 bool touches(const Mesh<D>& mesh, const std::vector<Index>& faces, const Mirror& mirror) {
   return std::ranges::any_of(faces, [&](Index f) {

@@ -1,5 +1,6 @@
 #pragma once
-#include "core/sdk/nonlinearity.hpp"
+#include "core/base/types.hpp"
+#include "core/sdk/friction.hpp"
 
 namespace signorini {
 

@@ -41,6 +41,9 @@ std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::s
 
 bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic::resting_percent * finest.critical; }
 
+// For acceleration beside functionals, whose phases come to rest layer by layer, a few in each cycle.
+bool mostly_rests(const LevelReport& finest) { return 2 * finest.changed <= finest.critical; }
+
 }  // namespace
 
 template <int B>
@@ -173,11 +176,12 @@ std::string MultigridIteration<B>::method() const {
   return bounded_cycles_ == cycles_ ? "monotone" : "monotone and tnnmg in turns";
 }
 
-// Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring
-// in. Returns whether the iterate is no longer the cycle's own.
+// Worth it once few phases change, and while the gain is more than rounding, which directions without energy bring in.
+// Returns whether the iterate is no longer the cycle's own.
 template <int B>
 bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
-  if (!rests(cycle.finest()) || !gaining) {
+  const bool calm = nonlinear_ ? mostly_rests(cycle.finest()) : rests(cycle.finest());
+  if (!calm || !gaining) {
     recombination_.reset();
     return false;
   }

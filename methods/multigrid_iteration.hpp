@@ -4,7 +4,7 @@
 #include "core/solver/recombination.hpp"
 #include "methods/configuration.hpp"
 #include "methods/load_renewal.hpp"
-#include "methods/renewal.hpp"
+#include "methods/renewal_control.hpp"
 #include "methods/stages.hpp"
 
 namespace signorini {
@@ -54,7 +54,7 @@ class MultigridIteration final : public Iteration<B> {
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
-  Renewal renewal_;
+  RenewalControl renewal_;
   std::vector<double> x_trial_, r_trial_, data_trial_;  // empty without acceleration
   std::vector<double> forces_, forces_before_;          // empty without functionals
 };

@@ -37,16 +37,11 @@ void NewtonIteration<B>::check(const DiscreteProblem<B>& problem) {
     input_error("solver.method",
                 "'newton' treats one direction of contact at a vertex, and obstacles hold some along "
                 "several; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
-  for (const Segment<B>& s : problem.segments) {
-    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
-    const auto [from, to] = slots_between(c, s.first, s.last);
-    FrictionLaw law;
-    for (Index slot = from; phi && slot < to; ++slot)
-      if (!phi->friction(c.data.data() + Offset{slot} * c.width, law))
-        input_error("solver.method",
-                    "'newton' treats bounds and friction, and an obstacle adds something else to the "
-                    "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
-  }
+  for (const Segment<B>& s : problem.segments)
+    if (s.obstacle->functional() && !s.obstacle->friction())
+      input_error("solver.method",
+                  "'newton' treats bounds and friction, and an obstacle adds something else to the "
+                  "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
 }
 
 template <int B>
@@ -57,10 +52,10 @@ void NewtonIteration<B>::read_laws() {
   tangential_.assign(slots, 0);
   states_.assign(slots, {});
   for (const Segment<B>& s : level_.segments) {
-    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
+    const Friction* friction = s.obstacle->friction();
     const auto [from, to] = slots_between(c, s.first, s.last);
-    for (Index slot = from; phi && slot < to; ++slot) {
-      phi->friction(c.data.data() + Offset{slot} * c.width, laws_[slot]);
+    for (Index slot = from; friction && slot < to; ++slot) {
+      laws_[slot] = friction->law(c.data.data() + Offset{slot} * c.width);
       tangential_[slot] = c.tangential[slot];
     }
   }

@@ -78,12 +78,13 @@ std::vector<double> slots_per_vector(const DiscreteProblem<B>& fine, const Prolo
 template <int B>
 bool scale_functionals(const std::vector<double>& ratio, const std::vector<Segment<B>>& segments, Constraints<B>& c) {
   for (const Segment<B>& s : segments) {
-    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
-    if (!phi) continue;
+    if (!s.obstacle->functional()) continue;
+    const Scaling* scaling = s.obstacle->scaling();
+    if (!scaling) return false;
     const auto [from, to] = slots_between(c, s.first, s.last);
     for (Index slot = from; slot < to; ++slot)
       for (std::vector<double>* numbers : {&c.data, &c.before})
-        if (!phi->scale(ratio[c.vector[slot]], numbers->data() + Offset{slot} * c.width)) return false;
+        scaling->scale(ratio[c.vector[slot]], numbers->data() + Offset{slot} * c.width);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include "apps/bench/calculix_program.hpp"
 #include "apps/bench/friction_scenes.hpp"
 #include "apps/bench/processor_time.hpp"
+#include "apps/bench/scratch_folder.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
 
@@ -136,7 +137,9 @@ void compare(const fs::path& folder, int refinements, bool direct, double limit)
 }  // namespace
 
 void print_calculix(bool quick) {
-  const fs::path folder = calculix_folder();
+  require_calculix();
+  const ScratchFolder scratch("calculix");
+  const fs::path& folder = scratch.path();
   fmt::print(
       "\n## Block with friction 0.3 on a plane, on the same meshes\n\n| unknowns | solver | seconds | ratio | "
       "iterations | error of the normal force | of the tangential force |\n| --- | --- | --- | --- | --- | --- | --- "
@@ -144,7 +147,6 @@ void print_calculix(bool quick) {
   compare(folder, 1, true, 300);
   compare(folder, 2, true, 300);
   if (!quick) compare(folder, 3, true, 900);
-  fs::remove_all(folder);
 }
 
 }  // namespace signorini::bench

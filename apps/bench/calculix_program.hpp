@@ -15,7 +15,8 @@ struct CalculixRun {
 /// Runs a deck `folder/name.inp`. Nothing where it ends without a result, or takes more than `limit` seconds.
 std::optional<CalculixRun> run_calculix(const std::filesystem::path& folder, const std::string& name, double limit);
 
-/// A new folder for decks. Error(Exit::input) without the program.
-std::filesystem::path calculix_folder();
+bool has_calculix();
+/// Error(Exit::input) without the program.
+void require_calculix();
 
 }  // namespace signorini::bench

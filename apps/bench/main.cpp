@@ -6,7 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/bench/accuracy.hpp"
+#include "apps/bench/accuracy/peers.hpp"
+#include "apps/bench/accuracy/tables.hpp"
 #include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
@@ -190,20 +191,28 @@ void fetch_memory() {
   for (std::size_t k = 0; k < size; k += page) memory[k] = 0;
 }
 
+struct Arguments {
+  bool quick = false;
+  std::string only;
+  std::filesystem::path pictures;
+};
+
 /// What a flag asks for in place of all the rest.
 struct Table {
   const char* flag;
   const char* help;
-  void (*print)(bool quick, const std::string& only);
+  void (*print)(const Arguments&);
 };
 
 template <void (*print)(bool)>
-void sized(bool quick, const std::string&) {
-  print(quick);
+void sized(const Arguments& arguments) {
+  print(arguments.quick);
 }
 
 constexpr const char* of_chosen = "--choice";
 constexpr const char* of_kept_aside = "--kept-aside";
+constexpr const char* of_accuracy = "--accuracy";
+constexpr const char* of_peers = "--accuracy-peers";
 
 const Table tables[] = {
     {"--algebraic", "only the table of matrices without meshes", sized<print_algebraic>},
@@ -215,7 +224,10 @@ const Table tables[] = {
     {"--steps", "only the cost of steps beside their cycles", sized<print_steps>},
     {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/friction.md",
      sized<print_partial_slip>},
-    {"--accuracy", "only errors beside seconds, the tables of docs/accuracy.md", sized<print_accuracy>},
+    {of_accuracy, "only errors beside seconds, the tables of docs/accuracy.md",
+     [](const Arguments& a) { print_accuracy(a.quick, a.only, a.pictures); }},
+    {of_peers, "only the ball of quadratic elements beside CalculiX and GetFEM, where these are there",
+     [](const Arguments& a) { print_accuracy_peers(a.quick, a.only); }},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
     {"--incompressible", "only elements for nearly incompressible material, the tables of docs/rubber.md",
      sized<print_incompressible>},
@@ -232,18 +244,18 @@ const Table tables[] = {
     {"--calculix-bodies", "only two bodies beside CalculiX, likewise", sized<print_calculix_bodies>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
     {"--variants", "only the tables of docs/variants.md",
-     [](bool, const std::string&) { print_variants(), print_aggregates(); }},
-    {"--aggregates", "of these, only the table of aggregates", [](bool, const std::string&) { print_aggregates(); }},
+     [](const Arguments&) { print_variants(), print_aggregates(); }},
+    {"--aggregates", "of these, only the table of aggregates", [](const Arguments&) { print_aggregates(); }},
     {of_chosen, "only the default settings over the best picked by hand",
-     [](bool, const std::string& only) { print_choice(only); }},
+     [](const Arguments& a) { print_choice(a.only); }},
     {of_kept_aside, "only the same on problems on which nothing was chosen",
-     [](bool, const std::string& only) { print_kept_aside_scenes(only), print_kept_aside_matrices(only); }}};
+     [](const Arguments& a) { print_kept_aside_scenes(a.only), print_kept_aside_matrices(a.only); }}};
 
-void print(const CLI::App& app, bool quick, const std::string& only) {
+void print(const CLI::App& app, const Arguments& arguments) {
   bool all = true;
   for (const Table& table : tables)
-    if (app.count(table.flag) > 0) table.print(quick, only), all = false;
-  if (all) run(quick);
+    if (app.count(table.flag) > 0) table.print(arguments), all = false;
+  if (all) run(arguments.quick);
 }
 
 }  // namespace
@@ -252,21 +264,23 @@ void print(const CLI::App& app, bool quick, const std::string& only) {
 int main(int argc, char** argv) {
   namespace bench = signorini::bench;
   CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
-  bool quick = false;
-  std::string only;
-  app.add_flag("--quick", quick, "leave out the largest sizes");
+  bench::Arguments arguments;
+  app.add_flag("--quick", arguments.quick, "leave out the largest sizes");
   for (const bench::Table& table : bench::tables) app.add_flag(table.flag, table.help);
-  app.add_option("--only", only, "of these two, problems with this text in their names")
+  app.add_option("--only", arguments.only, "of these, problems, or solvers, with this text in their names")
       ->check([&](const std::string&) {
-        return app.count(bench::of_chosen) + app.count(bench::of_kept_aside) > 0 ? ""
-                                                                                 : "needs --choice or --kept-aside";
+        for (const char* flag : {bench::of_chosen, bench::of_kept_aside, bench::of_accuracy, bench::of_peers})
+          if (app.count(flag) > 0) return "";
+        return "needs --choice, --kept-aside, --accuracy or --accuracy-peers";
       });
+  app.add_option("--pictures", arguments.pictures, "a folder for the pictures of --accuracy")
+      ->check(CLI::ExistingDirectory);
   app.footer("Exit status: 0 measured, 1 wrong usage, 2 a benchmark failed");
   try {
     app.parse(argc, argv);
     signorini::keep_freed_memory();
     bench::fetch_memory();
-    bench::print(app, quick, only);
+    bench::print(app, arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

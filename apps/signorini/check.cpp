@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/fem/pressure_space.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
@@ -43,7 +44,7 @@ void print_parts(const Mesh<D>& mesh) {
 void print_symmetry(const std::vector<Mirror>& mirrors) {
   if (mirrors.empty()) return;
   fmt::print("symmetry: one of {} copies is meshed, beside", 1 << mirrors.size());
-  for (const Mirror& mirror : mirrors) fmt::print(" {} = {:g}", "xyz"[mirror.axis], mirror.at);
+  for (const Mirror& mirror : mirrors) fmt::print(" {}", plane_name(mirror));
   fmt::print("\n");
 }
 
@@ -187,7 +188,7 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   const bool factorised = factorised_meshes(hierarchy, options, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(options, B, hierarchy.levels[first].vertices());
   const bool functional =
-      std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->nonlinearity() != nullptr; });
+      std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->functional() != nullptr; });
   print_solver(options, below, first == 0, B, free_unknowns(nodes, model), functional || pressures > 0);
   print_warnings(warnings);
   print_warnings(scene_warnings(scene, hierarchy.levels.front(), body));

@@ -231,6 +231,7 @@ int run(int argc, char** argv) {
   auto* qp = add_qp(app, arguments);
   auto* list = add_list(app, arguments);
   add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
+  add_future(app, "plugin", "make a plugin project, or check a plugin");
   if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty())
     return report_error(wrong, Exit::usage);
   try {

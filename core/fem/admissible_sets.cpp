@@ -21,7 +21,7 @@ constexpr double of_coordinates = 1e-9;  // the same of what is near
 
 template <int B>
 bool may_be_no_box(const Obstacle<B>& obstacle) {
-  return !obstacle.nonlinearity() && !dynamic_cast<const BoxObstacle<B>*>(&obstacle);
+  return !obstacle.functional() && !dynamic_cast<const BoxObstacle<B>*>(&obstacle);
 }
 
 /// Calls use(sides) for each of the 3^B - 1 directions to sides, edges and corners of a box: entries -1, 0 and 1.

@@ -44,8 +44,8 @@ class Coefficients {
       return std::isfinite(at_a) && std::isfinite(at_b) ? Nodes<D>::midpoint_coefficient(value, at_a, at_b) : value;
     };
     const bool feasible = bound.lower <= bound.upper;
-    bound.lower = coefficient(bound.lower, a->lower, b->lower);
-    bound.upper = coefficient(bound.upper, a->upper, b->upper);
+    bound.lower = bound.gap + coefficient(bound.lower - bound.gap, a->lower - a->gap, b->lower - b->gap);
+    bound.upper = bound.gap + coefficient(bound.upper - bound.gap, a->upper - a->gap, b->upper - b->gap);
     if (feasible && bound.lower > bound.upper) bound.lower = bound.upper = (bound.lower + bound.upper) / 2;
   }
 

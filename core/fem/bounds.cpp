@@ -39,7 +39,7 @@ struct Candidates {
                         : signorini::surface(nodes)),
         normals(node_normals(nodes, surface)),
         everywhere(!term.on) {
-    if (!term.obstacle->nonlinearity()) return;
+    if (!term.obstacle->functional()) return;
     if (B == 1 && everywhere)
       volumes = node_volumes(nodes, model.plane);
     else
@@ -82,7 +82,7 @@ class Collector {
     const Candidates<D> candidates(nodes_, model_, model_.obstacles[obstacle]);
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
     const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
-    functional_ = of.nonlinearity() != nullptr;
+    functional_ = of.functional() != nullptr;
     needs_numbers_ = of.descriptor().data > 0;
     if (model_.obstacles[obstacle].other)
       collect_paired(candidates);
@@ -112,6 +112,7 @@ class Collector {
       std::copy_n(pair->away.data(), B, v.away);
     }
     numbers_.push_back(p);
+    parts_.push_back(pair ? pair->part : 1);
     if (vertices_.emplace_back(v); vertices_.size() == batch) flush();
   }
 
@@ -125,9 +126,11 @@ class Collector {
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       check_directions(numbers_[i], constraints_[i].directions);
       rules_ = false;
-      for (int k = 0; k < constraints_[i].directions; ++k) add(numbers_[i], vertices_[i], constraints_[i], k);
+      for (int k = 0; k < constraints_[i].directions; ++k)
+        add(numbers_[i], vertices_[i], parts_[i], constraints_[i], k);
     }
     numbers_.clear();
+    parts_.clear();
     vertices_.clear();
   }
 
@@ -138,9 +141,14 @@ class Collector {
                               model_.obstacles[obstacle_].origin, directions, position(nodes_, vertex), B));
   }
 
-  void add(Index vertex, const SurfaceVertex& at, const LocalConstraint<B>& constraint, int k) {
+  /// @param part of its bounds, see PairedNode
+  void add(Index vertex, const SurfaceVertex& at, double part, const LocalConstraint<B>& constraint, int k) {
     Bound<B> bound{vertex, obstacle_, {}, constraint.lower[k], constraint.upper[k]};
     std::copy_n(constraint.direction[k], B, bound.direction.begin());
+    if (model_.obstacles[obstacle_].other) bound.gap = -at.gap;
+    bound.lower *= part;
+    bound.upper *= part;
+    bound.gap *= part;
     const double length = normalise(bound.direction);
     const std::string& origin = model_.obstacles[obstacle_].origin;
     if (!(std::fabs(length - 1) < same_direction))
@@ -191,6 +199,7 @@ class Collector {
   bool functional_ = false, needs_numbers_ = false;
   bool rules_ = false;  // its functional acts at the vertex, all of whose directions are coordinates then
   std::vector<Index> numbers_;
+  std::vector<double> parts_;
   std::vector<SurfaceVertex> vertices_;
   std::vector<LocalConstraint<B>> constraints_;
 };

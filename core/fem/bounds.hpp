@@ -12,6 +12,7 @@ struct Bound {
   std::array<double, B> direction;
   double lower, upper;
   Index data = -1;  ///< place of its FunctionalNumbers, where the obstacle has a functional here
+  double gap = 0;   ///< between bodies: what both bounds contain of PairedNode::gap
 };
 
 /// What an obstacle with a functional says at a vertex beside its bound.

@@ -286,10 +286,9 @@ void release(ContactNode<B>& node) {
 template <int B>
 std::optional<FrictionLaw> friction_law(const Model<B>& model, const Discretization<B>& discretization, Index slot) {
   const Constraints<B>& c = discretization.problem.constraints;
-  FrictionLaw law;
-  const Nonlinearity<B>& phi = *model.obstacles[discretization.functional[slot]].obstacle->nonlinearity();
-  if (!phi.friction(c.data.data() + Offset{slot} * c.width, law)) return {};
-  return law;
+  const Friction* friction = model.obstacles[discretization.functional[slot]].obstacle->friction();
+  if (!friction) return {};
+  return friction->law(c.data.data() + Offset{slot} * c.width);
 }
 
 // Of a functional that is not friction: what is left of the vertex's force beside what its nodes have by their bounds.

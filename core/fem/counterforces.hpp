@@ -11,15 +11,19 @@ struct NodalForce {
   Index node;
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> force;
+  bool on_slave = false;  ///< or on the master
 };
 
 /// What contact between bodies exerts on the masters: the force on a slave's node with the other sign, at the nodes of
-/// the master that it is coupled to, as their unknowns are jumps. One entry per such pair of nodes.
-template <int B>
-std::vector<NodalForce<B>> counterforces(const DiscreteProblem<B>& problem, const ContactState<B>& contact);
+/// the master that it is coupled to, as their unknowns are jumps. One entry per such pair of nodes. Of quadratic
+/// elements some may be nodes of the slave, see MortarCoupling.
+template <int D, int B>
+std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& model,
+                                         const DiscreteProblem<B>& problem, const ContactState<B>& contact);
 
-/// Their sums, per obstacle of the model; zero for obstacles that act on one body.
+/// The sums of those on slaves, or on masters, per obstacle of the model; zero for obstacles that act on one body.
 template <int B>
-std::vector<std::array<double, B>> totals(const std::vector<NodalForce<B>>& forces, std::size_t obstacles);
+std::vector<std::array<double, B>> totals(const std::vector<NodalForce<B>>& forces, std::size_t obstacles,
+                                          bool on_slave = false);
 
 }  // namespace signorini

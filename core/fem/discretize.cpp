@@ -85,7 +85,7 @@ class Discretizer {
     problem().constraints.slot.assign(n, -1);
     if (!functionals_.empty())
       for (const ObstacleTerm<B>& term : model.obstacles)
-        if (term.obstacle->nonlinearity())
+        if (term.obstacle->functional())
           constraints().width = std::max({1, constraints().width, term.obstacle->descriptor().data});
     reserve(bounds_.size());
     localise();
@@ -235,10 +235,9 @@ class Discretizer {
   /// A functional that follows the force along its direction has to know that.
   void refuse_unknown_force(Index p, const Bound<B>& bound, bool has_faces) const {
     const ObstacleTerm<B>& term = model_.obstacles[bound.obstacle];
-    const Nonlinearity<B>& phi = *term.obstacle->nonlinearity();
-    FrictionLaw law;
-    if (!phi.follows_solution() || (phi.friction(functionals_[bound.data].data.data(), law) && law.coefficient == 0))
-      return;
+    const Friction* friction = term.obstacle->friction();
+    const bool given = friction && friction->law(functionals_[bound.data].data.data()).coefficient == 0;
+    if (!term.obstacle->renewal() || given) return;
     const bool held = out_.problem.fixed[p] & ~out_.problem.constraints.tangential.back();
     if (!has_faces && !held) return;
     input_error(term.origin,

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/fem/material.hpp"
-#include "core/fem/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 namespace {

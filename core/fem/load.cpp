@@ -2,9 +2,9 @@
 
 #include "core/fem/assemble.hpp"
 #include "core/fem/element.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 namespace {

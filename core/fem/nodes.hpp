@@ -7,22 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/mesh/element_map.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mesh/red_refinement.hpp"
 
 namespace signorini {
-
-/// Nodes of an element of order P on a simplex of dimension K: its corners, for P = 2 then the midpoints of its
-/// edges, in the order of simplex_edges.
-template <int K, int P>
-inline constexpr std::size_t element_nodes = P == 1 ? K + 1 : (K + 1) * (K + 2) / 2;
-
-/// What the coefficient at the midpoint of a quadratic element's edge weighs in the value there; the ends have the rest
-/// in equal parts. With 1 coefficients were values, but the basis functions of corners would have no mean on triangles
-/// and a negative one on tetrahedra: a pressure would pull there. With 1/2 the basis were Bernstein's, positive
-/// everywhere, but bounds of coefficients would keep elements off that only the edge of the contact touches. All means
-/// are positive below 5/6.
-inline constexpr double midpoint_weight = 0.8;
 
 /// The nodes of finite elements on a mesh. A function is given by a coefficient for each, which of linear elements is
 /// its value there. Vectors of unknowns are numbered as the nodes; vertices, simplices and faces as in the mesh.

@@ -53,7 +53,7 @@ class Coupler {
     const Mesh<D>& mesh = nodes_.mesh();
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
     const MortarCoupling<D> found =
-        couple_sides<D>(mesh, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
+        couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
     if (shift_.empty()) refuse_deep<D>(mesh, term, faces.slave, found.deepest);
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
@@ -92,18 +92,19 @@ class Coupler {
     normalise(normal);
     const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
     if (!free) return;
-    const bool with_friction = model_.obstacles[obstacle].obstacle->nonlinearity() != nullptr;
+    const bool with_friction = model_.obstacles[obstacle].obstacle->functional() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
     const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
-    node.gap = (found.gap[k] + before - free->prescribed) / free->part;
+    node.part = found.part(k);
+    node.gap = (found.gap[k] / node.part + before - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
-      take_side(master_of_, slave_of_, row.column.back(), obstacle);
+      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, row.column.back(), obstacle);
     }
   }
 
@@ -194,9 +195,10 @@ Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, 
     if (node.obstacle != obstacle) continue;
     const auto s = std::ranges::lower_bound(jumps.vector, node.node) - jumps.vector.begin();
     for (int i = 0; i < D; ++i) {
-      out.mean[i] += u[Offset{node.node} * D + i];
+      double jump = u[Offset{node.node} * D + i];
       for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
-        out.mean[i] -= jumps.weight[k] * u[Offset{jumps.column[k]} * D + i];
+        jump -= jumps.weight[k] * u[Offset{jumps.column[k]} * D + i];
+      out.mean[i] += jump / node.part;
     }
     out.length += length[node.node];
     ++count;

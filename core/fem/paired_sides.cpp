@@ -70,14 +70,17 @@ PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, doubl
 }
 
 template <int D>
-MortarCoupling<D> couple_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
-                               const std::vector<Index>& master, std::span<const Point<D>> points) {
+MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                               const std::vector<Index>& slave, const std::vector<Index>& master,
+                               std::span<const Point<D>> points) {
+  const Mesh<D>& mesh = nodes.mesh();
   if (points.empty()) points = mesh.points;
   const auto of_slave = corners(mesh, slave), of_master = corners(mesh, master);
-  CoupleOptions options{.pairing = term.pairing, .reach = extent<D>(points)};
+  CoupleOptions options{
+      .pairing = term.pairing, .reach = extent<D>(points), .axisymmetric = model.plane == Plane::axisymmetric};
   if (!term.resolve && body_of(term.on->part.value_or("")) == body_of(term.other->part.value_or("")))
     options.depth = coarsest_length(mesh, slave);
-  return couple<D>({points, of_slave, term.origin}, {points, of_master, term.origin}, options);
+  return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()}, options);
 }
 
 template <int D>
@@ -94,7 +97,7 @@ MortarCoupling<D> couple_displaced(const Nodes<D>& nodes, const Model<D>& model,
                                    const std::vector<double>& u) {
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
   const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
-  return couple_sides<D>(nodes.mesh(), term, faces.slave, faces.master, displaced_points(nodes, u));
+  return couple_sides<D>(nodes, model, term, faces.slave, faces.master, displaced_points(nodes, u));
 }
 
 template <int D>
@@ -143,10 +146,10 @@ template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
-template MortarCoupling<2> couple_sides<2>(const Mesh<2>&, const ObstacleTerm<2>&, const std::vector<Index>&,
-                                           const std::vector<Index>&, std::span<const Point<2>>);
-template MortarCoupling<3> couple_sides<3>(const Mesh<3>&, const ObstacleTerm<3>&, const std::vector<Index>&,
-                                           const std::vector<Index>&, std::span<const Point<3>>);
+template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                           const std::vector<Index>&, const std::vector<Index>&, std::span<const Point<2>>);
+template MortarCoupling<3> couple_sides<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                           const std::vector<Index>&, const std::vector<Index>&, std::span<const Point<3>>);
 template std::vector<Point<2>> displaced_points<2>(const Nodes<2>&, const std::vector<double>&);
 template std::vector<Point<3>> displaced_points<3>(const Nodes<3>&, const std::vector<double>&);
 

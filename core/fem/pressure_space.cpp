@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/fem/checked_element.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "core/mesh/red_refinement.hpp"
 
 namespace signorini {

@@ -3,8 +3,8 @@
 
 #include "core/fem/element.hpp"
 #include "core/fem/model.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/mesh/mesh.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 

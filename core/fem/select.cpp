@@ -8,10 +8,10 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/mirror.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 namespace {

@@ -91,8 +91,8 @@ class Chooser {
     const Mesh<D>& mesh = nodes_.mesh();
     const ObstacleTerm<D>& term = model_.obstacles[k];
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
-    const auto there = couple_sides(mesh, term, faces.slave, faces.master);
-    const auto back = couple_sides(mesh, term, faces.master, faces.slave);
+    const auto there = couple_sides(nodes_, model_, term, faces.slave, faces.master);
+    const auto back = couple_sides(nodes_, model_, term, faces.master, faces.slave);
     facts_[k] = {facts(k, closest(mesh, faces.slave, there), there, back.column),
                  facts(k, closest(mesh, faces.master, back), back, there.column)};
   }

@@ -3,9 +3,9 @@
 #include "core/fem/assemble.hpp"
 #include "core/fem/checked_element.hpp"
 #include "core/fem/material.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/fem/stiffness_scalar.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 namespace {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "core/fem/polynomial_fit.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/stress_reader.hpp"
 #include "core/mesh/mirror.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini {
 namespace {

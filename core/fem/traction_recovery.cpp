@@ -28,7 +28,7 @@ class TractionRecovery {
   void run() {
     for (Index k = 0; k < faces_.size(); ++k)
       if (const ContactNode<B>& node = faces_.node(k); faces_.pressed(k) && node.friction && node.area > 0)
-        faces_.node(k).traction = traction(k);
+        faces_.node(k).traction = borne(k, traction(k));
   }
 
  private:
@@ -54,6 +54,13 @@ class TractionRecovery {
     if (slipping.empty()) return inside(k);
     const auto direction = common_direction(slipping);
     return direction ? near_edge(k, *direction) : mean(k);
+  }
+
+  /// No more than friction bears, where nodes stick, too: fits of pressure and traction know nothing of each other.
+  Vector borne(Index k, Vector traction) const {
+    const double length = std::sqrt(dot(traction, traction)), most = limit(k, faces_.node(k).recovered);
+    for (int i = 0; i < B && length > most; ++i) traction[i] *= most / length;
+    return traction;
   }
 
   Vector all_it_bears(Index k) const {

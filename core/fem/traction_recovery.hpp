@@ -10,7 +10,7 @@ namespace signorini {
 /// traction comes up to that like a square root. So within three rings of a node that slips the squares of what is left
 /// up to there are fitted, by linear polynomials over nodes all of whose neighbours stick. Farther inside the
 /// components are fitted, as recover_pressure() does it. What is fitted stays between the means around a node, but for
-/// a quarter of them; where samples are few it is the mean.
+/// a quarter of them; where samples are few it is the mean. Nowhere it is more than friction bears.
 template <int D, int B>
 void recover_traction(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces);
 

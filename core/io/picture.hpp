@@ -27,6 +27,8 @@ struct Line {
   std::vector<std::array<double, 2>> points;
   std::string name = {};  ///< for the key; empty: not in it
   bool joined = true;
+  bool dashed = false;
+  int style = -1;  ///< number of a colour and a marker, for lines that belong together; -1: the line's own number
 };
 
 /// One picture beside others, coloured by the values of its patches.
@@ -36,6 +38,7 @@ struct Panel {
   View view = View::flat;
   std::vector<Patch> patches;
   std::vector<Line> lines;
+  bool logarithmic = false;              ///< both axes of the lines, of which points that are not positive are left out
   std::string across;                    ///< label of their first axis; `label` is that of the second
   std::vector<std::string> words;        ///< what the values 0, 1, 2... mean, for a legend of these in place of numbers
   double from[3] = {0.433, -0.75, 0.5};  ///< unit vector towards the viewer

@@ -34,37 +34,37 @@ Json record(const Summary& summary, const IterationRecord& record) {
 
 Json pair(const std::optional<PairReport>& pair) {
   if (!pair) return nullptr;
-  return {{"slave", pair->slave},
-          {"master", pair->master},
-          {"reason", pair->reason},
-          {"force_on_other", pair->force},
-          {"moment_on_other", pair->moment}};
+  return {{"slave", pair->slave}, {"master", pair->master}, {"reason", pair->reason}};
 }
 
 Json contact(const ContactReport& contact) {
-  return {{"obstacle", contact.obstacle},
-          {"body", contact.body},
-          {"nodes", contact.nodes},
-          {"open_nodes", contact.open_nodes},
-          {"area", contact.area},
-          {"radius", contact.radius},
-          {"force", contact.force},
-          {"max_pressure", contact.max_pressure},
-          {"slip_nodes", contact.slip_nodes},
-          {"stick_nodes", contact.stick_nodes},
-          {"normal_force", contact.normal_force},
-          {"tangential_force", contact.tangential_force},
-          {"moment", contact.moment},
-          {"moment_about", contact.moment_about},
-          {"dissipated_in_step", contact.dissipated_in_step},
-          {"dissipated", contact.dissipated},
-          {"displacement", contact.displacement},
-          {"undetermined_nodes", contact.undetermined_nodes},
-          {"undetermined_force", contact.undetermined_force},
-          {"largest_penetration", contact.largest_penetration},
-          {"largest_penetration_between_nodes", contact.penetration_between_nodes},
-          {"largest_opening", contact.largest_opening},
-          {"pair", pair(contact.pair)}};
+  Json json{{"obstacle", contact.obstacle},
+            {"body", contact.body},
+            {"nodes", contact.nodes},
+            {"open_nodes", contact.open_nodes},
+            {"area", contact.area},
+            {"radius", contact.radius},
+            {"force", contact.force},
+            {"max_pressure", contact.max_pressure},
+            {"slip_nodes", contact.slip_nodes},
+            {"stick_nodes", contact.stick_nodes},
+            {"normal_force", contact.normal_force},
+            {"tangential_force", contact.tangential_force},
+            {"moment", contact.moment},
+            {"moment_about", contact.moment_about},
+            {"dissipated_in_step", contact.dissipated_in_step},
+            {"dissipated", contact.dissipated},
+            {"displacement", contact.displacement},
+            {"undetermined_nodes", contact.undetermined_nodes},
+            {"undetermined_force", contact.undetermined_force},
+            {"largest_penetration", contact.largest_penetration},
+            {"largest_penetration_between_nodes", contact.penetration_between_nodes},
+            {"largest_opening", contact.largest_opening},
+            {"pair", pair(contact.pair)}};
+  if (!contact.pair) return json;
+  json["other_force"] = contact.pair->force;
+  json["other_moment"] = contact.pair->moment;
+  return json;
 }
 
 Json probe(const ProbeReport& probe) {
@@ -275,10 +275,8 @@ Json to_json(const Report& report) {
   json["assemblies"] = assemblies(report.time.assemblies);
   json["peak_memory_mb"] = report.peak_memory_mb;
   add_results(json, report.last());
-  if (report.has_steps()) {
-    json["steps"] = array(report.steps, step);
-    json["failed_steps"] = array(report.failed, failed_step);
-  }
+  json["steps"] = array(report.steps, step);
+  json["failed_steps"] = array(report.failed, failed_step);
   json["estimate"] = nullptr;  // no estimator ran
   json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
     return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};

@@ -18,11 +18,12 @@ bool face_lies_on(const Mesh<D>& mesh, const Face<D>& face, const Mirror& mirror
   return std::ranges::all_of(face.vertices, [&](Index v) { return lies_on<D>(mirror, mesh.points[v]); });
 }
 
-/// "x = 0", with the letter of the axis.
-std::string name(const Mirror& mirror) { return fmt::format("{} = {:g}", "xyz"[mirror.axis], mirror.at); }
+}  // namespace
+
+std::string plane_name(const Mirror& mirror) { return fmt::format("{} = {:g}", axis_name(mirror.axis), mirror.at); }
 
 template <int D>
-void move_onto(Mesh<D>& mesh, const Mirror& mirror, std::string_view place) {
+void add_mirror(Mesh<D>& mesh, const Mirror& mirror, std::string_view place) {
   double low = mesh.points.front()[mirror.axis], high = low, extent = 0;
   for (int i = 0; i < D; ++i) {
     const auto [least, most] = std::ranges::minmax_element(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
@@ -33,20 +34,13 @@ void move_onto(Mesh<D>& mesh, const Mirror& mirror, std::string_view place) {
   if (low < mirror.at - near && high > mirror.at + near)
     input_error(place, fmt::format("the body reaches from {:g} to {:g}, beyond the plane of symmetry {} on both sides; "
                                    "expected all of its mesh on one side",
-                                   low, high, name(mirror)));
+                                   low, high, plane_name(mirror)));
   for (Point<D>& x : mesh.points)
     if (std::abs(x[mirror.axis] - mirror.at) <= near) x[mirror.axis] = mirror.at;
   if (std::ranges::none_of(mesh.boundary, [&](const Face<D>& face) { return face_lies_on(mesh, face, mirror); }))
     input_error(place, fmt::format("the body, from {:g} to {:g}, has no face on the plane of symmetry {}", low, high,
-                                   name(mirror)));
-}
-
-}  // namespace
-
-template <int D>  // NOLINTNEXTLINE(performance-unnecessary-value-param): the move depends on the template's mesh
-void set_mirrors(Mesh<D>& mesh, std::vector<Mirror> mirrors, std::string_view place) {
-  for (const Mirror& mirror : mirrors) move_onto(mesh, mirror, place);
-  mesh.mirrors = std::move(mirrors);
+                                   plane_name(mirror)));
+  mesh.mirrors.push_back(mirror);
 }
 
 template <int D>
@@ -59,8 +53,8 @@ void remove_faces_on_mirrors(Mesh<D>& mesh) {
   keep_faces(mesh, kept);
 }
 
-template void set_mirrors(Mesh<2>&, std::vector<Mirror>, std::string_view);
-template void set_mirrors(Mesh<3>&, std::vector<Mirror>, std::string_view);
+template void add_mirror(Mesh<2>&, const Mirror&, std::string_view);
+template void add_mirror(Mesh<3>&, const Mirror&, std::string_view);
 template void remove_faces_on_mirrors(Mesh<2>&);
 template void remove_faces_on_mirrors(Mesh<3>&);
 

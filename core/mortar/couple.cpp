@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -19,6 +20,8 @@ constexpr double cancel = 1e-6;
 // What divides the gap of a node between faces of several directions is no less than that: as at an edge of 120
 // degrees.
 constexpr double least_common = 0.5;
+// Where what faces share in a node is of both signs, no less than this part of it is left.
+constexpr double left_of_parts = 0.01;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double rounding = 1e-14;
 
@@ -56,29 +59,49 @@ struct Boxes {
 };
 
 /// Turns what slave faces see into what slave nodes do.
-template <int D>
+template <int D, int P>
 class Gathering {
  public:
   Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering,
-            const std::vector<mortar::FaceIntegrals<D>>& seen)
+            const std::vector<mortar::FaceIntegrals<D, P>>& seen)
       : slave_(slave), master_(master), one_numbering_(one_numbering), seen_(seen), place_(master.node.size(), -1) {
     list_records();
     whole_.assign(slave.node.size(), 0);
-    for (std::size_t f = 0; f < slave.faces.size(); ++f)
-      for (const Index v : slave.faces[f]) whole_[slave.number[v]] += slave.area[f] / D;
+    for (Index f = 0; f < static_cast<Index>(slave.faces.size()) / Face::parts; ++f) {
+      const auto point = Face(f).points(slave);
+      for (std::size_t p = 0; p < point.size(); ++p)
+        whole_[slave.number[point[p]]] += Face(f).area(slave) * basis_mean<P, D - 1>(p);
+    }
   }
 
   void run(const CoupleOptions& options, MortarCoupling<D>& out) {
-    for (Index p = 0; p < static_cast<Index>(slave_.node.size()); ++p)
-      if (!add_node(p, options, out)) out.alone.push_back(slave_.node[p]);
+    for (Index p = 0; p < size(); ++p) nodes_.push_back(sum(p, options));
+    for (Index p = 0; p < size(); ++p)
+      if (nodes_[p].place == Place::paired)
+        add_node(p, out);
+      else
+        out.alone.push_back(slave_.node[p]);
   }
 
  private:
+  using Face = mortar::ElementFace<D, P>;
+  using Record = mortar::FaceRecord<D, P>;
+
   struct Seat {  // of a slave node in the record of a face
-    const mortar::FaceIntegrals<D>* part;
-    const mortar::FaceRecord<D>* record;
-    int corner;
+    const mortar::FaceIntegrals<D, P>* part;
+    const Record* record;
+    std::size_t corner;
   };
+
+  enum class Place { paired, orphan, alone };  // orphan: alone, but what it is a part of is not
+
+  struct Node {
+    Place place = Place::alone;
+    double weight = 0, common = 0;
+    Point<D> normal{};
+  };
+
+  Index size() const { return static_cast<Index>(slave_.node.size()); }
 
   // By slave node, in the order of the faces.
   void list_records() {
@@ -86,8 +109,8 @@ class Gathering {
     const auto each = [&](const auto& visit) {
       for (const auto& part : seen_)
         for (const auto& record : part.records)
-          for (int p = 0; p < D; ++p)
-            visit(static_cast<std::size_t>(slave_.number[slave_.faces[record.face][p]]), Seat{&part, &record, p});
+          for (std::size_t p = 0; p < Face::nodes; ++p)
+            visit(static_cast<std::size_t>(record.node[p]), Seat{&part, &record, p});
     };
     each([&](std::size_t p, const Seat&) { ++first_[p + 1]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -96,93 +119,137 @@ class Gathering {
     each([&](std::size_t p, const Seat& seat) { seats_[next[p]++] = seat; });
   }
 
-  bool add_node(Index p, const CoupleOptions& options, MortarCoupling<D>& out) {
-    const Index node = slave_.node[p];
-    if (one_numbering_ && master_.number[node] >= 0) return false;
-    const std::span<const Seat> seats(seats_.data() + first_[p], first_[p + 1] - first_[p]);
-    double weight = 0, gap = 0;
-    Point<D> normal{};
-    for (const Seat& s : seats) {
+  std::span<const Seat> seats(Index p) const { return {seats_.data() + first_[p], first_[p + 1] - first_[p]}; }
+
+  Node sum(Index p, const CoupleOptions& options) const {
+    Node out;
+    if (one_numbering_ && master_.number[slave_.node[p]] >= 0) return out;
+    double size = 0;
+    for (const Seat& s : seats(p)) {
       const double share = s.record->share[s.corner];
-      weight += share;
-      gap += share * s.record->gap[s.corner];
-      for (int k = 0; k < D; ++k) normal[k] += share * s.record->direction[k];
+      out.weight += share;
+      size += std::abs(share);
+      for (int k = 0; k < D; ++k) out.normal[k] += share * s.record->normal[s.corner][k];
     }
-    if (!(weight > options.least_cover * whole_[p])) return false;
+    if (!(out.weight > options.least_cover * whole_[p] && out.weight > left_of_parts * size)) {
+      out.place = P > 1 && size > 0 ? Place::orphan : Place::alone;
+      return out;
+    }
     // ∫ ψ_p (jump) · (direction) <= ∫ ψ_p (distance) with one jump for all faces of the node: the left-hand side is
     // that times the sum of directions, whose length divides both.
-    const double common = length<D>(normal);
-    if (!(common > cancel * weight)) return false;
-    for (double& c : normal) c /= common;
-    out.node.push_back(node);
-    out.weight.push_back(weight);
-    out.normal.push_back(normal);
-    out.gap.push_back(gap / std::max(common, least_common * weight));
-    add_row(seats, weight, out);
-    return true;
+    out.common = length<D>(out.normal);
+    if (out.common > cancel * out.weight) out.place = Place::paired;
+    for (double& c : out.normal) c /= out.common;
+    return out;
   }
 
-  void add_row(std::span<const Seat> seats, double weight, MortarCoupling<D>& out) {
+  void add_node(Index p, MortarCoupling<D>& out) {
+    const Node& node = nodes_[p];
     row_.clear();
-    for (const Seat& s : seats) {
-      const double part = s.record->share[s.corner] / weight;
-      for (std::size_t e = s.record->first; e < s.record->last; ++e) {
-        const auto& entry = s.part->entries[e];
-        Index& place = place_[entry.master];
-        if (place < 0) {
-          place = static_cast<Index>(row_.size());
-          row_.push_back({entry.master, 0});
-        }
-        row_[place].value += part * entry.value[s.corner];
-      }
+    own_.clear();
+    double gap = 0;
+    for (const Seat& s : seats(p)) {
+      gap += add(s, s.corner, s.record->share[s.corner]);
+      if constexpr (P > 1) gap += add_orphans(s, part_of_orphans(*s.record, s.corner));
     }
+    out.node.push_back(slave_.node[p]);
+    out.weight.push_back(node.weight);
+    out.normal.push_back(node.normal);
+    out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
+    take_row(node.weight, out);
+  }
+
+  /// Of what the face's nodes without a place of their own are a part of.
+  double part_of_orphans(const Record& record, std::size_t corner) const {
+    double sum = 0;
+    for (std::size_t p = 0; p < Face::nodes; ++p)
+      if (nodes_[record.node[p]].place == Place::paired) sum += std::max(record.share[p], 0.0);
+    return sum > 0 ? std::max(record.share[corner], 0.0) / sum : 0;
+  }
+
+  double add_orphans(const Seat& s, double part) {
+    double gap = 0;
+    for (std::size_t a = 0; part > 0 && a < Face::nodes; ++a) {
+      const Index node = s.record->node[a];
+      if (nodes_[node].place != Place::orphan) continue;
+      const double share = part * s.record->share[a];
+      gap += add(s, a, share);
+      own_.push_back({slave_.node[node], -share});
+    }
+    return gap;
+  }
+
+  /// Adds a part of ∫ r_p φ_q to the row. @return that of the gap
+  double add(const Seat& s, std::size_t corner, double share) {
+    for (std::size_t e = s.record->first; e < s.record->last; ++e) {
+      const auto& entry = s.part->entries[e];
+      Index& place = place_[entry.master];
+      if (place < 0) {
+        place = static_cast<Index>(row_.size());
+        row_.push_back({entry.master, 0});
+      }
+      row_[place].value += share * entry.value[corner];
+    }
+    return share * s.record->gap[corner];
+  }
+
+  void take_row(double weight, MortarCoupling<D>& out) {
     double largest = 0, sum = 0;
-    for (const Weight& w : row_) {
+    for (Weight& w : row_) {
+      place_[w.node] = -1;
+      w = {master_.node[w.node], w.value / weight};
       largest = std::max(largest, std::abs(w.value));
-      place_[w.master] = -1;
+    }
+    std::ranges::sort(own_, {}, &Weight::node);
+    for (const Weight& w : own_) {  // an orphan of two faces has one entry
+      if (row_.empty() || row_.back().node != w.node) row_.push_back({w.node, 0});
+      row_.back().value += w.value / weight;
     }
     std::erase_if(row_, [&](const Weight& w) { return std::abs(w.value) <= rounding * largest; });
     for (const Weight& w : row_) sum += w.value;
-    std::ranges::sort(row_, {}, &Weight::master);
+    std::ranges::sort(row_, {}, &Weight::node);
     for (const Weight& w : row_) {
-      out.column.push_back(master_.node[w.master]);
+      out.column.push_back(w.node);
       out.value.push_back(w.value / sum);  // the sum is one up to rounding, which strips make larger
     }
     out.row.push_back(static_cast<Offset>(out.column.size()));
   }
 
   struct Weight {
-    Index master;
+    Index node;
     double value;
   };
 
   const mortar::Side<D>& slave_;
   const mortar::Side<D>& master_;
   const bool one_numbering_;
-  const std::vector<mortar::FaceIntegrals<D>>& seen_;
+  const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
   std::vector<std::size_t> first_;
   std::vector<Seat> seats_;
   std::vector<double> whole_;  // area of a node, covered or not
+  std::vector<Node> nodes_;
   std::vector<Index> place_;
-  std::vector<Weight> row_;
+  std::vector<Weight> row_, own_;
 };
 
 /// What each part of the slave sees; the parts do not depend on the number of threads.
-template <int D>
-std::vector<mortar::FaceIntegrals<D>> integrate(const mortar::Side<D>& slave, const mortar::Side<D>& master,
-                                                const CoupleOptions& options, bool one_numbering, Crew* crew) {
+template <int D, int P>
+std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Side<D>& master,
+                                                   const CoupleOptions& options, bool one_numbering, Crew* crew) {
   const Boxes<D> boxes(master);
   std::vector<Index> all(master.faces.size());
   std::iota(all.begin(), all.end(), Index{0});
   const PointTree<D> tree(boxes.middle, boxes.half, std::move(all));
-  const auto faces = static_cast<Index>(slave.faces.size());
-  std::vector<mortar::FaceIntegrals<D>> parts((slave.faces.size() + faces_at_a_time - 1) / faces_at_a_time);
+  const Index faces = static_cast<Index>(slave.faces.size()) / mortar::ElementFace<D, P>::parts;
+  std::vector<mortar::FaceIntegrals<D, P>> parts((static_cast<std::size_t>(faces) + faces_at_a_time - 1) /
+                                                 faces_at_a_time);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    mortar::FaceIntegrator<D> integrator(slave, master, tree, options, one_numbering);
+    mortar::FaceIntegrator<D, P> integrator(slave, master, tree, options, one_numbering);
     for (std::size_t i; (i = next++) < parts.size();) {
       const auto first = static_cast<Index>(i) * faces_at_a_time;
-      for (Index f = first; f < std::min(faces, first + faces_at_a_time); ++f) integrator.add(f, parts[i]);
+      for (Index f = first; f < std::min(faces, first + faces_at_a_time); ++f)
+        integrator.add(mortar::ElementFace<D, P>(f), parts[i]);
     }
   };
   if (crew && parts.size() > 1)
@@ -192,23 +259,31 @@ std::vector<mortar::FaceIntegrals<D>> integrate(const mortar::Side<D>& slave, co
   return parts;
 }
 
+template <int D, int P>
+MortarCoupling<D> couple(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering,
+                         const CoupleOptions& options, Crew* crew) {
+  const auto seen = integrate<D, P>(slave, master, options, one_numbering, crew);
+  MortarCoupling<D> out;
+  for (const auto& part : seen) {
+    if (part.deepest.depth > out.deepest.depth) out.deepest = part.deepest;
+    out.lumped += part.lumped;
+    out.layered += part.layered;
+  }
+  Gathering<D, P>(slave, master, one_numbering, seen).run(options, out);
+  return out;
+}
+
 }  // namespace
 
 template <int D>
 MortarCoupling<D> couple(const SurfaceFaces<D>& slave, const SurfaceFaces<D>& master, const CoupleOptions& options,
                          Crew* crew) {
   check(options, slave.place);
+  assert(slave.order == master.order);
   const mortar::Side<D> slave_side(slave), master_side(master);
   const bool one_numbering = slave.points.data() == master.points.data();
-  const auto seen = integrate(slave_side, master_side, options, one_numbering, crew);
-  MortarCoupling<D> out;
-  for (const mortar::FaceIntegrals<D>& part : seen) {
-    if (part.deepest.depth > out.deepest.depth) out.deepest = part.deepest;
-    out.lumped += part.lumped;
-    out.layered += part.layered;
-  }
-  Gathering<D>(slave_side, master_side, one_numbering, seen).run(options, out);
-  return out;
+  return slave.order == 1 ? couple<D, 1>(slave_side, master_side, one_numbering, options, crew)
+                          : couple<D, 2>(slave_side, master_side, one_numbering, options, crew);
 }
 
 template MortarCoupling<2> couple(const SurfaceFaces<2>&, const SurfaceFaces<2>&, const CoupleOptions&, Crew*);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -10,12 +11,14 @@
 
 namespace signorini {
 
-/// One side of a contact: linear faces, segments (D = 2) or triangles (D = 3).
+/// One side of a contact: faces, segments (D = 2) or triangles (D = 3). Those of quadratic elements are cut into
+/// 2^(D-1) each, which follow each other as RedRefinement has them; their nodes are the corners of these.
 template <int D>
 struct SurfaceFaces {
   std::span<const Point<D>> points;                  ///< of the whole mesh; only those that faces name are looked at
   std::span<const std::array<Index, D>> faces = {};  ///< by numbers of points, the normal pointing outwards
   std::string_view place = "surface";                ///< what messages call it
+  int order = 1;                                     ///< of the elements: 1 or 2
 };
 
 struct CoupleOptions {
@@ -24,6 +27,7 @@ struct CoupleOptions {
   std::optional<double> depth{};  ///< how deep an overlap is looked for; none: `reach`
   /// A node that the master covers less than this part of its area of is left alone.
   double least_cover = 1e-10;
+  bool axisymmetric = false;  ///< the first coordinate is the radius of bodies of revolution (D = 2)
 };
 
 /// Where slave and master overlap most.
@@ -41,6 +45,11 @@ struct DeepestOverlap {
 /// where the integral is over what the master covers of the slave, and q are nodes of the master. Rows of M̂ sum to one.
 /// A force λ_p D_p on slave node p has −λ_p D_p M̂_pq on master node q as its counterpart. Not to overlap is, to first
 /// order, n_p'(u_p − sum M̂_pq u_q) <= gap_p.
+///
+/// With quadratic elements u are coefficients, whose basis functions have positive means (midpoint_weight), and so are
+/// gaps. Where the master covers less than about half of a quadratic face the mean of a corner's function over that is
+/// negative. A node whose D_p is not positive is left alone, and what it is a part of goes to the face's other nodes:
+/// it is among their q then, with a weight of the other sign, and gap_p is that of all of them: no mean any more.
 template <int D>
 struct MortarCoupling {
   std::vector<Index> node;       ///< slave nodes with a partner, ascending; what follows is per entry of it
@@ -48,15 +57,23 @@ struct MortarCoupling {
   std::vector<Point<D>> normal;  ///< outer one of the slave, the mean over the node's faces as covered; of length 1
   std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
   std::vector<Offset> row{0};    ///< node.size() + 1: positions of the rows of M̂
-  std::vector<Index> column;     ///< master nodes, ascending in a row
+  std::vector<Index> column;     ///< q, ascending in a row
   std::vector<double> value;
 
   std::vector<Index> alone;  ///< slave nodes without a partner, ascending
   DeepestOverlap<D> deepest;
-  Index lumped = 0;   ///< slave faces covered in a strip so thin that ψ is constant across it
+  Index lumped = 0;   ///< slave faces covered in a strip so thin that ψ is of lower degree across it
   Index layered = 0;  ///< slave faces that see masters behind each other; the nearest counts
 
   Index nodes() const { return static_cast<Index>(node.size()); }
+  /// The sum of a row's weights at nodes of the master: what the gap is the mean of has that factor in it.
+  double part(Index p) const {
+    double sum = 0;
+    for (Offset k = row[p]; k < row[p + 1]; ++k) sum += is_own(column[k]) ? 0 : value[k];
+    return sum;
+  }
+  /// Whether a q is a node of the slave.
+  bool is_own(Index q) const { return std::ranges::binary_search(alone, q); }
 };
 
 /// Couples a slave to a master surface. Slave faces are cut exactly where edges of the master are, as seen along one
@@ -72,6 +89,7 @@ struct MortarCoupling {
 ///
 /// The result does not depend on the number of threads; on the order of nodes and faces by rounding only.
 /// Work is linear in the number of faces, times a logarithm for the search.
+/// Both sides have the same order.
 /// Error(Exit::input) for a face with a node that does not exist or is not finite, or without area, and for options out
 /// of range.
 /// @param crew threads to share the work; none: the calling one

@@ -1,58 +1,52 @@
 #pragma once
-#include <cmath>
-#include <vector>
+#include <span>
 
-#include "core/mortar/segments.hpp"
+#include "core/mesh/element_map.hpp"
 
 namespace signorini::mortar {
 
-/// Integrals of dual basis functions over what is covered of one slave face.
+/// A point of a quadrature rule over what is covered of a face, by its barycentric coordinates there.
+template <int K>
+struct CoveredPoint {
+  std::array<double, K + 1> at;
+  double weight;
+};
+
+/// The dual basis over what is covered of a face of order P, ω.
 ///
-/// They are ψ_p = D_p r_p with D_p = ∫ φ_p, and r_p(y) = 1 / |ω| + (y_p − c)' C⁻¹ (y − c), c and C being the centroid
-/// and the second moments of what is covered, ω: ∫ r_p f = f(y_p) for every affine f, so that ∫ ψ_p φ_q = D_p δ_pq.
-/// That is the matrix D_e M_e⁻¹ in a basis in which it is diagonal, exact for slivers as well.
-template <int D>
+/// Its functions are ψ_p = D_p r_p with D_p = ∫ φ_p, and ∫ r_p f is the coefficient at node p of every polynomial f of
+/// degree P, so that ∫ ψ_p φ_q = D_p δ_pq. That is the matrix D_e M_e⁻¹, but in polynomials about the middle of ω,
+/// along its principal directions and over its width, in which it is well conditioned for slivers as well. The D_p of
+/// quadratic faces may be negative where little of them is covered.
+template <int K, int P>
 class DualBasis {
  public:
-  static constexpr int K = D - 1;
+  static constexpr std::size_t nodes = element_nodes<K, P>;
+  using Values = std::array<double, nodes>;
 
-  /// @param segments at least one
-  DualBasis(const FaceFrame<D>& frame, const std::vector<Segment<D>>& segments);
+  /// @param covered of a rule that is exact for polynomials of degree 2 P; at least one point
+  explicit DualBasis(std::span<const CoveredPoint<K>> covered);
 
-  /// D_p, in the plane of the frame.
-  double share(int p) const { return share_[p]; }
-  /// The ω is a strip that is too thin for moments across it; r_p is constant there.
+  /// D_p
+  const Values& share() const { return share_; }
+  /// The ω is a strip that is too thin for polynomials of full degree across it: the r_p are of a lower one there.
   bool lumped() const { return lumped_; }
-
-  /// ∫ r_p f over a segment.
-  struct Integral {
-    double one;      ///< of f = 1
-    Point<K> slope;  ///< of f = y
-  };
-  /// @param m moments of the segment in axes()
-  Integral integral(const Moments<K>& m, int p) const {
-    const double at = 1 / measure_ - dot(slope_[p], off_);
-    Integral out{at * m.measure + dot(slope_[p], m.first), {}};
-    for (int k = 0; k < K; ++k) out.slope[k] = at * m.first[k] + dot(m.second[k], slope_[p]);
-    return out;
-  }
-  /// The integral of f, given in the frame's coordinates.
-  double of(const Integral& r, const Affine<K>& f) const {
-    const Affine<K> turned = axes_.of(f);
-    return turned.at * r.one + dot(turned.slope, r.slope);
-  }
-  const Axes<K>& axes() const { return axes_; }
+  /// The r_p at a point.
+  Values operator()(const std::array<double, K + 1>& barycentric) const;
 
  private:
-  void turn(const Moments<K>& m);
-  void invert(const FaceFrame<D>& frame, const Moments<K>& m);
+  Point<K> local(const std::array<double, K + 1>& barycentric) const;
+  static Values monomials(const Point<K>& y);
+  void find_axes(std::span<const CoveredPoint<K>> covered);
+  void drop_thin();
+  void solve(std::array<Values, nodes>& gram);
 
-  Axes<K> axes_;  // through c, along the principal directions of C
-  // By how much their origin misses c: rounding, but not of a thin strip's moments.
-  Point<K> off_{};
-  double measure_ = 0;
-  std::array<double, D> share_{};
-  std::array<Point<K>, D> slope_{};  // of r_p
+  Point<K> middle_{};
+  std::array<Point<K>, K> axis_;  // over the width of ω along them
+  Point<K> relative_;             // that width over the face's
+  Values share_{};
+  std::array<bool, nodes> kept_;         // of the monomials
+  std::array<Values, nodes> factors_{};  // of the monomials in r_p
   bool lumped_ = false;
 };
 

@@ -1,40 +1,126 @@
 #include "core/mortar/face_integrals.hpp"
 
-#include "core/mortar/dual_basis.hpp"
+#include "core/mesh/quadrature.hpp"
 
 namespace signorini::mortar {
+namespace {
+
+/// Exact for products of two basis functions, and times the radius.
+template <int K, int P>
+std::span<const QuadraturePoint<K>> rule() {
+  if constexpr (K == 2 && P == 1) return quadrature2<K>();
+  return quadrature5<K>();
+}
+
+/// By how much a curved element's face is off one of the flat faces that it is made of.
+template <int D>
+Point<D> bulge(const Point<D>& at, const std::array<Point<D>, D>& corner, const std::array<double, D>& barycentric) {
+  Point<D> out = at;
+  for (int i = 0; i < D; ++i)
+    for (int k = 0; k < D; ++k) out[k] -= barycentric[i] * corner[i][k];
+  return out;
+}
 
 template <int D>
-void FaceIntegrator<D>::add(Index face, FaceIntegrals<D>& to) {
-  constexpr int K = D - 1;
-  if (!finder_.find(face)) return;
-  const FaceFrame<D>& frame = finder_.frame();
-  const DualBasis<D> dual(frame, finder_.segments());
-  note_overlap(face, to.deepest);
+Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
+  Point<D> out = area_normal(corner);
+  const double norm = length<D>(out);
+  for (double& c : out) c /= norm;
+  return out;
+}
+
+}  // namespace
+
+template <int D, int P>
+void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) {
+  covered_.clear(), seen_.clear(), runs_.clear();
+  for (Index child = 0; child < ElementFace<D, P>::parts; ++child) look(face, child, to);
+  if (covered_.empty()) return;
+  const DualBasis<K, P> dual(covered_);
   to.lumped += dual.lumped();
-  to.layered += finder_.layered();
-  const double scale = slave_.area[face] / frame.area;  // from the plane to the slave
-  to.records.push_back({face, frame.direction, {}, {}, to.entries.size(), 0});
-  FaceRecord<D>& record = to.records.back();
-  for (int p = 0; p < D; ++p) record.share[p] = scale * dual.share(p);
-  for (const Segment<D>& s : finder_.segments()) {
-    const Moments<K> m = moments(s.piece, dual.axes());
-    std::array<typename DualBasis<D>::Integral, D> r;
-    for (int p = 0; p < D; ++p) {
-      r[p] = dual.integral(m, p);
-      record.gap[p] += frame.size * dual.of(r[p], s.gap);
+  FaceRecord<D, P>& record = to.records.emplace_back();
+  record.node = face.points(slave_);
+  for (Index& p : record.node) p = slave_.number[p];
+  record.share = dual.share();
+  record.gap = {}, record.normal = {};
+  record.first = to.entries.size();
+  for (const Run& run : runs_) {
+    const auto point = run.master.points(master_);
+    std::array<std::array<double, ElementFace<D, P>::nodes>, ElementFace<D, P>::nodes> sum{};  // per node of the master
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      const auto value = basis<P>(seen_[i].master);
+      auto r = dual(covered_[i].at);
+      for (std::size_t p = 0; p < r.size(); ++p) {
+        r[p] *= covered_[i].weight;
+        record.gap[p] += r[p] * seen_[i].gap;
+        for (int k = 0; k < D; ++k) record.normal[p][k] += r[p] * seen_[i].normal[k];
+        for (std::size_t q = 0; q < r.size(); ++q) sum[q][p] += r[p] * value[q];
+      }
     }
-    for (int i = 0; i < D; ++i) {
-      FaceEntry<D>& to_node = entry(master_.faces[s.master][i], to);
-      for (int p = 0; p < D; ++p) to_node.value[p] += dual.of(r[p], s.shape[i]);
+    for (std::size_t q = 0; q < point.size(); ++q) {
+      FaceEntry<D, P>& to_node = entry(point[q], to);
+      for (std::size_t p = 0; p < point.size(); ++p) to_node.value[p] += sum[q][p];
     }
   }
   record.last = to.entries.size();
 }
 
+/// Adds what one of its parts sees.
+template <int D, int P>
+void FaceIntegrator<D, P>::look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to) {
+  const Index part = face.part(child);
+  if (!finder_.find(part)) return;
+  note_overlap(part, to.deepest);
+  to.layered += finder_.layered();
+  const double scale = slave_.area[part] / finder_.frame().area;  // from the plane to the slave
+  const ElementMap<D, K, P> map = face.map(slave_);
+  for (const Segment<D>& segment : finder_.segments()) add_points(segment, face, child, map, scale);
+}
+
+/// Curved faces: seen from their flat parts, distances are those of the curved ones there.
+template <int D, int P>
+void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child,
+                                      const ElementMap<D, K, P>& slave, double scale) {
+  const FaceFrame<D>& frame = finder_.frame();
+  const auto other = ElementFace<D, P>::with_part(segment.master);
+  const Index other_child = segment.master - other.part(0);
+  const ElementMap<D, K, P> master = other.map(master_);
+  runs_.push_back({other, covered_.size(), covered_.size()});
+  each_simplex(segment.piece, [&](const std::array<Point<K>, D>& simplex) {
+    const double measure = scale * signed_measure<K>(simplex);
+    for (const QuadraturePoint<K>& q : rule<K, P>()) {
+      Point<K> y{};
+      for (int i = 0; i < D; ++i)
+        for (int k = 0; k < K; ++k) y[k] += q.barycentric[i] * simplex[i][k];
+      Barycentric here, there;
+      for (int i = 0; i < D; ++i) here[i] = frame.shape[i](y), there[i] = segment.shape[i](y);
+      CoveredPoint<K>& point = covered_.emplace_back();
+      point.at = ElementFace<D, P>::coordinates(child, here);
+      point.weight = q.weight * measure;
+      if (axisymmetric_) point.weight *= slave(point.at)[0];
+      Seen& seen = seen_.emplace_back();
+      seen.master = ElementFace<D, P>::coordinates(other_child, there);
+      seen.gap = frame.size * segment.gap(y);
+      seen.normal = frame.direction;
+      if (slave.curved()) {
+        seen.gap -= dot(frame.direction, bulge<D>(slave(point.at), slave_.corner[face.part(child)], here));
+        if (along_normals_) seen.normal = unit_normal<D>(slave.flat(point.at));
+      }
+      Point<D> facing = master_.normal[segment.master];
+      if (master.curved()) {
+        seen.gap += dot(frame.direction, bulge<D>(master(seen.master), master_.corner[segment.master], there));
+        facing = unit_normal<D>(master.flat(seen.master));
+      }
+      // Along the normal, not the direction in which the face looks, it is as far to the plane that touches the master.
+      if (slave.curved()) seen.gap *= dot(frame.direction, facing) / dot(seen.normal, facing);
+    }
+  });
+  runs_.back().last = covered_.size();
+}
+
 // That of a point in the last record.
-template <int D>
-FaceEntry<D>& FaceIntegrator<D>::entry(Index point, FaceIntegrals<D>& to) {
+template <int D, int P>
+FaceEntry<D, P>& FaceIntegrator<D, P>::entry(Index point, FaceIntegrals<D, P>& to) {
   const Index q = master_.number[point];
   if (place_[q] < to.records.back().first || place_[q] >= to.entries.size() || to.entries[place_[q]].master != q) {
     place_[q] = to.entries.size();
@@ -43,18 +129,20 @@ FaceEntry<D>& FaceIntegrator<D>::entry(Index point, FaceIntegrals<D>& to) {
   return to.entries[place_[q]];
 }
 
-template <int D>
-void FaceIntegrator<D>::note_overlap(Index face, DeepestOverlap<D>& deepest) const {
+template <int D, int P>
+void FaceIntegrator<D, P>::note_overlap(Index part, DeepestOverlap<D>& deepest) const {
   const FaceFrame<D>& frame = finder_.frame();
   for (const Segment<D>& s : finder_.segments())
     for (int i = 0; i < s.piece.count; ++i) {
       const Point<D - 1>& y = s.piece.corner[i];
       const double depth = -frame.size * s.gap(y);
-      if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), face, s.master};
+      if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), part, s.master};
     }
 }
 
-template class FaceIntegrator<2>;
-template class FaceIntegrator<3>;
+template class FaceIntegrator<2, 1>;
+template class FaceIntegrator<2, 2>;
+template class FaceIntegrator<3, 1>;
+template class FaceIntegrator<3, 2>;
 
 }  // namespace signorini::mortar

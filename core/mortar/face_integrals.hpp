@@ -1,38 +1,42 @@
 #pragma once
 #include <vector>
 
+#include "core/mortar/dual_basis.hpp"
+#include "core/mortar/element_face.hpp"
 #include "core/mortar/segments.hpp"
 
 namespace signorini::mortar {
 
-/// What one slave face sees.
-template <int D>
+/// What one slave face, of an element of order P, sees.
+template <int D, int P>
 struct FaceRecord {
-  Index face;
-  Point<D> direction;
-  std::array<double, D> share;  ///< ∫ ψ_p over the slave
-  std::array<double, D> gap;    ///< ∫ ψ_p (distance) over ∫ ψ_p
-  std::size_t first, last;      ///< its entries
+  static constexpr std::size_t nodes = ElementFace<D, P>::nodes;
+
+  std::array<Index, nodes> node;       ///< among those of the slave
+  std::array<double, nodes> share;     ///< ∫ ψ_p over the slave
+  std::array<double, nodes> gap;       ///< ∫ ψ_p (distance) over ∫ ψ_p
+  std::array<Point<D>, nodes> normal;  ///< likewise, of what the distance is measured along
+  std::size_t first = 0, last = 0;     ///< its entries
 };
 
-/// ∫ ψ_p φ_q over ∫ ψ_p for the D nodes p of a slave face.
-template <int D>
+/// ∫ ψ_p φ_q over ∫ ψ_p for the nodes p of a slave face.
+template <int D, int P>
 struct FaceEntry {
   Index master;  ///< q, among the nodes of the master
-  std::array<double, D> value;
+  std::array<double, ElementFace<D, P>::nodes> value;
 };
 
 /// What consecutive slave faces see.
-template <int D>
+template <int D, int P>
 struct FaceIntegrals {
-  std::vector<FaceRecord<D>> records;  ///< of the faces that see the master
-  std::vector<FaceEntry<D>> entries;
+  std::vector<FaceRecord<D, P>> records;  ///< of the faces that see the master
+  std::vector<FaceEntry<D, P>> entries;
   DeepestOverlap<D> deepest;
   Index lumped = 0, layered = 0;
 };
 
 /// Computes them, face by face.
-template <int D>
+template <int D, int P>
 class FaceIntegrator {
  public:
   /// Parameters as of SegmentFinder.
@@ -40,19 +44,43 @@ class FaceIntegrator {
                  bool one_numbering)
       : slave_(slave),
         master_(master),
+        along_normals_(options.pairing == Pairing::normal),
+        axisymmetric_(options.axisymmetric),
         finder_(slave, master, tree, options, one_numbering),
         place_(master.node.size(), std::size_t{0}) {}
 
-  void add(Index face, FaceIntegrals<D>& to);
+  void add(ElementFace<D, P> face, FaceIntegrals<D, P>& to);
 
  private:
-  void note_overlap(Index face, DeepestOverlap<D>& deepest) const;
-  FaceEntry<D>& entry(Index point, FaceIntegrals<D>& to);
+  static constexpr int K = D - 1;
+  using Barycentric = std::array<double, D>;
+
+  /// A point of the slave, as CoveredPoint, and what is in front of it.
+  struct Seen {
+    Barycentric master;  ///< coordinates in the master's face
+    double gap;
+    Point<D> normal;
+  };
+  /// Points one after the other in front of one face of the master.
+  struct Run {
+    ElementFace<D, P> master;
+    std::size_t first, last;
+  };
+
+  void look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to);
+  void add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child, const ElementMap<D, K, P>& slave,
+                  double scale);
+  void note_overlap(Index part, DeepestOverlap<D>& deepest) const;
+  FaceEntry<D, P>& entry(Index point, FaceIntegrals<D, P>& to);
 
   const Side<D>& slave_;
   const Side<D>& master_;
+  const bool along_normals_, axisymmetric_;
   SegmentFinder<D> finder_;
   std::vector<std::size_t> place_;  // per node of the master that of its entry; of no meaning outside the record's
+  std::vector<CoveredPoint<K>> covered_;
+  std::vector<Seen> seen_;  // per point
+  std::vector<Run> runs_;
 };
 
 }  // namespace signorini::mortar

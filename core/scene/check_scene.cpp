@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/scene/read_tables.hpp"
 
 namespace signorini {
@@ -91,12 +92,14 @@ void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (slave.plane != master.plane)
     input_error(place, fmt::format("bodies '{}' and '{}' differ in 'plane'; bodies that touch have the same",
                                    slave.name, master.name));
-  for (const Scene::Body* body : {&slave, &master})
-    if (body->order != 1)
-      input_error(body->source.of(body->source.given("order") ? "order" : "poisson"),
-                  fmt::format("body '{}' has quadratic elements; bodies that touch each other have linear ones in this "
-                              "version: expected order = 1",
-                              body->name));
+  if (slave.order != master.order)
+    input_error((slave.order == 1 ? slave : master).source.of("order"),
+                fmt::format("bodies '{}' and '{}' have elements of order {} and {}; bodies that touch each other have "
+                            "the same in this version",
+                            slave.name, master.name, slave.order, master.order));
+  if (slave.pressure != master.pressure)
+    input_error(place, fmt::format("bodies '{}' and '{}' differ in 'pressure'; bodies that touch have the same",
+                                   slave.name, master.name));
 }
 
 // Without normals (inside the body) only a scalar unknown can meet an obstacle.
@@ -127,12 +130,13 @@ void check_held(const Scene& scene, const std::string& place) {
 
 // Across the radius every axisymmetric body is symmetric already.
 void check_symmetry(const Scene& scene) {
-  for (const Scene::Body& body : scene.bodies)
-    if (body.plane == Plane::axisymmetric && std::ranges::count(scene.symmetry.planes, 0, &Mirror::axis) > 0)
-      input_error(scene.symmetry.source.of("planes"),
-                  fmt::format("a plane of symmetry across x, which is the radius of the axisymmetric body {}; expected "
-                              "\"y\", across its axis, alone",
-                              in_quotes(body.name)));
+  for (const Mirror& mirror : scene.symmetry.planes)
+    for (const Scene::Body& body : scene.bodies)
+      if (body.plane == Plane::axisymmetric && mirror.axis == 0)
+        input_error(scene.symmetry.source.of(axis_name(mirror.axis)),
+                    fmt::format("a plane of symmetry across x, which is the radius of the axisymmetric body {}; "
+                                "expected 'y', across its axis, alone",
+                                in_quotes(body.name)));
 }
 
 void check_common_dimension(const Scene& scene) {
@@ -193,9 +197,9 @@ void check_dimension(const Scene& scene, int dimension) {
       input_error(body.source.of("plane"), "'plane' is for 2D bodies, this one is 3D");
   for (const Mirror& mirror : scene.symmetry.planes)
     if (mirror.axis >= dimension)
-      input_error(
-          scene.symmetry.source.of("planes"),
-          fmt::format("a plane of symmetry across {}, and the scene has {} dimensions", "xyz"[mirror.axis], dimension));
+      input_error(scene.symmetry.source.of(axis_name(mirror.axis)),
+                  fmt::format("a plane of symmetry across {}, and the scene has {} dimensions", axis_name(mirror.axis),
+                              dimension));
   for (const Scene::Fix& fix : scene.fixes)
     expect_length(fix.value.size(), components(fix.body), fix.source.of("value"), "component");
   for (const Scene::Load& load : scene.loads)

@@ -133,14 +133,15 @@ A quarter of a ball that is pressed on a plane, reported as the whole ball:
 
 ```
 [symmetry]
-planes = ["x", "y"]                # x = 0 and y = 0
+x = 0
+y = 0
 ```
 
 **What is meshed.** Planes hold for all bodies.
 
 - A shape that lies on both sides of a plane is cut there. The side of the larger coordinates is meshed.
-- Rectangles and boxes need an even number of `cells` across the plane, round shapes their centre on it. Polygons must be
-  symmetric.
+- The plane is in the middle of each shape: it holds the centre of round ones, and polygons must be symmetric. Of an odd
+  number of `cells` across it the larger half is taken, for half the body.
 - A `solid`, and a body from a mesh file, is what lies on one side already, with faces on the plane. So is any other shape
   that lies on one side.
 
@@ -227,7 +228,7 @@ tolerance = 1e-10)",
 uniform = 1                        # halves all edges once)",
      ""},
     {"symmetry", R"([symmetry]
-planes = ["y = 0.5"]               # half of the block is meshed: y >= 0.5)",
+y = 0.5                            # half of the block is meshed: y >= 0.5)",
      symmetry_details},
     {"steps", R"([steps]
 count = 4                          # t is 0.25, 0.5, 0.75 and 1)",

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/scene/override.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/solver_keys.hpp"
@@ -75,32 +73,11 @@ Scene::Steps read_steps(const TableReader& table) {
   return steps;
 }
 
-/// "y", or "y = 0.5".
-Mirror read_plane(const std::string& text, const std::string& origin) {
-  std::string plain;
-  std::ranges::copy_if(text, std::back_inserter(plain), [](char c) { return c != ' ' && c != '\t'; });
-  Mirror mirror{plain.empty() ? -1 : plain[0] - 'x', 0};
-  const bool named = mirror.axis >= 0 && mirror.axis < 3;
-  bool understood = named && plain.size() == 1;
-  if (named && plain.size() > 2 && plain[1] == '=') {
-    const char* last = plain.data() + plain.size();
-    const auto [end, error] = std::from_chars(plain.data() + 2, last, mirror.at);
-    understood = error == std::errc() && end == last && std::isfinite(mirror.at);
-  }
-  if (!understood)
-    input_error(origin, fmt::format("expected a plane such as \"x\", \"y\" or \"z = 0.5\", found {}", in_quotes(text)));
-  return mirror;
-}
-
 Scene::Symmetry read_symmetry(const TableReader& table) {
   Scene::Symmetry symmetry{{}, table.source()};
-  for (const std::string& text : table.texts("planes")) {
-    const Mirror mirror = read_plane(text, table.origin("planes"));
-    if (std::ranges::count(symmetry.planes, mirror.axis, &Mirror::axis) > 0)
-      input_error(table.origin("planes"),
-                  fmt::format("two planes of symmetry across {}, expected one at most", "xyz"[mirror.axis]));
-    symmetry.planes.push_back(mirror);
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (const std::string_view key = axis_name(axis); table.given(key))
+      symmetry.planes.push_back({axis, table.number(key)});
   return symmetry;
 }
 

@@ -163,7 +163,9 @@ constexpr KeySpec refine[] = {
 };
 
 constexpr KeySpec symmetry[] = {
-    {"planes", texts, "[]", "", "", "\"x\", \"y\" or \"z\" for the plane where it is 0, or \"x = 0.5\""},
+    {"x", number, "", "", "", "bodies are cut where x has this value, and the side of the greater x is kept"},
+    {"y", number, "", "", "", "the same across y"},
+    {"z", number, "", "", "", "the same across z"},
 };
 
 constexpr KeySpec steps[] = {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/sdk/coulomb_friction.hpp"
+#include "core/sdk/given_friction.hpp"
 #include "core/sdk/rigid_contact.hpp"
 
 namespace signorini {
@@ -9,7 +10,10 @@ namespace signorini {
 /// Contact and friction by Coulomb's law: |tau| <= mu times the force that presses, at each vertex.
 /// @tparam Contact RigidContact<B> or ElasticContact<B>: what may not be penetrated
 template <int B, class Contact>
-class CoulombContact final : public FunctionalObstacle<B, CoulombFriction<B>> {
+class CoulombContact final : public FunctionalObstacle<B, GivenFriction<B>, CoulombSolver<B>, GivenFrictionModel<B>>,
+                             public Renewal<B>,
+                             public Scaling,
+                             public Friction {
  public:
   /// The row of a table of options that goes with it, beside those of Contact.
   static constexpr OptionSpec friction_option = {"friction", OptionType::field, "", "[0, inf)",
@@ -37,8 +41,7 @@ class CoulombContact final : public FunctionalObstacle<B, CoulombFriction<B>> {
     }
   }
 
-  bool follows_solution() const noexcept override { return true; }
-
+  const Renewal<B>* renewal() const noexcept override { return this; }
   void renew(const LevelView<B>& level, Index first, Index last, const double* r,
              double* data) const noexcept override {
     const auto [from, to] = slots_between(level, first, last);
@@ -52,15 +55,11 @@ class CoulombContact final : public FunctionalObstacle<B, CoulombFriction<B>> {
     }
   }
 
-  bool scale(double ratio, double* data) const noexcept override {
-    data[0] *= ratio;
-    return true;
-  }
+  const Scaling* scaling() const noexcept override { return this; }
+  void scale(double ratio, double* data) const noexcept override { data[0] *= ratio; }
 
-  bool friction(const double* data, FrictionLaw& law) const noexcept override {
-    law = {data[1], 0};
-    return true;
-  }
+  const Friction* friction() const noexcept override { return this; }
+  FrictionLaw law(const double* data) const noexcept override { return {data[1], 0}; }
 
  private:
   const Settings& settings_;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/sdk/given_friction.hpp"
+#include "core/sdk/given_friction_solver.hpp"
 
 namespace signorini {
 
@@ -11,16 +11,8 @@ namespace signorini {
 /// where the vertex slips. While the bound is frozen it is friction with a given bound. Of Slot::data the first number
 /// is that bound, a force, the second one mu.
 template <int B>
-struct CoulombFriction : GivenFriction<B> {
+struct CoulombFriction {
   static constexpr int data = 2;
-
-  /// With a frozen bound as GivenFriction does it; else such that the bound fits the force that presses then.
-  static void minimise(const Slot<B>& slot, const double* M, const double* r, const double* x, double* y) {
-    if (slot.frozen || !(slot.data[1] > 0) || normal_component(slot) < 0)
-      GivenFriction<B>::minimise(slot, M, r, x, y);
-    else
-      LocalLaw{slot, M, r, x, y}.solve();
-  }
 
   /// The bound that follows from the iterate x and its residual r at the vertex: what does not press has none. The
   /// force that presses is that of the augmented Lagrangian (Alart and Curnier, Comput. Methods Appl. Mech. Eng. 92
@@ -30,10 +22,20 @@ struct CoulombFriction : GivenFriction<B> {
     const int k = normal_component(slot);
     return k < 0 ? 0 : slot.data[1] * std::max(0.0, -r[k] - M[k * (B + 1)] * std::max(0.0, x[k] - slot.lower[k]));
   }
+};
+
+/// Its local solver: with a frozen bound that of GivenFriction; else such that the bound fits the force that presses
+/// then.
+template <int B>
+struct CoulombSolver {
+  static void minimise(const Slot<B>& slot, const double* M, const double* r, const double* x, double* y) {
+    if (slot.frozen || !(slot.data[1] > 0) || normal_component(slot) < 0)
+      GivenFrictionSolver<B>::minimise(slot, M, r, x, y);
+    else
+      LocalLaw{slot, M, r, x, y}.solve();
+  }
 
  private:
-  using GivenFriction<B>::normal_component;
-
   /// The bound g at which mu times the force that presses, for the minimiser y with that bound, is g. The difference is
   /// positive or zero at g = 0 and negative for large g, so that there is such a g; for small mu it falls and there is
   /// no other.
@@ -70,14 +72,14 @@ struct CoulombFriction : GivenFriction<B> {
       const double data[] = {g, slot.data[1]};
       Slot<B> given = slot;
       given.data = data;
-      GivenFriction<B>::minimise(given, M, r, x, y);
+      GivenFrictionSolver<B>::minimise(given, M, r, x, y);
       double left[B], d[B];
       for (int k = 0; k < B; ++k) {
         d[k] = y[k] - x[k];
         left[k] = r[k];
       }
       block::subtract_product<B>(M, d, left);
-      const double now = bound(given, M, left, y);
+      const double now = CoulombFriction<B>::bound(given, M, left, y);
       scale = std::max(now, g);
       const int k = normal_component(slot);
       for (int j = 0; j < B; ++j) scale = std::max(scale, slot.data[1] * std::abs(M[k * B + j] * d[j]));

@@ -97,7 +97,7 @@ static constexpr const char* sanitizer = "none";
       SIGNORINI_OFFSET(LevelView<B>, relaxation), SIGNORINI_OFFSET(LevelView<B>, data),                    \
       SIGNORINI_OFFSET(LevelView<B>, facet), SIGNORINI_SIZE(Facet<B>), SIGNORINI_SIZE(LocalConstraint<B>), \
       SIGNORINI_OFFSET(LocalConstraint<B>, direction), SIGNORINI_OFFSET(LocalConstraint<B>, upper),        \
-      SIGNORINI_SIZE(Linearisation<B>)
+      SIGNORINI_SIZE(QuadraticModel<B>)
 
 /// The build of this translation unit.
 static constexpr FingerprintField fingerprint[] = {

@@ -3,7 +3,6 @@
 
 #include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/constrained_minimiser.hpp"
-#include "core/sdk/nonlinearity.hpp"
 
 namespace signorini {
 
@@ -19,18 +18,22 @@ struct Slot {
 };
 
 /// An obstacle with bounds in local coordinates and a functional phi. What is left to an implementation is
-/// descriptor(), assemble() and `Local`, phi at a single vector:
-/// - `void minimise(const Slot<B>&, const double* M, const double* r, const double* x, double* y)`: the minimiser y of
-///   1/2 (y-x)'M(y-x) - r'(y-x) + phi(y) within the bounds; kinks and bounds are met exactly, not up to rounding;
-/// - `double change(const Slot<B>&, const double* from, const double* to)`, `double slope(const Slot<B>&, const double*
-///   at, const double* step)`, as in Nonlinearity;
-/// - `void linearise(const Slot<B>&, const double* x, const Linearisation<B>& out)`, `out` being that of this vector
-///   alone, gradient and hessian zero on entry.
-/// All of them are static, and inlined into loops that the implementation's own library instantiates.
-template <int B, class Local>
-class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
+/// descriptor(), assemble() and three classes that know a single vector:
+/// - `Phi`, the functional: `double change(const Slot<B>&, const double* from, const double* to)` and `double
+/// slope(const
+///   Slot<B>&, const double* at, const double* step)`, as in Functional;
+/// - `Solver`, the local solver: `void minimise(const Slot<B>&, const double* M, const double* r, const double* x,
+///   double* y)` with the minimiser y of 1/2 (y-x)'M(y-x) - r'(y-x) + phi(y) within the bounds; kinks and bounds are
+///   met exactly, not up to rounding;
+/// - `Model`, its linearisation: `void linearise(const Slot<B>&, const double* x, const QuadraticModel<B>& out)`, `out`
+///   being that of this vector alone, gradient and hessian zero on entry.
+/// One class may be all of them. Functions are static, and inlined into loops that the implementation's own library
+/// instantiates. Implementations that have a Renewal, a Scaling or a Friction derive from these, too.
+template <int B, class Phi, class Solver = Phi, class Model = Phi>
+class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public Linearisation<B> {
  public:
-  const Nonlinearity<B>* nonlinearity() const noexcept final { return this; }
+  const Functional<B>* functional() const noexcept final { return this; }
+  const Linearisation<B>* linearisation() const noexcept final { return this; }
 
   // Where bounds are all there is over-relaxation pays; beyond a kink it would not lower the energy.
   void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
@@ -73,23 +76,23 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
   double change(const LevelView<B>& level, Index first, Index last, const double* from,
                 const double* to) const noexcept override {
     return sum(level, first, last,
-               [&](Index slot, Offset at) { return Local::change(slot_of(level, slot), from + at, to + at); });
+               [&](Index slot, Offset at) { return Phi::change(slot_of(level, slot), from + at, to + at); });
   }
 
   double slope(const LevelView<B>& level, Index first, Index last, const double* at,
                const double* step) const noexcept override {
     return sum(level, first, last,
-               [&](Index slot, Offset i) { return Local::slope(slot_of(level, slot), at + i, step + i); });
+               [&](Index slot, Offset i) { return Phi::slope(slot_of(level, slot), at + i, step + i); });
   }
 
   void linearise(const LevelView<B>& level, Index first, Index last,
-                 const Linearisation<B>& out) const noexcept override {
+                 const QuadraticModel<B>& out) const noexcept override {
     sum(level, first, last, [&](Index slot, Offset at) {
-      const Linearisation<B> own{out.gradient + Offset{slot} * B, out.hessian + Offset{slot} * B * B,
-                                 out.lower + Offset{slot} * B, out.upper + Offset{slot} * B, out.critical + slot};
+      const QuadraticModel<B> own{out.gradient + Offset{slot} * B, out.hessian + Offset{slot} * B * B,
+                                  out.lower + Offset{slot} * B, out.upper + Offset{slot} * B, out.critical + slot};
       std::fill_n(own.gradient, B, 0.0);
       std::fill_n(own.hessian, B * B, 0.0);
-      Local::linearise(slot_of(level, slot), level.x + at, own);
+      Model::linearise(slot_of(level, slot), level.x + at, own);
       return 0.0;
     });
   }
@@ -111,7 +114,7 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
     const Index p = level.constrained[slot];
     const double *M = level.value + level.row[p] * B * B, *x = level.x + Offset{p} * B;
     if (B == 1 || !has_facets(level, slot)) {
-      Local::minimise(slot_of(level, slot), M, r, x, y);
+      Solver::minimise(slot_of(level, slot), M, r, x, y);
       return true;
     }
     Slot<B> convex = slot_of(level, slot);
@@ -119,7 +122,7 @@ class FunctionalObstacle : public BoxObstacle<B>, public Nonlinearity<B> {
     const auto with_force = [&](const double* force, double* out) {
       double sum[B];
       for (int i = 0; i < B; ++i) sum[i] = r[i] + force[i];
-      Local::minimise(convex, M, sum, x, out);
+      Solver::minimise(convex, M, sum, x, out);
     };
     double stiffness[B];
     for (int i = 0; i < B; ++i) stiffness[i] = M[i * (B + 1)];

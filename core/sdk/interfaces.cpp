@@ -7,38 +7,34 @@ namespace signorini {
 DistanceFunction::~DistanceFunction() = default;
 Settings::~Settings() = default;
 Registrar::~Registrar() = default;
+Scaling::~Scaling() = default;
+Friction::~Friction() = default;
 
 template <int B>
 Obstacle<B>::~Obstacle() = default;
 
 template <int B>
-Nonlinearity<B>::~Nonlinearity() = default;
+Functional<B>::~Functional() = default;
 
 template <int B>
-void Nonlinearity<B>::renew(const LevelView<B>&, Index, Index, const double*, double*) const noexcept {}
+Linearisation<B>::~Linearisation() = default;
 
 template <int B>
-bool Nonlinearity<B>::follows_solution() const noexcept {
-  return false;
-}
-
-template <int B>
-bool Nonlinearity<B>::scale(double, double*) const noexcept {
-  return false;
-}
-
-template <int B>
-bool Nonlinearity<B>::friction(const double*, FrictionLaw&) const noexcept {
-  return false;
-}
+Renewal<B>::~Renewal() = default;
 
 void DistanceFunction::place(const double*, const double*, Placement&, Status&) const noexcept {}
 
 template class Obstacle<1>;
 template class Obstacle<2>;
 template class Obstacle<3>;
-template class Nonlinearity<1>;
-template class Nonlinearity<2>;
-template class Nonlinearity<3>;
+template class Functional<1>;
+template class Functional<2>;
+template class Functional<3>;
+template class Linearisation<1>;
+template class Linearisation<2>;
+template class Linearisation<3>;
+template class Renewal<1>;
+template class Renewal<2>;
+template class Renewal<3>;
 
 }  // namespace signorini

@@ -1,8 +1,12 @@
 #pragma once
 #include <cstddef>
 
+#include "core/sdk/friction.hpp"
+#include "core/sdk/functional.hpp"
 #include "core/sdk/level_view.hpp"
-#include "core/sdk/nonlinearity.hpp"
+#include "core/sdk/linearisation.hpp"
+#include "core/sdk/renewal.hpp"
+#include "core/sdk/scaling.hpp"
 #include "core/sdk/settings.hpp"
 
 namespace signorini {
@@ -86,12 +90,22 @@ class Obstacle {
                         Flags* critical) const noexcept = 0;
 
   /// max over the vectors of ||x_p - Proj_K(x_p + A_pp^-1 r_p)||, Proj_K in the scalar product of A_pp; r = b - A x.
-  /// With a nonlinearity: of the distance to the local minimiser.
+  /// With a functional: of the distance to the local minimiser.
   virtual double natural_residual(const LevelView<B>& level, Index first, Index last,
                                   const double* r) const noexcept = 0;
 
-  /// What it adds to the energy; null: bounds are all there is. Owned by the obstacle.
-  virtual const Nonlinearity<B>* nonlinearity() const noexcept { return nullptr; }
+  // What it adds to the energy, one subject each; owned by the obstacle.
+
+  /// Null: bounds are all there is.
+  virtual const Functional<B>* functional() const noexcept { return nullptr; }
+  /// Not null with a functional.
+  virtual const Linearisation<B>* linearisation() const noexcept { return nullptr; }
+  /// Null: the functional does not depend on the solution.
+  virtual const Renewal<B>* renewal() const noexcept { return nullptr; }
+  /// Null: that is not known, and starts on coarser levels of a matrix go without the functional.
+  virtual const Scaling* scaling() const noexcept { return nullptr; }
+  /// Null: the functional is anything else.
+  virtual const Friction* friction() const noexcept { return nullptr; }
 };
 
 }  // namespace signorini

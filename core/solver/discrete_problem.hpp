@@ -122,16 +122,14 @@ struct Segment {
 template <int B>
 bool has_functional(const std::vector<Segment<B>>& segments) {
   return std::any_of(segments.begin(), segments.end(),
-                     [](const Segment<B>& s) { return s.obstacle->nonlinearity() != nullptr; });
+                     [](const Segment<B>& s) { return s.obstacle->functional() != nullptr; });
 }
 
 /// Whether the energy that an obstacle adds depends on the solution.
 template <int B>
 bool follows_solution(const std::vector<Segment<B>>& segments) {
-  return std::any_of(segments.begin(), segments.end(), [](const Segment<B>& s) {
-    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
-    return phi && phi->follows_solution();
-  });
+  return std::any_of(segments.begin(), segments.end(),
+                     [](const Segment<B>& s) { return s.obstacle->renewal() != nullptr; });
 }
 
 /// The matrix of a coarser level without any truncation.

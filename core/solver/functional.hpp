@@ -4,7 +4,7 @@
 #include "core/algebra/products.hpp"
 #include "core/solver/level.hpp"
 
-/// The part of the energy that obstacles add: the sum of phi_p(x_p). See core/sdk/nonlinearity.hpp.
+/// The part of the energy that obstacles add: the sum of phi_p(x_p). See core/sdk/functional.hpp.
 namespace signorini::functional {
 
 /// phi(to) - phi(from) at the vectors first <= p < last of a level; 0 without functionals.
@@ -17,7 +17,7 @@ double change(const Level<B>& level, const double* from, const double* to, Index
   if (data) view.data = data;
   double sum = 0;
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->change(view, begin, end, from, to);
+    if (const Functional<B>* phi = s.obstacle->functional()) sum += phi->change(view, begin, end, from, to);
   });
   return sum;
 }
@@ -28,7 +28,7 @@ double slope(const Level<B>& level, const double* at, const double* step, Index 
   const LevelView<B> view = level.view();
   double sum = 0;
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->slope(view, begin, end, at, step);
+    if (const Functional<B>* phi = s.obstacle->functional()) sum += phi->slope(view, begin, end, at, step);
   });
   return sum;
 }
@@ -69,7 +69,7 @@ double change(const DiscreteProblem<B>& problem, const double* from, const doubl
   const LevelView<B> level = view(problem);
   double sum = 0;
   for (const Segment<B>& s : problem.segments)
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->change(level, s.first, s.last, from, to);
+    if (const Functional<B>* phi = s.obstacle->functional()) sum += phi->change(level, s.first, s.last, from, to);
   return sum;
 }
 
@@ -79,7 +79,7 @@ double slope(const DiscreteProblem<B>& problem, const double* at, const double* 
   const LevelView<B> level = view(problem);
   double sum = 0;
   for (const Segment<B>& s : problem.segments)
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) sum += phi->slope(level, s.first, s.last, at, step);
+    if (const Functional<B>* phi = s.obstacle->functional()) sum += phi->slope(level, s.first, s.last, at, step);
   return sum;
 }
 
@@ -93,8 +93,8 @@ std::vector<double> data_at(const DiscreteProblem<B>& problem, const std::vector
   std::vector<double> r(x.size());
   residual<B>(problem.A, x.data(), problem.b.data(), r.data());
   for (const Segment<B>& s : problem.segments)
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity())
-      phi->renew(level, s.first, s.last, r.data(), data.data());
+    if (const Renewal<B>* renewal = s.obstacle->renewal())
+      renewal->renew(level, s.first, s.last, r.data(), data.data());
   return data;
 }
 
@@ -110,7 +110,7 @@ std::vector<double> gradient(const DiscreteProblem<B>& problem, const std::vecto
   std::vector<double> out(slots * B), hessian(slots * B * B), lower(slots * B, -infinity), upper(slots * B, infinity);
   std::vector<Flags> critical(slots);
   for (const Segment<B>& s : problem.segments)
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity())
+    if (const Linearisation<B>* phi = s.obstacle->linearisation())
       phi->linearise(level, s.first, s.last, {out.data(), hessian.data(), lower.data(), upper.data(), critical.data()});
   return out;
 }
@@ -122,7 +122,7 @@ void renew(const Level<B>& level, const double* x, const double* r, Index first,
   LevelView<B> view = level.view();
   view.x = const_cast<double*>(x);
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
-    if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) phi->renew(view, begin, end, r, data);
+    if (const Renewal<B>* renewal = s.obstacle->renewal()) renewal->renew(view, begin, end, r, data);
   });
 }
 

@@ -71,7 +71,7 @@ struct Phases {
 /// What the functionals are near the iterate; empty without them. Owner: the cycle, with what the obstacles say.
 template <int B>
 struct SmoothPiece {
-  std::vector<double> gradient, hessian;  ///< B and B * B per slot: of phi at the last visit, see Linearisation
+  std::vector<double> gradient, hessian;  ///< B and B * B per slot: of phi at the last visit, see QuadraticModel
   std::vector<double> used_hessian;       ///< B * B per slot: what the coarser matrices contain
 
   void clear(std::size_t slots) {
@@ -199,11 +199,11 @@ struct Level : LevelSystem<B> {
     const LevelView<B> v = view();
     double *lower = phases.lower.data(), *upper = phases.upper.data();
     Flags* critical = phases.critical.data();
-    const Linearisation<B> linear{piece.gradient.data(), piece.hessian.data(), lower, upper, critical};
+    const QuadraticModel<B> model{piece.gradient.data(), piece.hessian.data(), lower, upper, critical};
     for_each_segment(from, to, Order::forward, [&](const Segment<B>& s, Index first, Index last) {
       s.obstacle->distance(v, first, last, lower, upper, critical);
       if (!nonlinear) return;
-      if (const Nonlinearity<B>* phi = s.obstacle->nonlinearity()) phi->linearise(v, first, last, linear);
+      if (const Linearisation<B>* phi = s.obstacle->linearisation()) phi->linearise(v, first, last, model);
     });
   }
 

@@ -74,8 +74,7 @@ bool end_slips(const Level<B>& level, const std::vector<double>& start) {
   const Constraints<B>& c = level.constraints;
   bool any = false;
   level.for_each_segment(0, level.vectors, Order::forward, [&](const Segment<B>& s, Index first, Index last) {
-    const Nonlinearity<B>* phi = s.obstacle->nonlinearity();
-    if (!phi) return;
+    if (!s.obstacle->friction()) return;
     const auto [from, to] = slots_between(c, first, last);
     for (Index slot = from; slot < to; ++slot) {
       const Offset at = Offset{c.vector[slot]} * B, own = Offset{slot} * B;
@@ -85,8 +84,7 @@ bool end_slips(const Level<B>& level, const std::vector<double>& start) {
         forward += (level.x[at + k] - c.last[own + k]) * (start[at + k] - c.last[own + k]);
         pull += std::abs(level.piece.gradient[own + k]);
       }
-      FrictionLaw law;
-      if (!(forward < 0 && pull > 0) || !phi->friction(c.data.data() + Offset{slot} * c.width, law)) continue;
+      if (!(forward < 0 && pull > 0)) continue;
       any = true;
       for (int k = 0; k < B; ++k)
         if (c.tangential[slot] >> k & 1u) level.x[at + k] = c.last[own + k];

@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "core/sdk/given_friction.hpp"
+#include "core/sdk/given_friction_solver.hpp"
 #include "core/sdk/plugin.hpp"
 #include "core/sdk/rigid_contact.hpp"
 
@@ -9,7 +10,9 @@ namespace signorini {
 namespace {
 
 template <int B>
-class Tresca final : public FunctionalObstacle<B, GivenFriction<B>> {
+class Tresca final : public FunctionalObstacle<B, GivenFriction<B>, GivenFrictionSolver<B>, GivenFrictionModel<B>>,
+                     public Scaling,
+                     public Friction {
  public:
   explicit Tresca(const Settings& settings) : settings_(settings), contact_(settings, "tresca") {
     if (!settings.has("bound")) throw Error(Exit::input, "a tresca obstacle needs 'bound'");
@@ -31,15 +34,11 @@ class Tresca final : public FunctionalObstacle<B, GivenFriction<B>> {
     }
   }
 
-  bool scale(double ratio, double* data) const noexcept override {
-    data[0] *= ratio;
-    return true;
-  }
+  const Scaling* scaling() const noexcept override { return this; }
+  void scale(double ratio, double* data) const noexcept override { data[0] *= ratio; }
 
-  bool friction(const double* data, FrictionLaw& law) const noexcept override {
-    law = {0, data[0]};
-    return true;
-  }
+  const Friction* friction() const noexcept override { return this; }
+  FrictionLaw law(const double* data) const noexcept override { return {0, data[0]}; }
 
  private:
   const Settings& settings_;

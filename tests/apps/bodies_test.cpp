@@ -78,8 +78,8 @@ TEST_F(Bodies, WhichIsTheSlaveIsPrintedAndReported) {
   EXPECT_EQ(pair.at("slave"), "lower");
   EXPECT_EQ(pair.at("master"), "upper");
   EXPECT_EQ(pair.at("reason"), "softer: modulus 1 beside 5");
-  EXPECT_NEAR(pair.at("force_on_other")[1].get<double>(), -contact.at("force")[1].get<double>(), 1e-15);
-  EXPECT_EQ(pair.at("moment_on_other").size(), 1u);
+  EXPECT_NEAR(contact.at("other_force")[1].get<double>(), -contact.at("force")[1].get<double>(), 1e-15);
+  EXPECT_EQ(contact.at("other_moment").size(), 1u);
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ TEST_F(CommandLine, AnUnknownPathOfSetIsBadInputAsAWrongValueIs) {
 }
 
 TEST_F(CommandLine, LaterCommandsSayThatTheyAreNotAvailable) {
-  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"chart", "a.toml"}}) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"chart", "a.toml"}, {"plugin", "new", "mine"}}) {
     const Ended ended = signorini(arguments);
     EXPECT_EQ(ended.status, 2);
     EXPECT_THAT(ended.err, HasSubstr("'" + arguments[0] + "' is not available in this version"));

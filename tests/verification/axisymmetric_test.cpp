@@ -5,9 +5,9 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/select.hpp"
 #include "core/fem/stress.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"

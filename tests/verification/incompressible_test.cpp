@@ -4,8 +4,8 @@
 #include "core/base/error.hpp"
 #include "core/fem/error_norm.hpp"
 #include "core/fem/pressure_space.hpp"
-#include "core/fem/quadrature.hpp"
 #include "core/fem/stress.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 

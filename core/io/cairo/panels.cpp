@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/io/cairo/painter.hpp"
 #include "core/io/cairo/plot.hpp"
@@ -58,10 +59,19 @@ struct Style {
 };
 /// Of lines, one after the other.
 Style style(std::size_t number) {
-  constexpr std::array<std::array<int, 3>, 4> colours{
-      {{0xb2, 0x18, 0x2b}, {0x21, 0x66, 0xac}, {0x1b, 0x78, 0x37}, {0x76, 0x2a, 0x83}}};
+  constexpr std::array<std::array<int, 3>, 6> colours{{{0xb2, 0x18, 0x2b},
+                                                       {0x21, 0x66, 0xac},
+                                                       {0x1b, 0x78, 0x37},
+                                                       {0x76, 0x2a, 0x83},
+                                                       {0xe0, 0x82, 0x14},
+                                                       {0x55, 0x55, 0x55}}};
   constexpr std::array<Marker, 3> markers{Marker::disk, Marker::square, Marker::circle};
   return {markers[number % markers.size()], {colours[number % colours.size()], 2}};
+}
+Style style(const std::vector<Line>& lines, std::size_t k) {
+  Style out = style(lines[k].style < 0 ? k : static_cast<std::size_t>(lines[k].style));
+  out.stroke.dashed = lines[k].dashed;
+  return out;
 }
 
 /// What the lines with a name are, two in a row; the height of it.
@@ -70,7 +80,7 @@ double draw_key(Sheet& sheet, double left, double top, const std::vector<Line>& 
   std::size_t shown = 0;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     if (lines[k].name.empty()) continue;
-    const auto [marker, stroke] = style(k);
+    const auto [marker, stroke] = style(lines, k);
     const std::size_t row = shown / 2, column = shown % 2;
     const Spot at{left + between * static_cast<double>(column), top + high * (0.5 + static_cast<double>(row))};
     if (lines[k].joined) sheet.line(at, {at.x + length, at.y}, stroke);
@@ -82,26 +92,46 @@ double draw_key(Sheet& sheet, double left, double top, const std::vector<Line>& 
   return high * static_cast<double>(rows);
 }
 
+/// With logarithms in place of numbers, which of what is not positive are no numbers.
+std::vector<Line> logarithms(std::vector<Line> lines) {
+  for (Line& line : lines)
+    for (auto& point : line.points)
+      for (double& x : point) x = x > 0 ? std::log10(x) : std::numeric_limits<double>::quiet_NaN();
+  return lines;
+}
+
+/// What a panel shows of one direction.
+struct Extent {
+  double low = infinity, high = -infinity;
+
+  void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+  /// Values that hardly differ are shown over zero.
+  void reach_zero() {
+    constexpr double one_value = 1e-3;  // relative
+    if (high - low <= one_value * std::max(std::abs(low), std::abs(high))) add(0);
+  }
+};
+
 void draw_lines(Sheet& sheet, double left, const Panel& panel) {
-  std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity};
-  for (const Line& line : panel.lines)
-    for (const auto& point : line.points) {
-      if (!std::isfinite(point[0]) || !std::isfinite(point[1])) continue;
-      for (int k = 0; k < 2; ++k) low[k] = std::min(low[k], point[k]), high[k] = std::max(high[k], point[k]);
-    }
-  if (!(low[0] <= high[0])) return;
-  constexpr double one_value = 1e-3;  // relative: what differs less is shown over zero
-  if (high[1] - low[1] <= one_value * std::max(std::abs(low[1]), std::abs(high[1])))
-    low[1] = std::min(low[1], 0.0), high[1] = std::max(high[1], 0.0);
-  const double key = draw_key(sheet, left + 110, 50, panel.lines), top = 60 + key;
-  Plot plot(sheet, {left + 110, top, raster_size, 500 - top}, widened_axis(low[0], high[0]),
-            widened_axis(low[1], high[1]));
-  for (std::size_t k = 0; k < panel.lines.size(); ++k) {
-    const auto [marker, stroke] = style(k);
-    if (panel.lines[k].joined)
-      plot.curve(panel.lines[k].points, marker, stroke);
+  const std::vector<Line> lines = panel.logarithmic ? logarithms(panel.lines) : panel.lines;
+  Extent x, y;
+  for (const Line& line : lines)
+    for (const auto& point : line.points)
+      if (std::isfinite(point[0]) && std::isfinite(point[1])) x.add(point[0]), y.add(point[1]);
+  if (!(x.low <= x.high)) return;
+  if (!panel.logarithmic) y.reach_zero();
+  const auto axis = [&](const Extent& of) {
+    return panel.logarithmic ? logarithmic_axis(of.low, of.high) : widened_axis(of.low, of.high);
+  };
+  const double key = draw_key(sheet, left + 110, 50, lines), top = 60 + key;
+  Plot plot(sheet, {left + 110, top, raster_size, 500 - top}, axis(x), axis(y));
+  if (panel.logarithmic) plot.grid();
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const auto [marker, stroke] = style(lines, k);
+    if (lines[k].joined)
+      plot.curve(lines[k].points, marker, stroke);
     else
-      plot.marks(panel.lines[k].points, marker, stroke);
+      plot.marks(lines[k].points, marker, stroke);
   }
   plot.x_axis(panel.across);
   plot.y_axis(panel.label);

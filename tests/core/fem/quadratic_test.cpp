@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/fem/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
 

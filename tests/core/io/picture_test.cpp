@@ -180,6 +180,24 @@ TEST_F(Picture, LinesMayBeMarksAloneAndHaveGaps) {
   EXPECT_EQ(picture({{{{0, nothing}}}}).count(red), 0u) << "nothing to draw";
 }
 
+TEST_F(Picture, LogarithmicAxesMakePowersStraightLines) {
+  constexpr std::uint32_t red = 0xb2182b;
+  const auto picture = [&](std::vector<std::array<double, 2>> points, bool logarithmic) {
+    Panel panel;
+    panel.view = View::lines;
+    panel.logarithmic = logarithmic;
+    panel.lines = {{std::move(points)}};
+    painter().panels(folder_ / "a.png", {panel});
+    std::vector<bool> drawn_red;
+    for (const std::uint32_t pixel : drawn().pixels) drawn_red.push_back(pixel == red);
+    return drawn_red;
+  };
+  const auto straight = picture({{0, 0}, {1, 2}, {3, 6}}, false);
+  EXPECT_GT(std::ranges::count(straight, true), 300);
+  EXPECT_EQ(picture({{1, 1}, {10, 100}, {1e3, 1e6}}, true), straight);
+  EXPECT_EQ(picture({{1, 1}, {10, 100}, {1e3, 1e6}, {0, 10}, {20, -1}}, true), straight) << "they have no logarithm";
+}
+
 TEST_F(Picture, ThatCannotBeWrittenIsNamed) {
   EXPECT_THROW(painter().convergence(folder_ / "none" / "a.png", {}), Error);
   try {

@@ -20,7 +20,7 @@ using testing::ThrowsMessage;
 TEST(Mirror, FacesOnItAreNoBoundary) {
   Mesh<2> mesh = rectangle({0, 0}, {2, 1}, {4, 2});
   mesh.points[0][0] = 1e-9;  // up to rounding
-  set_mirrors(mesh, {{.axis = 0, .at = 0}}, "here");
+  add_mirror(mesh, {.axis = 0, .at = 0}, "here");
   EXPECT_EQ(mesh.points[0][0], 0);
   remove_faces_on_mirrors(mesh);
   EXPECT_EQ(mesh.boundary.size(), 10u);
@@ -34,9 +34,9 @@ TEST(Mirror, FacesOnItAreNoBoundary) {
 TEST(Mirror, TheMeshLiesOnOneSide) {
   Mesh<2> mesh = rectangle({-1, 0}, {2, 1}, {3, 2});
   EXPECT_THAT(
-      [&] { set_mirrors(mesh, {{.axis = 0, .at = 0}}, "scene.toml:3"); },
+      [&] { add_mirror(mesh, {.axis = 0, .at = 0}, "scene.toml:3"); },
       ThrowsMessage<Error>(testing::AllOf(HasSubstr("scene.toml:3"), HasSubstr("x = 0"), HasSubstr("-1 to 2"))));
-  EXPECT_THAT([&] { set_mirrors(mesh, {{.axis = 1, .at = 2}}, "scene.toml:3"); },
+  EXPECT_THAT([&] { add_mirror(mesh, {.axis = 1, .at = 2}, "scene.toml:3"); },
               ThrowsMessage<Error>(HasSubstr("no face on the plane of symmetry y = 2")));
 }
 
@@ -52,7 +52,7 @@ TEST(Mirror, RimsStayOnPlaneAndCurve) {
   mesh.curves = {{.center = {0, 0, -below}, .radius = R}};
   for (Face<3>& face : mesh.boundary)
     if (std::ranges::count(face.vertices, 3) > 0) face.curve = 0;
-  set_mirrors(mesh, {{.axis = 2, .at = 0}}, "here");
+  add_mirror(mesh, {.axis = 2, .at = 0}, "here");
   remove_faces_on_mirrors(mesh);
   Mesh<3> fine;
   refine_uniformly(mesh, fine);

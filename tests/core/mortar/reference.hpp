@@ -1,7 +1,7 @@
 #pragma once
 #include <map>
 
-#include "core/fem/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "tests/core/mortar/surfaces.hpp"
 
 /// The coupling once more, by other means: overlaps from the crossings of edges, integrals by a quadrature rule, dual

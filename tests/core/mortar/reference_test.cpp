@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/mortar/dual_basis.hpp"
+#include "core/mortar/face_integrals.hpp"
 
 namespace signorini::test {
 namespace {
@@ -88,23 +88,29 @@ TYPED_TEST(RandomPairs, AreCoupledAsByQuadrature) {
   }
 }
 
-// ψ_p at a point of the face: what the moments of a unit mass there give.
-template <int D>
-double dual_value(const mortar::DualBasis<D>& dual, int p, const Point<D - 1>& y) {
-  const Point<D - 1> turned = dual.axes().of(y);
-  mortar::Moments<D - 1> mass;
-  mass.measure = 1;
-  mass.first = turned;
-  return dual.share(p) * dual.integral(mass, p).one;
-}
-
 template <class N>
 class DualFunctions : public testing::Test {};
 TYPED_TEST_SUITE(DualFunctions, Dimensions);
 
-// Faces covered by random pieces, from all of them to slivers.
-TYPED_TEST(DualFunctions, AreBiorthogonalToTheTraceBasis) {
-  constexpr int D = TypeParam::value, K = D - 1;
+/// Calls use(barycentric, weight) for the points of a rule of degree 5 on a piece of a frame's face.
+template <int D, class Use>
+void each_point(const mortar::FaceFrame<D>& frame, const mortar::Piece<D - 1>& piece, const Use& use) {
+  each_simplex(piece, [&](const std::array<Point<D - 1>, D>& simplex) {
+    for (const auto& point : quadrature5<D - 1>()) {
+      Point<D - 1> y{};
+      for (int i = 0; i < D; ++i)
+        for (int k = 0; k < D - 1; ++k) y[k] += point.barycentric[i] * simplex[i][k];
+      std::array<double, D> at;
+      for (int i = 0; i < D; ++i) at[i] = frame.shape[i](y);
+      use(at, point.weight * mortar::signed_measure<D - 1>(simplex));
+    }
+  });
+}
+
+/// Faces covered by random pieces, from all of them to strips of `least` of their width.
+template <int D, int P>
+void expect_biorthogonal(double least) {
+  constexpr int K = D - 1;
   Random random(3);
   for (int trial = 0; trial < 300; ++trial) {
     std::array<Point<D>, D> corner;
@@ -115,39 +121,41 @@ TYPED_TEST(DualFunctions, AreBiorthogonalToTheTraceBasis) {
     const mortar::Side<D> side(face.side());
     if (side.area[0] < 0.1) continue;
     const mortar::FaceFrame<D> frame(corner, side.normal[0]);
-    std::vector<mortar::Segment<D>> segments;
-    const double strip = std::pow(10, random.between(-5, 0));
+    const double strip = std::pow(least, random.between(0, 1));
     mortar::Affine<K> past = frame.shape[trial % D];
     past.at -= 1 - strip;  // a strip near one corner, or near all of it
+    std::vector<mortar::CoveredPoint<K>> covered;
     for (int part = 0; part < 2; ++part) {
       mortar::Affine<K> half = frame.shape[(trial + 1) % D];
       half.at -= K == 1 ? 0.3 * strip : 0.3;
-      mortar::Piece<K> piece = clipped(clipped(mortar::Piece<K>(frame.corner), past), part ? half : -half);
-      if (!piece.empty() && measure(piece) > 1e-13) segments.push_back({0, frame.shape, {}, piece});
+      const auto piece = clipped(clipped(mortar::Piece<K>(frame.corner), past), part ? half : -half);
+      if (piece.empty() || measure(piece) <= 1e-13) continue;
+      each_point<D>(frame, piece, [&](const auto& at, double weight) { covered.push_back({at, weight}); });
     }
-    if (segments.empty()) continue;
-    const mortar::DualBasis<D> dual(frame, segments);
-    EXPECT_FALSE(dual.lumped());
-    for (int p = 0; p < D; ++p)
-      for (int q = 0; q < D; ++q) {
+    if (covered.empty()) continue;
+    const mortar::DualBasis<K, P> dual(covered);
+    EXPECT_FALSE(dual.lumped()) << strip;
+    for (std::size_t p = 0; p < dual.nodes; ++p)
+      for (std::size_t q = 0; q < dual.nodes; ++q) {
         double sum = 0, size = 0, alone = 0;
-        for (const auto& s : segments)
-          each_simplex(s.piece, [&](const std::array<Point<K>, D>& simplex) {
-            for (const auto& point : quadrature5<K>()) {
-              Point<K> y{};
-              for (int i = 0; i < D; ++i)
-                for (int k = 0; k < K; ++k) y[k] += point.barycentric[i] * simplex[i][k];
-              const double w = point.weight * mortar::signed_measure<K>(simplex);
-              sum += w * dual_value<D>(dual, p, y) * frame.shape[q](y);
-              size += w * std::abs(dual_value<D>(dual, p, y) * frame.shape[q](y));
-              alone += w * frame.shape[p](y);
-            }
-          });
-        EXPECT_GE(dual.share(p), 0);
-        EXPECT_NEAR(dual.share(p), alone, 1e-14);
-        EXPECT_NEAR(sum, p == q ? dual.share(p) : 0, 1e-15 + 1e-12 * size / strip) << trial << " strip " << strip;
+        for (const auto& point : covered) {
+          const auto phi = basis<P>(point.at);
+          const double product = point.weight * dual.share()[p] * dual(point.at)[p] * phi[q];
+          sum += product;
+          size += std::abs(product);
+          alone += point.weight * phi[p];
+        }
+        EXPECT_GE(dual.share()[p], P == 1 ? 0 : -1);
+        EXPECT_NEAR(dual.share()[p], alone, 1e-14);
+        EXPECT_NEAR(sum, p == q ? dual.share()[p] : 0, 1e-15 + 1e-12 * size / std::pow(strip, P))
+            << trial << " strip " << strip;
       }
   }
+}
+
+TYPED_TEST(DualFunctions, AreBiorthogonalToTheTraceBasis) { expect_biorthogonal<TypeParam::value, 1>(1e-5); }
+TYPED_TEST(DualFunctions, AreBiorthogonalToTheTraceBasisOfQuadraticElements) {
+  expect_biorthogonal<TypeParam::value, 2>(0.01);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/sdk/given_friction.hpp"
+#include "core/sdk/given_friction_solver.hpp"
 #include "tests/obstacles/kink/convex_kink.hpp"
 #include "tests/support/friction.hpp"
 #include "tests/support/problems.hpp"
@@ -12,10 +13,10 @@
 namespace signorini::test {
 namespace {
 
-template <int B, class Local>
-class Functional final : public FunctionalObstacle<B, Local> {
+template <int B, class... Local>
+class Given final : public FunctionalObstacle<B, Local...> {
  public:
-  explicit Functional(int data) : data_(data) {}
+  explicit Given(int data) : data_(data) {}
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", B, 1}}, data_}; }
   void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<B>*, Status&) const noexcept override {}
 
@@ -40,7 +41,8 @@ DiscreteProblem<B> random_friction(Random& random, Index n) {
     for (int k = 0; k < B; ++k) c.last.push_back(random.chance(0.5) ? 0 : random.between(-0.1, 0.1));
     c.tangential.push_back((1u << B) - 2);
   }
-  problem.segments = {{0, n, std::make_shared<Functional<B, GivenFriction<B>>>(1)}};
+  problem.segments = {
+      {0, n, std::make_shared<Given<B, GivenFriction<B>, GivenFrictionSolver<B>, GivenFrictionModel<B>>>(1)}};
   return problem;
 }
 
@@ -54,7 +56,7 @@ DiscreteProblem<1> random_kinks(Random& random, Index n) {
       c.data.push_back(value);
   c.tangential.assign(c.vector.size(), 0);
   c.last.assign(c.vector.size(), 0);
-  problem.segments = {{0, n, std::make_shared<Functional<1, ConvexKink>>(5)}};
+  problem.segments = {{0, n, std::make_shared<Given<1, ConvexKink>>(5)}};
   return problem;
 }
 
@@ -125,12 +127,14 @@ DiscreteProblem<1> random_turns(Random& random, Index n) {
 TEST(Functional, ObstaclesTakeTurnsVectorByVector) { expect_solved<1>(random_turns, prox_of_kinks); }
 
 // The bound of friction is renewed from the force that presses, as Coulomb's law has it.
-class RenewedFriction final : public FunctionalObstacle<2, GivenFriction<2>> {
+class RenewedFriction final
+    : public FunctionalObstacle<2, GivenFriction<2>, GivenFrictionSolver<2>, GivenFrictionModel<2>>,
+      public Renewal<2> {
  public:
   static constexpr double coefficient = 0.2;
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", 2, 1}}, 1}; }
   void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<2>*, Status&) const noexcept override {}
-  bool follows_solution() const noexcept override { return true; }
+  const Renewal<2>* renewal() const noexcept override { return this; }
   void renew(const LevelView<2>& level, Index first, Index last, const double* r,
              double* data) const noexcept override {
     for (Index slot = 0; slot < level.slots; ++slot)
@@ -167,7 +171,7 @@ TEST(Functional, WhatIsFrozenDuringACycleIsRenewedUntilItFits) {
 }
 
 // The local minimiser beside random admissible points near and far.
-template <int B, class Local, class Make>
+template <int B, class Phi, class Solver, class Make>
 void expect_least(const Make& make) {
   Random random(70 + B);
   for (int trial = 0; trial < 100; ++trial) {
@@ -182,9 +186,9 @@ void expect_least(const Make& make) {
         x[k] = std::clamp(random.between(-1, 1), s.lower[k], s.upper[k]);
         r[k] = random.between(-3, 3);
       }
-      Local::minimise(s, M, r, x, y);
+      Solver::minimise(s, M, r, x, y);
       const auto energy = [&](const double* z) {
-        double d[B], Md[B], sum = Local::change(s, y, z);
+        double d[B], Md[B], sum = Phi::change(s, y, z);
         for (int k = 0; k < B; ++k) d[k] = z[k] - x[k];
         block::product<B>(M, d, Md);
         for (int k = 0; k < B; ++k) sum += (0.5 * Md[k] - r[k]) * d[k];
@@ -203,9 +207,9 @@ void expect_least(const Make& make) {
 }
 
 TEST(Functional, LocalMinimisersAreMinimisers) {
-  expect_least<1, ConvexKink>(random_kinks);
-  expect_least<2, GivenFriction<2>>(random_friction<2>);
-  expect_least<3, GivenFriction<3>>(random_friction<3>);
+  expect_least<1, ConvexKink, ConvexKink>(random_kinks);
+  expect_least<2, GivenFriction<2>, GivenFrictionSolver<2>>(random_friction<2>);
+  expect_least<3, GivenFriction<3>, GivenFrictionSolver<3>>(random_friction<3>);
 }
 
 TEST(Functional, ActiveSetsSayThatTheyKnowBoundsOnly) {

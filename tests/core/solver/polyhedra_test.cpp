@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sdk/given_friction.hpp"
+#include "core/sdk/given_friction_solver.hpp"
 #include "tests/support/friction.hpp"
 #include "tests/support/random_polyhedra.hpp"
 
@@ -10,7 +11,7 @@ namespace signorini::test {
 namespace {
 
 template <int B>
-class Friction final : public FunctionalObstacle<B, GivenFriction<B>> {
+class GivenBound final : public FunctionalObstacle<B, GivenFriction<B>, GivenFrictionSolver<B>, GivenFrictionModel<B>> {
  public:
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", B, 1}}, 1}; }
   void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<B>*, Status&) const noexcept override {}
@@ -32,7 +33,7 @@ DiscreteProblem<B> random_friction(Random& random, Index n) {
     c.tangential.push_back((1u << B) - 2);
   }
   add_facets(random, problem);
-  problem.segments = {{0, n, std::make_shared<Friction<B>>()}};
+  problem.segments = {{0, n, std::make_shared<GivenBound<B>>()}};
   return problem;
 }
 

@@ -111,7 +111,7 @@ Vec<B> solved(const LocalProblem<B>& p, double guess) {
   lower[0] = p.lower;
   const Slot<B> slot{lower, upper, data, p.last.data(), (1u << B) - 2, false};
   Vec<B> y;
-  CoulombFriction<B>::minimise(slot, M.data(), p.r.data(), p.x.data(), y.data());
+  CoulombSolver<B>::minimise(slot, M.data(), p.r.data(), p.x.data(), y.data());
   return y;
 }
 
@@ -152,8 +152,8 @@ TEST(CoulombLocalLaw, FrozenItIsFrictionWithAGivenBound) {
                  upper[] = {infinity, infinity, infinity};
     Vec<3> frozen, given;
     Slot<3> slot{lower, upper, data, p.last.data(), 6, true};
-    CoulombFriction<3>::minimise(slot, M.data(), p.r.data(), p.x.data(), frozen.data());
-    GivenFriction<3>::minimise(slot, M.data(), p.r.data(), p.x.data(), given.data());
+    CoulombSolver<3>::minimise(slot, M.data(), p.r.data(), p.x.data(), frozen.data());
+    GivenFrictionSolver<3>::minimise(slot, M.data(), p.r.data(), p.x.data(), given.data());
     EXPECT_EQ(frozen, given);
   }
 }

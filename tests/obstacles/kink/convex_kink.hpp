@@ -31,7 +31,7 @@ struct ConvexKink {
     return *step * (right ? above + k_above * (*at - c) : -below - k_below * (c - *at));
   }
 
-  static void linearise(const Slot<1>& slot, const double* x, const Linearisation<1>& out) {
+  static void linearise(const Slot<1>& slot, const double* x, const QuadraticModel<1>& out) {
     const auto [c, below, above, k_below, k_above] = read(slot);
     if (*x == c && below + above > 0) {
       *out.critical |= 1;

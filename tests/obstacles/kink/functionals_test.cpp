@@ -92,14 +92,20 @@ TEST(Functionals, HaveTheirDirectionsAsComponents) {
   EXPECT_GE(along, 1e-3);
 }
 
-TEST(Functionals, OfTooManyNumbersAreRefused) {
+void expect_refused(const char* type, const char* why) {
   try {
-    run<2, 1>(membrane("type = \"greedy\""));
+    run<2, 1>(membrane(std::string("type = \"") + type + "\""));
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), Exit::plugin);
-    EXPECT_THAT(error.what(), testing::HasSubstr("9 numbers of its own, expected 0 to 8"));
+    EXPECT_THAT(error.what(), testing::HasSubstr(why));
   }
+}
+
+TEST(Functionals, OfTooManyNumbersAreRefused) { expect_refused("greedy", "9 numbers of its own, expected 0 to 8"); }
+
+TEST(Functionals, WithoutALinearisationAreRefused) {
+  expect_refused("vague", "has a functional without its linearisation");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Cost {
   static double slope(const Slot<1>&, const double* at, const double* step) {
     return *at == 0 ? g * size(step) : *at > 0 ? g * *step : -g * *step;
   }
-  static void linearise(const Slot<1>&, const double* x, const Linearisation<1>& out) {
+  static void linearise(const Slot<1>&, const double* x, const QuadraticModel<1>& out) {
     if (*x == 0) {
       *out.critical |= 1;
       *out.lower = *out.upper = 0;
@@ -66,13 +66,13 @@ struct Hardening {
   static double slope(const Slot<1>& slot, const double* at, const double* step) {
     return stiffness(slot) * *at * *step;
   }
-  static void linearise(const Slot<1>& slot, const double* x, const Linearisation<1>& out) {
+  static void linearise(const Slot<1>& slot, const double* x, const QuadraticModel<1>& out) {
     *out.gradient = stiffness(slot) * *x;
     *out.hessian = stiffness(slot);
   }
 };
 
-class HardeningObstacle final : public FunctionalObstacle<1, Hardening> {
+class HardeningObstacle final : public FunctionalObstacle<1, Hardening>, public Renewal<1> {
  public:
   explicit HardeningObstacle(const Settings&) {}
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 2}; }
@@ -84,7 +84,7 @@ class HardeningObstacle final : public FunctionalObstacle<1, Hardening> {
       constraints[k].data[1] = 50 * vertices[k].measure;
     }
   }
-  bool follows_solution() const noexcept override { return true; }
+  const Renewal<1>* renewal() const noexcept override { return this; }
   void renew(const LevelView<1>& level, Index first, Index last, const double*, double* data) const noexcept override {
     for (Index slot = 0; slot < level.slots; ++slot) {
       if (level.constrained[slot] < first || level.constrained[slot] >= last) continue;
@@ -115,7 +115,7 @@ struct Spring {
   static double slope(const Slot<2>& slot, const double* at, const double* step) {
     return -slot.data[0] * gap(at) * step[0];
   }
-  static void linearise(const Slot<2>& slot, const double* x, const Linearisation<2>& out) {
+  static void linearise(const Slot<2>& slot, const double* x, const QuadraticModel<2>& out) {
     if (!(x[0] < c)) return;
     out.gradient[0] = -slot.data[0] * gap(x);
     out.hessian[0] = slot.data[0];
@@ -161,7 +161,7 @@ struct Rail {
   static double slope(const Slot<3>& slot, const double* at, const double* step) {
     return slot.data[0] * (at[1] == 0 ? size(step) : at[1] > 0 ? step[1] : -step[1]);
   }
-  static void linearise(const Slot<3>& slot, const double* x, const Linearisation<3>& out) {
+  static void linearise(const Slot<3>& slot, const double* x, const QuadraticModel<3>& out) {
     if (x[1] == 0) {
       *out.critical |= 2;
       out.lower[1] = out.upper[1] = 0;
@@ -195,6 +195,17 @@ class Greedy final : public FunctionalObstacle<1, Cost> {
   void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<1>*, Status&) const noexcept override {}
 };
 
+/// Adds to the energy, and does not say how it looks near an iterate.
+class Vague final : public BoxObstacle<1>, public Functional<1> {
+ public:
+  explicit Vague(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 0}; }
+  void assemble(const SurfaceVertex*, std::size_t, LocalConstraint<1>*, Status&) const noexcept override {}
+  const Functional<1>* functional() const noexcept override { return this; }
+  double change(const LevelView<1>&, Index, Index, const double*, const double*) const noexcept override { return 0; }
+  double slope(const LevelView<1>&, Index, Index, const double*, const double*) const noexcept override { return 0; }
+};
+
 void register_all(Registrar& registrar, Status& status) {
   const auto add = [&](const char* id, Obstacle<1>* (*one)(const Settings&, Status&) noexcept,
                        Obstacle<2>* (*two)(const Settings&, Status&) noexcept,
@@ -204,6 +215,7 @@ void register_all(Registrar& registrar, Status& status) {
   add("cost", sdk::create<CostObstacle, 1>, nullptr, nullptr);
   add("hardening", sdk::create<HardeningObstacle, 1>, nullptr, nullptr);
   add("greedy", sdk::create<Greedy, 1>, nullptr, nullptr);
+  add("vague", sdk::create<Vague, 1>, nullptr, nullptr);
   add("spring", nullptr, sdk::create<SpringObstacle, 2>, nullptr);
   add("rail", nullptr, nullptr, sdk::create<RailObstacle, 3>);
 }

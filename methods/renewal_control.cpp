@@ -1,4 +1,4 @@
-#include "methods/renewal.hpp"
+#include "methods/renewal_control.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 
 namespace signorini {
 
-Renewal::Renewal(const SolverOptions& options) : when_(choice<When>(options, &SolverOptions::renew)) {}
+RenewalControl::RenewalControl(const SolverOptions& options) : when_(choice<When>(options, &SolverOptions::renew)) {}
 
-void Renewal::next(const std::vector<double>& follows, std::vector<double>& frozen) {
+void RenewalControl::next(const std::vector<double>& follows, std::vector<double>& frozen) {
   relax(follows, frozen);
   const double part = std::min(part_, relaxation_);
   for (std::size_t i = 0; i < frozen.size(); ++i)
@@ -19,7 +19,7 @@ void Renewal::next(const std::vector<double>& follows, std::vector<double>& froz
 
 // Where the bounds swing, friction that pulls back the force which caused it, part of the way is nearer to the fixed
 // point than all of it. Its length by Aitken's formula for vectors: Kuettler and Wall, Comput. Mech. 43 (2008) 61-72.
-void Renewal::relax(const std::vector<double>& follows, const std::vector<double>& frozen) {
+void RenewalControl::relax(const std::vector<double>& follows, const std::vector<double>& frozen) {
   const bool first = difference_.empty();
   if (first) difference_.resize(frozen.size());
   double before = 0, both = 0, now = 0;
@@ -37,7 +37,7 @@ void Renewal::relax(const std::vector<double>& follows, const std::vector<double
                                                        : 1;
 }
 
-void Renewal::add(double natural_residual) {
+void RenewalControl::add(double natural_residual) {
   ++cycles_;
   if (natural_residual <= enough * least_) {
     least_ = natural_residual;
@@ -48,7 +48,7 @@ void Renewal::add(double natural_residual) {
   }
 }
 
-std::string Renewal::stuck() const {
+std::string RenewalControl::stuck() const {
   if (part_ >= least_part) return "";
   return fmt::format(
       "friction does not come to rest, though its bound was damped down to a part of {:g}: it may be too weak to hold "

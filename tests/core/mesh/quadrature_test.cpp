@@ -1,4 +1,4 @@
-#include "core/fem/quadrature.hpp"
+#include "core/mesh/quadrature.hpp"
 
 #include <gtest/gtest.h>
 

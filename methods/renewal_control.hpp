@@ -10,11 +10,11 @@ namespace signorini {
 /// When cycles renew what functionals that follow the solution keep frozen (the normal force in Coulomb's bound), and
 /// by how much. Where that is no contraction the iterates go round: then they are damped, and given up in the end, for
 /// there may be no solution, or several.
-class Renewal {
+class RenewalControl {
  public:
   enum class When { cycle, sweep, outer };  ///< as option `renew` has them
 
-  explicit Renewal(const SolverOptions& options);
+  explicit RenewalControl(const SolverOptions& options);
 
   bool in_sweeps() const { return when_ == When::sweep; }
   /// Whether the next cycle begins with data that are renewed.
