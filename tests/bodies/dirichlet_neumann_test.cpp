@@ -76,7 +76,9 @@ TEST(Turns, GoThroughARowOfBodies) {
               block("b", "[0.3, 1]", "[1.7, 1.5]", "[9, 3]", material(4)) +
               block("c", "[0.5, 1.5]", "[1.2, 2]", "[5, 4]") + fix("a", "bottom", "[0, 0]") +
               fix("b", "left", "[0, \"free\"]") + fix("c", "top", "[0.01, -0.02]") +
-              tables::plane("a", "right", "[1.999, 0]", "[-1, 0]") + "[[load]]\nbody = \"b\"\nvalue = [0, 0.001]\n" +
+              "[[obstacle]]\ntype = \"contact\"\nbody = \"a\"\nwhere = \"x > 1.99 && y > 0.4\"\nshape = "
+              "\"plane\"\npoint = [1.999, 0]\nnormal = [-1, 0]\n"
+              "[[load]]\nbody = \"b\"\nvalue = [0, -0.001]\n" +
               pair("b", "bottom", "a", "top") + pair("c", "bottom", "b", "top") + "[refine]\nuniform = 2\n");
 }
 
