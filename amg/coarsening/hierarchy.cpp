@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "amg/coarsening/classical.hpp"
 #include "amg/coarsening/mode_aggregation.hpp"
+#include "amg/coarsening/quadratic.hpp"
 #include "amg/coarsening/reach_from_twins.hpp"
 #include "amg/coarsening/smoothed_aggregation.hpp"
 #include "core/algebra/fill_in.hpp"
@@ -88,6 +90,9 @@ class Chooser {
         aggregator_(aggregator) {}
 
   Prolongation next(const Level<B>& level) {
+    if (std::exchange(finest_, false))
+      if (auto linear = quadratic_interpolation(*level.A, level.off); linear && pass_modes_on(*linear))
+        return std::move(*linear);
     const bool known = modes_.modes > 0;
     if (coarsening_ == Coarsening::classical || (coarsening_ == Coarsening::automatic && !known))
       return classical_interpolation(*level.A, level.off);
@@ -99,8 +104,33 @@ class Chooser {
   }
 
  private:
+  /// To the twins; not where others are no means of theirs, even in the mean.
+  bool pass_modes_on(const Prolongation& P) {
+    NearNullSpace coarse{modes_.modes, {}};
+    for (const Index p : P.twin)
+      for (int i = 0; i < B; ++i)
+        coarse.value.insert(coarse.value.end(), modes_.at(Offset{p} * B + i),
+                            modes_.at(Offset{p} * B + i) + modes_.modes);
+    double off = 0, all = 0;
+    for (Index p = 0; p < P.fine(); ++p) {
+      if (P.row[p + 1] - P.row[p] < 2) continue;
+      for (Index at = 0; at < B * modes_.modes; ++at) {
+        const double value = modes_.at(Offset{p} * B)[at];
+        double mean = 0;
+        for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) mean += P.weight[k] * coarse.at(Offset{P.column[k]} * B)[at];
+        off += (value - mean) * (value - mean);
+        all += value * value;
+      }
+    }
+    if (off > not_linear * not_linear * all) return false;
+    modes_ = std::move(coarse);
+    return true;
+  }
+
+  static constexpr double not_linear = 0.01;
   Coarsening coarsening_;
   bool stretched_;
+  bool finest_ = true;
   NearNullSpace modes_;  // of the level that comes next
   Index group_ = 1;      // of its vectors that belong together
   const Aggregator& aggregator_;

@@ -19,19 +19,18 @@
 #include "apps/bench/friction_costs.hpp"
 #include "apps/bench/incompressible.hpp"
 #include "apps/bench/kept_aside.hpp"
-#include "apps/bench/linear.hpp"
 #include "apps/bench/memory.hpp"
 #include "apps/bench/partial_slip.hpp"
 #include "apps/bench/pressures.hpp"
 #include "apps/bench/problems.hpp"
+#include "apps/bench/quadratic_elements.hpp"
 #include "apps/bench/quadratic_matrices.hpp"
+#include "apps/bench/ratios.hpp"
 #include "apps/bench/steps.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
 #include "apps/bench/warm.hpp"
 #include "core/base/heap.hpp"
-#include "core/base/stopwatch.hpp"
-#include "core/fem/nested.hpp"
 
 namespace signorini::bench {
 namespace {
@@ -51,52 +50,17 @@ std::vector<std::string> with(std::vector<std::string> overrides, int uniform) {
 
 void row(const std::string& text) { fmt::print("{}\n", text), std::fflush(stdout); }
 
-// Whole nonlinear solve over linear multigrid-CG without the obstacle, both with set-up and without assembly of the
-// finest matrix, which they share.
 template <int D, int B>
 void compare_with_linear(const Case& c, const Problem& problem) {
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
-  const Solved nonlinear = solve_nonlinear<D, B>(problem, hierarchy);
-  Model<B> free = build_model<B>(problem.scene, D, problem.registry, 1);
-  free.obstacles.clear();
-  if (!c.load.empty()) {
-    Load<B> load;
-    for (int k = 0; k < B; ++k) load.value[k] = c.load[k];
-    free.loads.push_back(load);
-  }
-  const auto discretization = discretize<D, B>(Nodes(hierarchy.finest()), free);
-  const LinearSolve linear = multigrid_cg<B>(discretization.problem, prolongations(hierarchy, nodes_of(hierarchy)),
-                                             problem.registry, problem.scene.solver.tolerance);
-  Stopwatch watch;
-  (void)discretize<D, B>(Nodes(hierarchy.finest()), build_model<B>(problem.scene, D, problem.registry, 1));
-  const double finest_assembly = watch.elapsed();
-  const double ours = nonlinear.whole() - finest_assembly;
-  row(fmt::format("| {} | {:.0f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |", c.name, nonlinear.unknowns(),
-                  nonlinear.summary.iterations, linear.iterations, nonlinear.times.solve / linear.solve,
-                  ours / (linear.setup + linear.solve), finest_assembly / (linear.setup + linear.solve)));
+  const BesideLinear m = beside_linear<D, B>(problem, c.load);
+  row(fmt::format("| {} | {:.0f} | {} | {} | {:.2f} | {:.2f} | {:.2f} |", c.name, m.nonlinear.unknowns(),
+                  m.nonlinear.summary.iterations, m.linear.iterations, m.solve(), m.set_up_and_solve(), m.assembly()));
 }
 
 template <int D, int B>
 void cycle_traffic(const Case& c, const Problem& problem, double bandwidth) {
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(problem.scene, B);
-  const auto discretization =
-      discretize<D, B>(Nodes(hierarchy.finest()), build_model<B>(problem.scene, D, problem.registry, 1));
-  const auto P = prolongations(hierarchy, nodes_of(hierarchy));
-  Components<B> components{problem.registry.create<Smoother<B>>("smoother", "forward"),
-                           [&] { return problem.registry.create<Transfer<B>>("transfer", "min_merge"); },
-                           problem.registry.create<CoarseSolver<B>>("coarse", "newton")};
-  MonotoneMultigrid<B> multigrid(discretization.problem, P, components, {});
-  std::vector<double> x = discretization.problem.start;
-  for (int warm = 0; warm < 12; ++warm) multigrid.cycle(x.data());
-  double best = 1e300;
-  for (int run = 0; run < 5; ++run) {
-    Stopwatch watch;
-    multigrid.cycle(x.data());
-    best = std::min(best, watch.elapsed());
-  }
-  const double bytes = cycle_bytes<B>(multigrid.levels(), P);
-  row(fmt::format("| {} | {} | {:.1f} | {:.2f} |", c.name, Offset{hierarchy.finest().vertices()} * B, bytes / 1e6,
-                  best * bandwidth / bytes));
+  const CycleTraffic m = cycle_traffic<D, B>(problem, bandwidth);
+  row(fmt::format("| {} | {} | {:.1f} | {:.2f} |", c.name, m.unknowns, m.bytes / 1e6, m.time_over));
 }
 
 template <int D, int B>
@@ -216,6 +180,8 @@ constexpr const char* of_peers = "--accuracy-peers";
 
 const Table tables[] = {
     {"--algebraic", "only the table of matrices without meshes", sized<print_algebraic>},
+    {"--quadratic-elements", "only quadratic elements beside linear ones on as many nodes: cycles, time, traffic",
+     sized<print_quadratic_elements>},
     {"--quadratic-matrices", "only matrices of quadratic elements beside those of linear ones, without meshes",
      sized<print_quadratic_matrices>},
     {"--boundary", "only the cost of the plugin boundary", sized<print_boundary>},

@@ -85,7 +85,7 @@ class Recoveries {
         sample.value = {node.pressure};
       }
       if (samples.size() <= D) continue;
-      if (const auto values = polynomial_values<1>(samples)) out[k] = values->front();
+      if (const auto values = PolynomialFit<1, D - 1>(samples).at({})) out[k] = values->front();
     }
     return out;
   }

@@ -23,6 +23,8 @@ struct Problem {
   Registry registry;
 
   Problem(std::string title, const std::string& file, std::vector<std::string> overrides);
+  /// Of the elements.
+  int order() const { return scene.bodies[0].order; }
 };
 
 /// E3w's gap, for cube_on_bump.toml: a large part of the bottom comes into contact.
@@ -58,7 +60,8 @@ template <int D, int B>
 Solved solve_nonlinear(const Problem& problem, const MeshHierarchy<D>& hierarchy) {
   const Progress quiet;
   Solved result;
-  NestedSolver<D, B> solver(hierarchy, problem.scene.solver, problem.registry, quiet, result.times);
+  NestedSolver<D, B> solver(hierarchy, problem.scene.solver, problem.registry, quiet, result.times,
+                            nodes_of(hierarchy, problem.order()));
   result.summary = solver.solve(build_model<B>(problem.scene, D, problem.registry, 1)).summary;
   result.vertices = hierarchy.finest().vertices();
   return result;

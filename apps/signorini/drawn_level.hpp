@@ -11,7 +11,8 @@
 
 namespace signorini {
 
-inline constexpr std::size_t most_patches = 200000;  ///< about as many as a panel has pixels
+inline constexpr std::size_t most_patches = 200000;   ///< about as many as a panel has pixels
+inline constexpr std::size_t enough_patches = 60000;  ///< finer ones can hardly be told
 
 inline bool is_too_many(const std::vector<Patch>& patches) { return patches.size() > most_patches; }
 
@@ -46,15 +47,16 @@ bool coarsen(const MeshHierarchy<D>& hierarchy, Drawn<D>& drawn) {
 inline std::size_t triangle_count(const Mesh<2>& mesh) { return mesh.elements.size(); }
 inline std::size_t triangle_count(const Mesh<3>& mesh) { return mesh.boundary.size(); }
 
-/// The finest level on which `patches`, which stops once is_too_many() of them, are few enough to be drawn in a moment.
+/// The finest level on which `patches`, which stops once is_too_many() of them, are no more than are seen; the coarsest
+/// one if they are few enough to be drawn in a moment.
 /// @param all whether they are all triangles of the level, so that they need not be made to be counted
 template <int D, class Patches>
 std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, bool all, Patches patches) {
   Drawn<D> drawn = finest(shown.hierarchy);
-  while (all && triangle_count(*drawn.mesh) > most_patches && coarsen(shown.hierarchy, drawn)) {
+  while (all && triangle_count(*drawn.mesh) > enough_patches && coarsen(shown.hierarchy, drawn)) {
   }
   std::vector<Patch> result = patches(drawn);
-  while (is_too_many(result) && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
+  while (result.size() > enough_patches && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
   if (!is_too_many(result)) return result;
   notes.push_back(fmt::format("result.png was left out: more than {} triangles are too many to draw", most_patches));
   return {};

@@ -30,13 +30,10 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
   return values;
 }
 
-/// At the vertices.
-struct ContactFields {
-  std::vector<double> gap, pressure, nodal_pressure, contact, normal, tangential;
-};
+}  // namespace
 
 template <int D, int B>
-ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes) {
+ContactFields contact_fields(const Nodes<D>& nodes, const ContactState<B>& state) {
   const auto size = static_cast<std::size_t>(nodes.size());
   ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()),
                        std::vector<double>(size),
@@ -64,10 +61,11 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
   return fields;
 }
 
+namespace {
+
 template <int D, int B>
 Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const Results<D, B>& results,
-               const std::vector<Stress>& stress) {
-  ContactFields contact = contact_fields(results.contact, nodes);
+               const std::vector<Stress>& stress, const ContactFields& contact) {
   Shown<D> out{hierarchy,
                {},
                {},
@@ -78,17 +76,17 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
                {}};
   out.two_bodies =
       std::ranges::any_of(results.slaves, [](const SlaveChoice& choice) { return !choice.reason.empty(); });
-  std::vector<bool> touched(nodes.size());
-  for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
-  for (Index v = 0; v < nodes.mesh().vertices(); ++v)
-    if (touched[nodes.of_vertex(v)]) out.touched.push_back(v);
   if constexpr (B == 1) {
     out.value = nodes.at_vertices(results.u, B);
   } else {
+    std::vector<bool> touched(nodes.size());
+    for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
+    for (Index v = 0; v < nodes.mesh().vertices(); ++v)
+      if (touched[nodes.of_vertex(v)]) out.touched.push_back(v);
     out.displacement = nodes.at_vertices(results.u, B);
     out.value = equivalent(stress);
-    out.pressure = std::move(contact.pressure);
-    out.tangential = std::move(contact.tangential);
+    out.pressure = contact.pressure;
+    out.tangential = contact.tangential;
   }
   return out;
 }
@@ -104,7 +102,7 @@ std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>
 
 template <int D, int B>
 std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& results,
-                                   const std::vector<Stress>& stress) {
+                                   const std::vector<Stress>& stress, ContactFields contact) {
   std::vector<VtuField> fields;
   fields.push_back({B == 1 ? "u" : "displacement", B, nodes.at_vertices(results.u, B)});
   if constexpr (B > 1) {
@@ -112,7 +110,6 @@ std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& r
     fields.push_back({"von_mises", 1, equivalent(stress)});
   }
   if (results.contact.obstacles.empty()) return fields;
-  ContactFields contact = contact_fields(results.contact, nodes);
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
   fields.push_back({"nodal_pressure", 1, std::move(contact.nodal_pressure)});
@@ -195,10 +192,10 @@ void draw_convergence(AtomicFiles& files, Report& report) {
 
 template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
-                 const Results<D, B>& results, const std::vector<Stress>& stress, const std::string& suffix,
-                 Report& report) {
+                 const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
+                 const std::string& suffix, Report& report) {
   paint(report, [&](const Painter& draw) {
-    const auto panels = result_panels<D, B>(shown(hierarchy, nodes, results, stress), report.warnings);
+    const auto panels = result_panels<D, B>(shown(hierarchy, nodes, results, stress, contact), report.warnings);
     if (!panels.empty()) draw.panels(files.stage("result" + suffix + ".png"), panels);
   });
 }
@@ -218,10 +215,13 @@ void write_tables(AtomicFiles& files, const Report& report) {
   write_text(files.stage("phases.csv"), phases_csv(summaries));
   if (report.has_steps()) write_text(files.stage("steps.csv"), steps_csv(report));
 }
-#define SIGNORINI_OUTPUT(D, B)                                                                                    \
-  template std::vector<VtuField> point_fields(const Nodes<D>&, const Results<D, B>&, const std::vector<Stress>&); \
-  template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&,         \
-                            const std::vector<Stress>&, const std::string&, Report&);
+
+#define SIGNORINI_OUTPUT(D, B)                                                                                   \
+  template ContactFields contact_fields(const Nodes<D>&, const ContactState<B>&);                                \
+  template std::vector<VtuField> point_fields(const Nodes<D>&, const Results<D, B>&, const std::vector<Stress>&, \
+                                              ContactFields);                                                    \
+  template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&,        \
+                            const std::vector<Stress>&, const ContactFields&, const std::string&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)

@@ -9,12 +9,22 @@
 
 namespace signorini {
 
+/// What is known of contact, at the vertices.
+struct ContactFields {
+  std::vector<double> gap, pressure, nodal_pressure;
+  std::vector<double> contact;  ///< 0 where a node is open, 1 in contact, 2 where it slips, 3 where it sticks
+  std::vector<double> normal, tangential;  ///< tractions, three per vertex; of elastic bodies
+};
+
+template <int D, int B>
+ContactFields contact_fields(const Nodes<D>& nodes, const ContactState<B>& state);
+
 /// Values at the vertices as solution.vtu holds them. Contact quantities are there when there are obstacles; where none
 /// can be reached, or no unknown is free to, the gap is NaN and the others are zero.
 /// @param stress per vertex; of elastic bodies
 template <int D, int B>
 std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& results,
-                                   const std::vector<Stress>& stress);
+                                   const std::vector<Stress>& stress, ContactFields contact);
 
 /// "_body1" for the names of files, where there are several bodies; else nothing.
 std::string body_suffix(std::size_t body, std::size_t bodies);
@@ -49,8 +59,8 @@ void draw_convergence(AtomicFiles& files, Report& report);
 /// @param suffix of the picture's name, see body_suffix()
 template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
-                 const Results<D, B>& results, const std::vector<Stress>& stress, const std::string& suffix,
-                 Report& report);
+                 const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
+                 const std::string& suffix, Report& report);
 
 /// The forces of the obstacles over the steps, where there are several; else nothing.
 void draw_steps(AtomicFiles& files, Report& report);

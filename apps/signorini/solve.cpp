@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
@@ -14,6 +15,12 @@
 
 namespace signorini {
 namespace {
+
+/// At the vertices of a body.
+struct Fields {
+  std::vector<Stress> stress;
+  ContactFields contact;
+};
 
 /// The files of one run of `signorini solve`, staged as the driver goes on.
 class ResultFiles {
@@ -26,7 +33,7 @@ class ResultFiles {
   void add_step() {
     if (driver_.report().last().t == scene().steps.at.back()) return;
     const Stopwatch watch;
-    read_stresses();
+    read_fields();
     write_solution();
     driver_.report().time.output += watch.elapsed();
   }
@@ -35,7 +42,7 @@ class ResultFiles {
     const Stopwatch watch;
     Report& report = driver_.report();
     const bool unwritten = vtu_.steps() < report.steps.size();
-    if (scene().output.pictures || unwritten) read_stresses();
+    if (scene().output.pictures || unwritten) read_fields();
     if (scene().output.convergence) write_tables(files_, report);
     if (scene().output.pictures) draw();
     if (unwritten) write_solution();
@@ -46,11 +53,13 @@ class ResultFiles {
  private:
   const Scene& scene() const { return driver_.scene(); }
 
-  void read_stresses() {
+  void read_fields() {
     if (!scene().output.vtu && !scene().output.pictures) return;
-    stresses_.clear();
+    fields_.clear();
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
-      stresses_.push_back(driver_.visit(body, [](const auto& run) { return run.stress(); }));
+      fields_.push_back(driver_.visit(body, [](const auto& run) {
+        return Fields{run.stress(), contact_fields(run.nodes(), run.results().contact)};
+      }));
   }
 
   void draw() {
@@ -58,26 +67,28 @@ class ResultFiles {
     draw_steps(files_, driver_.report());
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&](const auto& run) {
-        draw_result(files_, run.hierarchy(), run.nodes(), run.results(), stresses_[body],
+        draw_result(files_, run.hierarchy(), run.nodes(), run.results(), fields_[body].stress, fields_[body].contact,
                     body_suffix(body, driver_.bodies()), driver_.report());
       });
   }
 
+  /// Takes away the fields of contact.
   void write_solution() {
     if (!scene().output.vtu) return;
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
         // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
         constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
-        vtu_.add(run.nodes(), point_fields(run.nodes(), run.results(), stresses_[body]), driver_.report(), body,
-                 {worthwhile, scene().solver.threads});
+        vtu_.add(run.nodes(),
+                 point_fields(run.nodes(), run.results(), fields_[body].stress, std::move(fields_[body].contact)),
+                 driver_.report(), body, {worthwhile, scene().solver.threads});
       });
   }
 
   Driver& driver_;
   AtomicFiles& files_;
   SolutionFiles vtu_;
-  std::vector<std::vector<Stress>> stresses_;  // of the last step, per body
+  std::vector<Fields> fields_;  // of the last step, per body
 };
 
 /// The files that a scene reads.

@@ -40,8 +40,11 @@ class Coefficients {
       return;
     }
     if (!a || !b) return;
-    const auto coefficient = [](double value, double at_a, double at_b) {
-      return std::isfinite(at_a) && std::isfinite(at_b) ? Nodes<D>::midpoint_coefficient(value, at_a, at_b) : value;
+    // What presses on the ends moves them along their own directions, which on curved obstacles are others than here.
+    const double along_a = dot(a->direction, bound.direction), along_b = dot(b->direction, bound.direction);
+    const auto coefficient = [&](double value, double at_a, double at_b) {
+      if (!std::isfinite(at_a) || !std::isfinite(at_b)) return value;
+      return Nodes<D>::midpoint_coefficient(value, along_a * at_a, along_b * at_b);
     };
     const bool feasible = bound.lower <= bound.upper;
     bound.lower = bound.gap + coefficient(bound.lower - bound.gap, a->lower - a->gap, b->lower - b->gap);

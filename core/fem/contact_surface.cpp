@@ -56,15 +56,11 @@ double ContactSurface<D, B>::area(const ContactNode<B>& node) const {
 template <int D, int B>
 Point<D> ContactSurface<D, B>::middle(const ContactNode<B>& node) const {
   Point<D> sum{};
-  double area = 0;
-  for (const Index f : faces(node)) {
-    const double share = face_share(nodes_, f, node.vertex, plane_);
-    const Point<D> at = share_middle<D>(nodes_, f, node.vertex, plane_);
-    for (int i = 0; i < D; ++i) sum[i] += share * at[i];
-    area += share;
-  }
-  for (double& x : sum) x /= area;
+  const double area = each_point(node, [&](const Point<D>& at, double weight) {
+    for (int i = 0; i < D; ++i) sum[i] += weight * at[i];
+  });
   if (!(area > 0)) return nodes_.at(node.vertex);
+  for (double& x : sum) x /= area;
   for (const Mirror& mirror : nodes_.mesh().mirrors)  // its hat function goes on beyond
     if (lies_on<D>(mirror, nodes_.at(node.vertex))) sum[mirror.axis] = mirror.at;
   return sum;

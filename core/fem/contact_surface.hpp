@@ -16,14 +16,34 @@ class ContactSurface {
 
   /// See ContactNode::area.
   double area(const ContactNode<B>& node) const;
-  /// Where the mean of a linear pressure over the node's hat function is its value: the centroid of that function.
+  /// Where the mean of a linear pressure over the node's basis function is its value: the centroid of that function.
   Point<D> middle(const ContactNode<B>& node) const;
+  /// The mean of what has a value at points, weighted by the node's basis function.
+  template <class Value>
+  double mean(const ContactNode<B>& node, const Value& value) const {
+    double sum = 0;
+    const double area = each_point(node, [&](const Point<D>& at, double weight) { sum += weight * value(at); });
+    return sum / area;
+  }
   /// Numbers in Mesh::boundary of the faces that count at a node.
   std::vector<Index> faces(const ContactNode<B>& node) const;
   Plane plane() const { return plane_; }
 
  private:
   bool counts(Index face, const ContactNode<B>& node) const;
+
+  /// Calls use(point, weight) for the points that stand for the node's basis function; the weights sum to what is
+  /// returned, its area.
+  template <class Use>
+  double each_point(const ContactNode<B>& node, const Use& use) const {
+    double area = 0;
+    for (const Index f : faces(node)) {
+      const double share = face_share(nodes_, f, node.vertex, plane_);
+      for (const auto& [at, weight] : share_points(nodes_, f, node.vertex, plane_)) use(at, share * weight);
+      area += share;
+    }
+    return area;
+  }
 
   const Nodes<D>& nodes_;
   const Plane plane_;

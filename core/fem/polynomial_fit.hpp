@@ -30,50 +30,71 @@ Eigen::Matrix<double, polynomial_terms(K, Degree), 1> monomials(const std::array
   return out;
 }
 
-/// The values at the place itself of the polynomials that are nearest to the samples by least squares. Nothing where
-/// these do not decide them.
+/// The polynomials that are nearest to samples by least squares.
 /// @tparam Degree 1 or 2
-/// @param most_amplified nothing, either, where independent errors of the samples come out larger by more than that
-template <int Degree, int K, int N>
-std::optional<std::array<double, N>> polynomial_values(
-    const std::vector<Sample<K, N>>& samples, double most_amplified = std::numeric_limits<double>::infinity()) {
-  constexpr int terms = polynomial_terms(K, Degree);
-  constexpr double dependent = 1e-9;
-  std::array<double, K> middle{};
-  double size = 0;
-  for (const auto& sample : samples)
-    for (int i = 0; i < K; ++i) middle[i] += sample.x[i] / static_cast<double>(samples.size());
-  for (const auto& sample : samples)
-    for (int i = 0; i < K; ++i) size = std::max(size, std::abs(sample.x[i] - middle[i]));
-  if (!(size > 0)) return {};
-  const auto row = [&](std::array<double, K> x) {
-    for (int i = 0; i < K; ++i) x[i] = (x[i] - middle[i]) / size;
-    return monomials<Degree, K>(x);
-  };
-  Eigen::Matrix<double, terms, terms> H = decltype(H)::Zero();
-  Eigen::Matrix<double, terms, N> h = decltype(h)::Zero();
-  for (const auto& sample : samples) {
-    const auto here = row(sample.x);
-    H.noalias() += here * here.transpose();
-    h.noalias() += here * Eigen::Map<const Eigen::Matrix<double, 1, N>>(sample.value.data());
+template <int Degree, int K, int N = 1>
+class PolynomialFit {
+ public:
+  explicit PolynomialFit(const std::vector<Sample<K, N>>& samples) {
+    for (const auto& sample : samples)
+      for (int i = 0; i < K; ++i) middle_[i] += sample.x[i] / static_cast<double>(samples.size());
+    for (const auto& sample : samples)
+      for (int i = 0; i < K; ++i) size_ = std::max(size_, std::abs(sample.x[i] - middle_[i]));
+    if (!(size_ > 0)) return;
+    Eigen::Matrix<double, terms, terms> H = decltype(H)::Zero();
+    for (const auto& sample : samples) {
+      const Row here = row(sample.x);
+      H.noalias() += here * here.transpose();
+      h_.noalias() += here * Eigen::Map<const Eigen::Matrix<double, 1, N>>(sample.value.data());
+    }
+    factors_.compute(H);
+    determined_ = factors_.vectorD().minCoeff() > dependent * factors_.vectorD().maxCoeff();
   }
-  const Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factors(H);
-  if (!(factors.vectorD().minCoeff() > dependent * factors.vectorD().maxCoeff())) return {};
-  const auto here = row({});
-  const Eigen::Matrix<double, terms, 1> weights = factors.solve(here);
-  if (!(here.dot(weights) <= most_amplified * most_amplified)) return {};
-  std::array<double, N> out;
-  Eigen::Map<Eigen::Matrix<double, 1, N>>(out.data()) = weights.transpose() * h;
-  return out;
+
+  /// The values at a place. Nothing where the samples do not decide them.
+  /// @param most_amplified nothing, either, where independent errors of the samples come out larger by more than that
+  std::optional<std::array<double, N>> at(const std::array<double, K>& x,
+                                          double most_amplified = std::numeric_limits<double>::infinity()) const {
+    if (!determined_) return {};
+    const Row here = row(x);
+    const Row weights = factors_.solve(here);
+    if (!(here.dot(weights) <= most_amplified * most_amplified)) return {};
+    std::array<double, N> out;
+    Eigen::Map<Eigen::Matrix<double, 1, N>>(out.data()) = weights.transpose() * h_;
+    return out;
+  }
+
+ private:
+  static constexpr int terms = polynomial_terms(K, Degree);
+  static constexpr double dependent = 1e-9;
+  using Row = Eigen::Matrix<double, terms, 1>;
+
+  Row row(std::array<double, K> x) const {
+    for (int i = 0; i < K; ++i) x[i] = (x[i] - middle_[i]) / size_;
+    return monomials<Degree, K>(x);
+  }
+
+  std::array<double, K> middle_{};
+  double size_ = 0;
+  bool determined_ = false;
+  Eigen::Matrix<double, terms, N> h_ = Eigen::Matrix<double, terms, N>::Zero();
+  Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factors_;
+};
+
+/// Whether there are samples enough for a quadratic polynomial: at least K more than coefficients.
+template <int K, int N>
+bool enough_for_quadratic(const std::vector<Sample<K, N>>& samples) {
+  return samples.size() >= static_cast<std::size_t>(polynomial_terms(K, 2) + K);
 }
 
-/// Quadratic where there are enough samples, at least K more than coefficients, else linear where there is one more.
+/// The value at the place itself: quadratic where there are samples enough, else linear where there is one more than
+/// coefficients.
 template <int K>
 std::optional<double> fitted_value(const std::vector<Sample<K>>& samples) {
   const auto only = [](const auto& values) { return values ? std::optional((*values)[0]) : std::nullopt; };
-  if (samples.size() >= polynomial_terms(K, 2) + K)
-    if (const auto values = polynomial_values<2>(samples)) return only(values);
-  if (samples.size() > polynomial_terms(K, 1)) return only(polynomial_values<1>(samples));
+  if (enough_for_quadratic(samples))
+    if (const auto values = PolynomialFit<2, K>(samples).at({})) return only(values);
+  if (samples.size() > polynomial_terms(K, 1)) return only(PolynomialFit<1, K>(samples).at({}));
   return {};
 }
 

@@ -116,6 +116,20 @@ class PressedFaces {
   std::vector<std::vector<Index>> around_;
 };
 
+/// Coordinates in a plane that touches the surface.
+template <int D>
+struct TangentPlane {
+  Point<D> origin;
+  std::array<Point<D>, D - 1> axes;
+
+  std::array<double, D - 1> operator()(const Point<D>& x) const {
+    const Point<D> from = difference<D>(x, origin);
+    std::array<double, D - 1> out;
+    for (int i = 0; i < D - 1; ++i) out[i] = dot(from, axes[i]);
+    return out;
+  }
+};
+
 /// Means around nodes as samples for a fit at one of them.
 template <int D, int B>
 class SurfaceSamples {
@@ -124,16 +138,21 @@ class SurfaceSamples {
   SurfaceSamples(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
       : nodes_(nodes), surface_(surface), faces_(faces), middle_(static_cast<std::size_t>(faces.size())) {}
 
+  /// The plane that touches at a node.
+  TangentPlane<D> plane_at(Index k) const {
+    const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
+    Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
+    keep_within<D>(nodes_.mesh().mirrors, origin, normal);
+    normalise(normal);
+    return {origin, tangents(normal)};
+  }
+
   /// At the middles of the nodes in `some`, seen from node k in the plane that touches there. Where these reach a plane
   /// of symmetry, or the axis of a body of revolution, their mirror images count, too.
   /// @param value value(node, mirrored): a bit for each axis along which the sample is mirrored
   template <class Value>
   std::vector<Sample<D - 1>> around(Index k, const std::vector<Index>& some, const Value& value) const {
-    const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
-    Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
-    keep_within<D>(nodes_.mesh().mirrors, origin, normal);
-    normalise(normal);
-    const auto axes = tangents(normal);
+    const TangentPlane<D> plane = plane_at(k);
     const std::vector<Mirror> near = mirrors_near(some);
     std::vector<Sample<D - 1>> out;
     for (const Index s : some)
@@ -148,10 +167,7 @@ class SurfaceSamples {
           mirrored |= 1u << near[m].axis;
         }
         if (again) continue;
-        const Point<D> from = difference<D>(at, origin);
-        Sample<D - 1>& sample = out.emplace_back();
-        for (int i = 0; i < D - 1; ++i) sample.x[i] = dot(from, axes[i]);
-        sample.value = {value(s, mirrored)};
+        out.push_back({plane(at), {value(s, mirrored)}});
       }
     return out;
   }

@@ -1,6 +1,7 @@
 #include "core/fem/pressure_load.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/dot.hpp"
@@ -9,7 +10,9 @@
 namespace signorini {
 namespace {
 
-constexpr int chebyshev_steps = 6;  // which leave a hundredth of the error
+constexpr int chebyshev_steps = 6;       // which leave a hundredth of the error
+constexpr double least_response = 1e-2;  // part of what an unknown has that nothing is prescribed near
+constexpr double nothing = 1e-10;        // part of a load that is rounding
 
 /// Row k of a mass matrix times v.
 template <int D>
@@ -24,7 +27,11 @@ double product(const PressureSpace<D>& space, const std::vector<double>& entries
 
 template <int D>
 PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p)
-    : space_(space), discretization_(discretization), p_(std::move(p)), value_(space.value) {
+    : space_(space),
+      discretization_(discretization),
+      p_(std::move(p)),
+      value_(space.value),
+      materials_(static_cast<std::size_t>(space.materials)) {
   p_.resize(static_cast<std::size_t>(space.size));
   for (std::size_t at = 0; at < space.column.size(); ++at)
     if (const double* Q = problem().frames.at(space.column[at])) {
@@ -32,18 +39,51 @@ PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& 
       block::transposed_product<D>(Q, value_.data() + at * D, local);
       std::copy_n(local, D, value_.data() + at * D);
     }
+  find_schur();
+  find_directions();
+}
+
+// Near prescribed components less of the displacements responds: in the corners of a body that is held all around next
+// to nothing. What stands for the response is scaled by the part of C that is free, up to a half, which flat sides
+// have.
+template <int D>
+void PressureLoad<D>::find_schur() {
+  std::vector<double> factor(p_.size());
+  for (Index k = 0; k < space_.size; ++k) {
+    double all = 0, free = 0;
+    for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
+      for (int i = 0; i < D; ++i) {
+        const double square = value_[at * D + i] * value_[at * D + i];
+        all += square;
+        if (!(problem().fixed[space_.column[at]] >> i & 1u)) free += square;
+      }
+    factor[k] = std::pow(std::clamp(2 * free / all, least_response, 1.0), 0.75);
+  }
+  schur_ = space_.compliance;
   inverse_.resize(p_.size());
-  for (Index k = 0; k < space.size; ++k)
-    for (Offset at = space.mass_row[k]; at < space.mass_row[k + 1]; ++at)
-      if (space.mass_column[at] == k) inverse_[k] = 1 / space.schur[at];
-  for (auto* of_material : {&along_, &own_, &resistance_, &more_})
-    of_material->assign(static_cast<std::size_t>(space.materials), 0);
-  for (Index k = 0; k < space.size; ++k)
-    for (Offset at = space.mass_row[k]; at < space.mass_row[k + 1]; ++at) {
-      if (space.material[space.mass_column[at]] != space.material[k]) continue;
-      own_[space.material[k]] += space.compliance[at];
-      resistance_[space.material[k]] += space.schur[at];
+  for (Index k = 0; k < space_.size; ++k)
+    for (Offset at = space_.mass_row[k]; at < space_.mass_row[k + 1]; ++at) {
+      schur_[at] += factor[k] * factor[space_.mass_column[at]] * space_.response[at];
+      if (space_.mass_column[at] == k) inverse_[k] = 1 / schur_[at];
     }
+}
+
+// Nothing but compression resists a constant pressure in what is held all around.
+template <int D>
+void PressureLoad<D>::find_directions() {
+  for (auto* of_direction : {&along_, &own_, &resistance_, &more_at_first_})
+    of_direction->assign(materials_ + (materials_ > 1 ? 1 : 0), 0);
+  for (std::size_t e = 0; e < along_.size(); ++e) {
+    for (Index k = 0; k < space_.size; ++k)
+      for (Offset at = space_.mass_row[k]; at < space_.mass_row[k + 1]; ++at) {
+        if (!contains(e, k) || !contains(e, space_.mass_column[at])) continue;
+        own_[e] += space_.compliance[at];
+        resistance_[e] += schur_[at];
+      }
+    const std::vector<double> free = load_along(e);  // of all load the part that is free
+    if (dot(free, free) <= nothing * nothing * dot(load_, load_)) more_at_first_[e] = 1 / own_[e] - 1 / resistance_[e];
+  }
+  more_ = more_at_first_;
 }
 
 template <int D>
@@ -58,7 +98,7 @@ const std::vector<double>& PressureLoad<D>::load_of(const std::vector<double>& p
 template <int D>
 std::vector<double> PressureLoad<D>::load_along(std::size_t e) {
   std::vector<double> one(p_.size());
-  for (std::size_t k = 0; k < one.size(); ++k) one[k] = static_cast<std::size_t>(space_.material[k]) == e ? 1 : 0;
+  for (Index k = 0; k < space_.size; ++k) one[k] = contains(e, k) ? 1 : 0;
   std::vector<double> out = load_of(one);
   for (std::size_t at = 0; at < out.size(); ++at)
     if (problem().fixed[at / D] >> (at % D) & 1u) out[at] = 0;
@@ -67,7 +107,7 @@ std::vector<double> PressureLoad<D>::load_along(std::size_t e) {
 
 template <int D>
 void PressureLoad<D>::set_resistance(std::size_t e, double resistance) {
-  more_[e] = resistance > 0 ? 1 / resistance - 1 / resistance_[e] : 0;
+  more_[e] = resistance > 0 ? 1 / resistance - 1 / resistance_[e] : more_at_first_[e];
 }
 
 /// From b where components are free. What the prescribed ones lose in work counts, too.
@@ -102,9 +142,13 @@ void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>&
     residual[k] = sum;
   }
   solve(residual, change);
-  std::fill(along_.begin(), along_.end(), 0.0);
-  for (Index k = 0; k < space_.size; ++k) along_[space_.material[k]] += residual[k];
-  for (Index k = 0; k < space_.size; ++k) change[k] += more_[space_.material[k]] * along_[space_.material[k]];
+  for (std::size_t e = 0; e < along_.size(); ++e) {
+    along_[e] = 0;
+    for (Index k = 0; k < space_.size; ++k)
+      if (contains(e, k)) along_[e] += residual[k];
+    for (Index k = 0; k < space_.size; ++k)
+      if (contains(e, k)) change[k] += more_[e] * along_[e];
+  }
 }
 
 // Chebyshev's iteration from zero, with the diagonal. That bounds the eigenvalues of mass matrices (Wathen, IMA J.
@@ -119,7 +163,7 @@ void PressureLoad<D>::solve(const std::vector<double>& residual, std::vector<dou
   remaining_ = residual;
   double rho = half / middle;
   for (int s = 1; s < chebyshev_steps; ++s) {
-    for (Index k = 0; k < space_.size; ++k) remaining_[k] -= product(space_, space_.schur, k, step_);
+    for (Index k = 0; k < space_.size; ++k) remaining_[k] -= product(space_, schur_, k, step_);
     const double next = 1 / (2 * middle / half - rho);
     for (std::size_t k = 0; k < p_.size(); ++k)
       step_[k] = next * (rho * step_[k] + 2 / half * inverse_[k] * remaining_[k]);

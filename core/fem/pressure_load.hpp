@@ -29,6 +29,9 @@ class PressureLoad final : public FollowingLoad<D> {
 
  private:
   DiscreteProblem<D>& problem() const { return discretization_.problem; }
+  void find_schur();
+  void find_directions();
+  bool contains(std::size_t e, Index k) const { return e == materials_ || space_.material[k] == static_cast<Index>(e); }
   void solve(const std::vector<double>& residual, std::vector<double>& change);
   const std::vector<double>& load_of(const std::vector<double>& p);
   void subtract(const std::vector<double>& load);
@@ -37,11 +40,14 @@ class PressureLoad final : public FollowingLoad<D> {
   Discretization<D>& discretization_;
   std::vector<double> p_;
   std::vector<double> value_;             // of the space, in local coordinates
-  std::vector<double> inverse_;           // of the diagonal of what stands for the Schur complement
+  std::vector<double> schur_;             // what stands for the Schur complement C A^-1 C' + M
+  std::vector<double> inverse_;           // of its diagonal
   std::vector<double> load_;              // C'p of the call before, D per node
   std::vector<double> step_, remaining_;  // of the solution with that
-  // Per material, of the pressure that is constant in it: what is known along it, and what of the correction is added.
-  std::vector<double> along_, own_, resistance_, more_;
+  // Of the pressures that are constant in a material, then of the one that is constant in all, where there are several:
+  // what is known along it, and what of the correction is added, at first and now.
+  const std::size_t materials_;
+  std::vector<double> along_, own_, resistance_, more_at_first_, more_;
 };
 
 }  // namespace signorini

@@ -27,10 +27,15 @@ class Recovery {
   Recovery(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
       : nodes_(nodes),
         plane_(surface.plane()),
+        surface_(surface),
         faces_(faces),
         samples_(nodes, surface, faces),
         square_(static_cast<std::size_t>(faces.size())) {
-    for (Index k = 0; k < faces.size(); ++k) inside_.push_back(faces.inside(k));
+    for (Index k = 0; k < faces.size(); ++k) {
+      inside_.push_back(faces.inside(k));
+      at_middle_.push_back(faces.node(k).pressure);
+    }
+    take_off_curvature();
   }
 
   void fit() {
@@ -58,10 +63,28 @@ class Recovery {
   }
 
   std::vector<Sample<D - 1>> samples(Index k) const {
-    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) {
-      const double pressure = faces_.node(s).pressure;
-      return pressure * pressure;
-    });
+    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) { return at_middle_[s] * at_middle_[s]; });
+  }
+
+  void take_off_curvature() {
+    std::vector<double> found = at_middle_;
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (inside_[k]) found[k] -= curvature(k);
+    at_middle_ = std::move(found);
+  }
+
+  /// By how much the mean around a node is larger than the pressure at its middle, were it what is fitted to the means.
+  double curvature(Index k) const {
+    const auto some = samples(k);
+    if (!enough_for_quadratic(some)) return 0;
+    const PolynomialFit<2, D - 1> fit(some);
+    const TangentPlane<D> plane = samples_.plane_at(k);
+    const auto fitted = [&](const Point<D>& x) {
+      const auto square = fit.at(plane(x));
+      return square ? std::sqrt(std::max(square->front(), 0.0)) : 0;
+    };
+    const double most = (excess - 1) * faces_.node(k).pressure;
+    return std::clamp(surface_.mean(faces_.node(k), fitted) - fitted(surface_.middle(faces_.node(k))), -most, most);
   }
 
   /// At the edge of a punch: the pressure is larger than at all neighbours.
@@ -136,10 +159,12 @@ class Recovery {
 
   const Nodes<D>& nodes_;
   const Plane plane_;
+  const ContactSurface<D, B>& surface_;
   const PressedFaces<D, B>& faces_;
   const SurfaceSamples<D, B> samples_;
   std::vector<bool> inside_;
-  std::vector<double> square_;  // of the pressure, per node; it goes on beyond the edge
+  std::vector<double> at_middle_;  // the pressure at the middle of each node's basis function
+  std::vector<double> square_;     // of the pressure, per node; it goes on beyond the edge
 };
 
 }  // namespace

@@ -78,7 +78,7 @@ class SpaceBuilder {
     find_pattern(mesh_.families.size(), out_.size, out_.size, unknowns, unknowns, out_.mass_row, out_.mass_column);
     out_.value.assign(out_.column.size() * D, 0);
     out_.compliance.assign(out_.mass_column.size(), 0);
-    out_.schur.assign(out_.mass_column.size(), 0);
+    out_.response.assign(out_.mass_column.size(), 0);
     for (std::size_t f = 0; f < mesh_.families.size(); ++f)
       if (out_.unknown[f][0] >= 0) add(f);
     return std::move(out_);
@@ -186,7 +186,7 @@ class SpaceBuilder {
         const Offset at = find(out_.mass_row, out_.mass_column, k, out_.unknown[f][b]);
         const double product = measure * barycentric[a] * barycentric[b];
         out_.compliance[at] += product / own;
-        out_.schur[at] += product * (1 / own + 1 / with);
+        out_.response[at] += product / with;
       }
     }
   }

@@ -33,7 +33,7 @@ struct PressureSpace {
   std::vector<Offset> mass_row = {0};  ///< size + 1: products of p-functions
   std::vector<Index> mass_column;
   std::vector<double> compliance;  ///< their integrals over lambda - lambda0
-  std::vector<double> schur;  ///< what stands for C A^-1 C' + compliance: those over what the displacements resist with
+  std::vector<double> response;    ///< what stands for C A^-1 C': those over what the displacements resist with
 
   /// p at a point of a family.
   double at(const std::vector<double>& p, std::size_t family, const std::array<double, D + 1>& barycentric) const {

@@ -145,28 +145,28 @@ double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
 }
 
 template <int D, int P>
-Point<D> middle(const Nodes<D>& nodes, Index face, std::size_t k, Plane plane) {
+std::vector<SharePoint<D>> weighted_points(const Nodes<D>& nodes, Index face, std::size_t k, Plane plane) {
   const ElementMap<D, D - 1, P> map(nodes.mesh(), nodes.template element_face<P>(face));
-  Point<D> sum{};
+  std::vector<SharePoint<D>> out;
   double whole = 0;
   for (const auto& [barycentric, weight] : quadrature5<D - 1>()) {
     const Point<D> x = map(barycentric);
-    const double part = weight * basis<P>(barycentric)[k] * circumference<D>(plane, x);
-    for (int i = 0; i < D; ++i) sum[i] += part * x[i];
-    whole += part;
+    out.push_back({x, weight * basis<P>(barycentric)[k] * circumference<D>(plane, x)});
+    whole += out.back().weight;
   }
-  for (double& c : sum) c /= whole;
-  return sum;
+  for (auto& point : out) point.weight /= whole;
+  return out;
 }
 
 template <int D>
-Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
+std::vector<SharePoint<D>> share_points(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
   const auto all = nodes.of_face(face);
   const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
-  const Point<D> out = nodes.order() == 1 ? middle<D, 1>(nodes, face, at, plane)
-                                          : middle<D, 2>(nodes, face - face % nodes.faces_per_element(),
-                                                         place_on_element(nodes, face, at), plane);
-  return std::isfinite(out[0]) ? out : nodes.at(node);  // on the axis it stands for nothing
+  auto out = nodes.order() == 1 ? weighted_points<D, 1>(nodes, face, at, plane)
+                                : weighted_points<D, 2>(nodes, face - face % nodes.faces_per_element(),
+                                                        place_on_element(nodes, face, at), plane);
+  if (!std::isfinite(out.front().weight)) out = {{nodes.at(node), 1}};  // on the axis it stands for nothing
+  return out;
 }
 
 template <int D>
@@ -208,14 +208,14 @@ std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
   return volumes;
 }
 
-#define SIGNORINI_INSTANTIATE(D)                                                      \
-  template std::vector<Index> select_faces(const Mesh<D>&, const Selection&, double); \
-  template Surface<D> surface(const Nodes<D>&, std::vector<Index>);                   \
-  template Surface<D> surface(const Nodes<D>&);                                       \
-  template std::vector<Point<D>> node_normals<D>(const Nodes<D>&, const Surface<D>&); \
-  template double face_share(const Nodes<D>&, Index, Index, Plane);                   \
-  template Point<D> share_middle<D>(const Nodes<D>&, Index, Index, Plane);            \
-  template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&, Plane); \
+#define SIGNORINI_INSTANTIATE(D)                                                             \
+  template std::vector<Index> select_faces(const Mesh<D>&, const Selection&, double);        \
+  template Surface<D> surface(const Nodes<D>&, std::vector<Index>);                          \
+  template Surface<D> surface(const Nodes<D>&);                                              \
+  template std::vector<Point<D>> node_normals<D>(const Nodes<D>&, const Surface<D>&);        \
+  template double face_share(const Nodes<D>&, Index, Index, Plane);                          \
+  template std::vector<SharePoint<D>> share_points<D>(const Nodes<D>&, Index, Index, Plane); \
+  template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&, Plane);        \
   template std::vector<double> node_volumes(const Nodes<D>&, Plane);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

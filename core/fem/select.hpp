@@ -44,9 +44,14 @@ std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface,
 template <int D>
 double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
 
-/// The centroid of the node's basis function on a face that it lies on.
+/// The node's basis function on a face that it lies on, as weights of points: they sum to one, and may be negative.
 template <int D>
-Point<D> share_middle(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
+struct SharePoint {
+  Point<D> at;
+  double weight;
+};
+template <int D>
+std::vector<SharePoint<D>> share_points(const Nodes<D>& nodes, Index face, Index node, Plane plane = Plane::strain);
 
 /// Integrals of the basis functions over the body, one per node. (The functions of curved elements count by their
 /// mean.)

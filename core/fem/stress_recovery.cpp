@@ -174,7 +174,7 @@ class StressRecovery {
     if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     for (auto& sample : near_)
       for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];
-    return polynomial_values<Degree>(near_, most_amplified);
+    return PolynomialFit<Degree, D, 6>(near_).at({}, most_amplified);
   }
 
   Stress mean() const {

@@ -64,8 +64,9 @@ struct Camera {
 
   Vector scaled(const double* x) const { return {x[0], x[1], scale_z * x[2]}; }
   Vector seen(const Vector& x) const { return {dot(right, x), dot(up, x), dot(towards, x)}; }
-  double brightness(const Vector& a, const Vector& b, const Vector& c) const {
+  double brightness(const Patch& patch) const {
     if (light == Vector{}) return 1;
+    const Vector a = scaled(patch.corner[0]), b = scaled(patch.corner[1]), c = scaled(patch.corner[2]);
     const Vector u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     return 0.62 + 0.38 * std::abs(dot(normalised(cross(u, v)), light));
   }
@@ -89,27 +90,60 @@ class Canvas {
   }
 
   void add(const Patch& patch) {
-    std::array<Vector, 3> corner, x;
+    std::array<Vector, 3> x;
     for (int c = 0; c < 3; ++c) {
-      corner[c] = camera_.scaled(patch.corner[c]);
-      x[c] = camera_.seen(corner[c]);
+      x[c] = camera_.seen(camera_.scaled(patch.corner[c]));
       for (int k = 0; k < 2; ++k) x[c][k] = scale_ * (x[c][k] - origin_[k]);
     }
-    const double area = twice_area(x[0], x[1], x[2]);
-    if (!(std::abs(area) > 0)) return;
-    const double brightness = camera_.brightness(corner[0], corner[1], corner[2]);
-    std::array<double, 3> height{};
-    for (int c = 0; c < 3 && edges_; ++c) height[c] = std::abs(area) / length(x[(c + 1) % 3], x[(c + 2) % 3]);
     const auto [left, right] = std::minmax({x[0][0], x[1][0], x[2][0]});
     const auto [bottom, top] = std::minmax({x[0][1], x[1][1], x[2][1]});
-    for (int row = first(bottom); row <= last(top, raster_.height); ++row)
-      for (int column = first(left); column <= last(right, raster_.width); ++column)
-        set(patch, x, height, area, brightness, column, row);
+    const int first_row = first(bottom), last_row = last(top, raster_.height);
+    const int first_column = first(left), last_column = last(right, raster_.width);
+    if (first_row > last_row || first_column > last_column) return;  // between the middles of pixels
+    const double area = twice_area(x[0], x[1], x[2]);
+    if (!(std::abs(area) > 0)) return;
+    const Shape shape(patch, x, area, camera_.brightness(patch), edges_);
+    for (int row = first_row; row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column) set(shape, column, row);
   }
 
   Raster raster() && { return std::move(raster_); }
 
  private:
+  /// A function that is linear on the raster.
+  struct Linear {
+    double at_corner = 0, along = 0, up = 0;  ///< at the patch's first corner, and by how much it grows
+
+    double operator()(double x, double y) const { return at_corner + along * x + up * y; }
+  };
+
+  /// A patch on the raster. Its functions take places from the first corner on.
+  struct Shape {
+    double x, y;                     ///< of the first corner
+    std::array<Linear, 3> weight;    ///< barycentric coordinates
+    std::array<double, 3> height{};  ///< over the edges, where these are drawn
+    Linear depth, value;
+    double brightness;
+
+    Shape(const Patch& patch, const std::array<Vector, 3>& corner, double area, double bright, bool edges)
+        : x(corner[0][0]), y(corner[0][1]), brightness(bright) {
+      for (int c = 0; c < 3; ++c) {
+        const Vector &a = corner[(c + 1) % 3], &b = corner[(c + 2) % 3];
+        weight[c] = {c == 0 ? 1.0 : 0.0, (a[1] - b[1]) / area, (b[0] - a[0]) / area};
+        add(corner[c][2], weight[c], depth);
+        add(patch.value[c], weight[c], value);
+        if (edges) height[c] = std::abs(area) / length(a, b);
+      }
+    }
+
+   private:
+    static void add(double factor, const Linear& f, Linear& sum) {
+      sum.at_corner += factor * f.at_corner;
+      sum.along += factor * f.along;
+      sum.up += factor * f.up;
+    }
+  };
+
   static double twice_area(const Vector& a, const Vector& b, const Vector& c) {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   }
@@ -121,24 +155,22 @@ class Canvas {
     return std::min(count - 1, static_cast<int>(std::floor(high - 0.5 + 1e-9)));
   }
 
-  void set(const Patch& patch, const std::array<Vector, 3>& x, const std::array<double, 3>& height, double area,
-           double brightness, int column, int row) {
-    const Vector p{column + 0.5, row + 0.5, 0};
-    const double weight[3] = {twice_area(p, x[1], x[2]) / area, twice_area(x[0], p, x[2]) / area,
-                              twice_area(x[0], x[1], p) / area};
-    double depth = 0, value = 0, nearest_edge = infinity;
+  void set(const Shape& shape, int column, int row) {
+    const double x = column + 0.5 - shape.x, y = row + 0.5 - shape.y;
+    double nearest_edge = infinity;
     for (int c = 0; c < 3; ++c) {
-      if (weight[c] < -1e-9) return;
-      depth += weight[c] * x[c][2];
-      value += weight[c] * patch.value[c];
-      nearest_edge = std::min(nearest_edge, weight[c] * height[c]);
+      const double weight = shape.weight[c](x, y);
+      if (weight < -1e-9) return;
+      nearest_edge = std::min(nearest_edge, weight * shape.height[c]);
     }
+    const double depth = shape.depth(x, y), value = shape.value(x, y);
     const std::size_t at = std::size_t(row) * raster_.width + column;
     if (!(depth > depth_[at]) || std::isnan(value)) return;
     depth_[at] = depth;
     const auto shade =
         edges_ && nearest_edge < edge_width ? edge_colour : colour((value - range_.low) / (range_.high - range_.low));
-    for (int k = 0; k < 3; ++k) raster_.rgb[3 * at + k] = static_cast<char>(static_cast<int>(brightness * shade[k]));
+    for (int k = 0; k < 3; ++k)
+      raster_.rgb[3 * at + k] = static_cast<char>(static_cast<int>(shape.brightness * shade[k]));
   }
 
   const Camera camera_;

@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t block_size = std::size_t{1} << 18, sample_size = block_size / 16;
+constexpr std::size_t block_size = std::size_t{1} << 18, sample_size = block_size / 64;
 
 /// Packs any number of blocks, one after the other.
 class Deflater {

@@ -1,6 +1,7 @@
 #include "core/io/cairo/sheet.hpp"
 
-#include <cstring>
+#include <cassert>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -111,12 +112,9 @@ void Sheet::write(const std::filesystem::path& file) {
   cairo_surface_flush(surface_.get());
   const int width = cairo_image_surface_get_width(surface_.get());
   const int height = cairo_image_surface_get_height(surface_.get());
-  const int stride = cairo_image_surface_get_stride(surface_.get());
-  const unsigned char* bytes = cairo_image_surface_get_data(surface_.get());
-  std::vector<std::uint32_t> pixels(std::size_t(width) * height);
-  for (int row = 0; row < height; ++row)
-    std::memcpy(&pixels[std::size_t(row) * width], bytes + std::size_t(row) * stride, 4 * std::size_t(width));
-  write_text(file, png(pixels, width, height));
+  assert(cairo_image_surface_get_stride(surface_.get()) == 4 * width);
+  const auto* pixels = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface_.get()));
+  write_text(file, png({pixels, std::size_t(width) * height}, width, height));
 }
 
 }  // namespace signorini
