@@ -80,7 +80,8 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
       .pairing = term.pairing, .reach = extent<D>(points), .axisymmetric = model.plane == Plane::axisymmetric};
   if (!term.resolve && body_of(term.on->part.value_or("")) == body_of(term.other->part.value_or("")))
     options.depth = coarsest_length(mesh, slave);
-  return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()}, options);
+  return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()},
+                   options);
 }
 
 template <int D>
@@ -147,9 +148,11 @@ template double longest_edge(const Mesh<3>&, const Face<3>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
 template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
-                                           const std::vector<Index>&, const std::vector<Index>&, std::span<const Point<2>>);
+                                           const std::vector<Index>&, const std::vector<Index>&,
+                                           std::span<const Point<2>>);
 template MortarCoupling<3> couple_sides<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
-                                           const std::vector<Index>&, const std::vector<Index>&, std::span<const Point<3>>);
+                                           const std::vector<Index>&, const std::vector<Index>&,
+                                           std::span<const Point<3>>);
 template std::vector<Point<2>> displaced_points<2>(const Nodes<2>&, const std::vector<double>&);
 template std::vector<Point<3>> displaced_points<3>(const Nodes<3>&, const std::vector<double>&);
 

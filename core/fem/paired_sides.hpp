@@ -20,8 +20,8 @@ template <int D>
 PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t);
 
 /// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere; two of one
-/// body not through it, as a face and the one on its back would, farther than an element of the coarsest mesh. Its nodes
-/// are vertices of the mesh.
+/// body not through it, as a face and the one on its back would, farther than an element of the coarsest mesh. Its
+/// nodes are vertices of the mesh.
 /// @param points where the vertices of the mesh are; none: as the mesh has them
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,

@@ -95,7 +95,8 @@ std::vector<Gap<D>> pair_gaps(const Nodes<D>& nodes, const MortarCoupling<D>& co
   std::vector<Index> at;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     at.push_back(nodes.of_vertex(coupling.node[k]));
-    vertices[k] = pair_vertex<D>(nodes.at(at.back()), coupling.gap[k] / coupling.part(static_cast<Index>(k)), coupling.normal[k]);
+    vertices[k] =
+        pair_vertex<D>(nodes.at(at.back()), coupling.gap[k] / coupling.part(static_cast<Index>(k)), coupling.normal[k]);
   }
   std::vector<Gap<D>> out = gaps(vertices, at, term);
   std::ranges::sort(out, {}, &Gap<D>::node);
