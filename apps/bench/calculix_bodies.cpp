@@ -11,6 +11,7 @@
 #include "apps/bench/bodies.hpp"
 #include "apps/bench/calculix_program.hpp"
 #include "apps/bench/processor_time.hpp"
+#include "apps/bench/scratch_folder.hpp"
 #include "apps/scenes/tables.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
@@ -116,7 +117,9 @@ void compare(const fs::path& folder, int refinements, const Forces& exact, doubl
 }  // namespace
 
 void print_calculix_bodies(bool quick) {
-  const fs::path folder = calculix_folder();
+  require_calculix();
+  const ScratchFolder scratch("calculix_bodies");
+  const fs::path& folder = scratch.path();
   const int finest = quick ? 3 : 4;
   Driver driver(scene(finest, "1e-8"));
   const Forces exact = forces_of(driver.solve().last().contact[0]);
@@ -126,7 +129,6 @@ void print_calculix_bodies(bool quick) {
       friction);
   for (int refinements = 0; refinements < finest; ++refinements) compare(folder, refinements, exact, 900);
   fmt::print("\nOff from a solve on a mesh twice as fine as the last one.\n");
-  fs::remove_all(folder);
 }
 
 }  // namespace signorini::bench
