@@ -30,6 +30,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
     : scene_(scene),
       body_(body),
       registry_(registry),
+      progress_(progress),
       times_(times),
       hierarchy_([&] {
         const Stopwatch watch;
@@ -106,11 +107,22 @@ bool BodyRun<D, B>::remembers() const {
   return std::ranges::any_of(model_.obstacles, [](const auto& term) { return term.obstacle->functional() != nullptr; });
 }
 
+template <int D, int B>
+Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model) {
+  if constexpr (D == B)
+    if (is_paired(model) && scene_.solver.bodies == "dirichlet-neumann") {
+      if (!turns_)
+        turns_ = std::make_unique<DirichletNeumann<D>>(scene_, body_, hierarchy_, registry_, progress_, times_);
+      return turns_->solve(model);
+    }
+  return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
+}
+
 /// Where there is no solution, perhaps the body was meant to be on the other side.
 template <int D, int B>
 Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
   try {
-    return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
+    return solve_or_take_turns(model);
   } catch (const Error& error) {
     if (error.status() != Exit::no_solution) throw;
     const auto reasons = start_warnings(Nodes(hierarchy_.levels.front()), model, true);
@@ -148,7 +160,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   check_symmetry(hierarchy_, model_);
   Solution<B> solution = solve(model_);
   const Stopwatch watch;
-  results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_);
+  results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_, solver_.shift());
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty()) {

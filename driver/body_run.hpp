@@ -1,10 +1,12 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/component/registry.hpp"
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
+#include "driver/dirichlet_neumann.hpp"
 #include "driver/memory.hpp"
 #include "driver/nested_solver.hpp"
 #include "driver/progress.hpp"
@@ -56,17 +58,20 @@ class BodyRun {
  private:
   Model<B> model(double t) const;
   Solution<B> solve(const Model<B>& model);
+  Solution<B> solve_or_take_turns(const Model<B>& model);
 
   const Scene& scene_;
   std::size_t body_;
   const Registry& registry_;
+  const Progress& progress_;
   Times& times_;
   MeshHierarchy<D> hierarchy_;
   Probes<D> probes_;
   NestedSolver<D, B> solver_;
-  std::vector<SlaveChoice> slaves_;  // of all steps
-  Model<B> model_;                   // of the last step
-  std::vector<double> accepted_;     // displacements or values; empty: none yet
+  std::unique_ptr<DirichletNeumann<D>> turns_;  // in place of it, where the scene says so; null: none yet
+  std::vector<SlaveChoice> slaves_;             // of all steps
+  Model<B> model_;                              // of the last step
+  std::vector<double> accepted_;                // displacements or values; empty: none yet
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;

@@ -140,6 +140,8 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
         on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
     term.slave = obstacle.slave;
     term.pairing = obstacle.pairing;
+    term.resolve = obstacle.resolve;
+    term.renew = obstacle.renew;
   }
   return model;
 }

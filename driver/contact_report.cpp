@@ -8,6 +8,7 @@
 #include "core/mesh/mirror.hpp"
 #include "core/scene/reference_point.hpp"
 #include "driver/numbers.hpp"
+#include "driver/touching_bodies.hpp"
 
 namespace signorini {
 namespace {
@@ -94,7 +95,11 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
     if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
     const auto add = [&](Index node, Index obstacle, const std::array<double, B>& force, bool on_other) {
       ContactReport& report = reports[obstacle];
-      each_image<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], nodes.control_point(node), force,
+      const bool on_slave = on_other == results.slaves[obstacle].exchanged;
+      Point<D> at = nodes.control_point(node);  // where the bodies found each other
+      for (int i = 0; report.pair && on_slave && !results.shift.empty() && i < D; ++i)
+        at[i] += results.shift[obstacle][i];
+      each_image<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], at, force,
                     [&](Point<D> lever, const std::array<double, D>& of_image) {
                       for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
                       add_moment<D>(lever, of_image, on_other ? report.pair->moment : report.moment);
@@ -116,11 +121,8 @@ template <int B>
 void add_pair(const Scene::Obstacle& obstacle, const SlaveChoice& choice, const std::array<double, B>& on_body,
               const std::array<double, B>& on_other, ContactReport& report) {
   const bool exchanged = choice.exchanged;
-  report.pair = PairReport{exchanged ? obstacle.other : obstacle.body,
-                           exchanged ? obstacle.body : obstacle.other,
-                           choice.reason,
-                           list(on_other),
-                           {}};
+  report.pair =
+      PairReport{side_of(obstacle, exchanged), side_of(obstacle, !exchanged), choice.reason, list(on_other), {}};
   if (!exchanged) return;
   report.force = list(on_body);
   turn_round(report.normal_force);

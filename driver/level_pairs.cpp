@@ -2,20 +2,57 @@
 
 #include "core/fem/discretize.hpp"
 #include "core/fem/nested.hpp"
+#include "core/mesh/simplex.hpp"
 #include "core/solver/weights.hpp"
 #include "driver/loose_body.hpp"
 
 namespace signorini {
+namespace {
+
+/// Elements that bodies slip past each other before they find each other anew.
+constexpr double far = 0.25;
+
+}  // namespace
+
+template <int D, int B>
+void LevelPairs<D, B>::give(std::vector<Pairs> pairs) {
+  all_ = std::move(pairs);
+  chosen_ = all_;
+  given_ = true;
+}
 
 /// What holds a loose body may be far from where it is.
 template <int D, int B>
 void LevelPairs<D, B>::find(const Model<B>& model) {
   if constexpr (D == B) {
+    if (given_) return;
+    if (!model.follows) shift_.clear();
     for (std::size_t level = first_; level < nodes_.size(); ++level)
-      all_[level] = pair_bodies(nodes_[level], model, collect_fixes(nodes_[level], model));
+      all_[level] = pair_bodies<D>(nodes_[level], model, collect_fixes(nodes_[level], model), shift_);
     chosen_ = all_;
     held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, all_[first_])).held();
   }
+}
+
+/// The shape stays the undeformed one: in the dent of a body that slides the next step would have to climb its slope.
+template <int D, int B>
+bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& u) {
+  bool moved = false;
+  if constexpr (D == B) {
+    if (given_ || !model.follows || !is_paired(model) || !all_.back()) return false;
+    std::vector<Point<B>> shift = shift_;
+    shift.resize(model.obstacles.size());
+    for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+      const ObstacleTerm<B>& term = model.obstacles[k];
+      if (!term.other || !term.renew) continue;
+      const Slip<D> slip = slip_past(nodes_.back(), model, k, *all_.back(), *chosen_.back(), u);
+      if (!(length<D>(difference<D>(slip.mean, shift[k])) > far * slip.length)) continue;
+      shift[k] = slip.mean;
+      moved = true;
+    }
+    if (moved) shift_ = std::move(shift);
+  }
+  return moved;
 }
 
 template <int D, int B>

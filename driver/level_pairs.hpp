@@ -28,8 +28,22 @@ class LevelPairs {
     connected_.resize(hierarchy.refinements.size());
   }
 
-  /// Of a new model all that may touch; to be called where is_paired().
+  /// Of a new model all that may touch; to be called where is_paired(). In the first load step as the undeformed bodies
+  /// lie to each other.
   void find(const Model<B>& model);
+
+  /// In a load step that follows another one: where a displacement of the finest mesh has taken bodies past each other,
+  /// in the mean of where they nearly touch, by a part of an element since they last found each other, find() finds
+  /// them there from now on.
+  /// @return whether it has
+  bool follow(const Model<B>& model, const std::vector<double>& u);
+
+  /// From now on these are all that may touch, per mesh, whatever the model says.
+  void give(std::vector<Pairs> pairs);
+  bool given() const { return given_; }
+
+  /// Per obstacle by how much slaves were taken to have moved past masters when they found each other; empty: not.
+  const std::vector<Point<B>>& shift() const { return shift_; }
 
   /// What unknowns of a mesh are jumps for; null: for nothing.
   const Pairs& at(std::size_t level) const { return chosen_[level]; }
@@ -53,9 +67,11 @@ class LevelPairs {
   const MeshHierarchy<D>& hierarchy_;
   const std::vector<Nodes<D>>& nodes_;
   const std::size_t first_;
-  std::vector<Pairs> all_, chosen_;              // per mesh
+  std::vector<Pairs> all_, chosen_;  // per mesh
+  std::vector<Point<B>> shift_;
   std::vector<std::array<Pairs, 2>> connected_;  // per refinement: what interpolation across it is between
-  bool held_ = false;                            // prescribed values hold all bodies
+  bool given_ = false;
+  bool held_ = false;  // prescribed values hold all bodies
 };
 
 }  // namespace signorini

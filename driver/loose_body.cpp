@@ -135,7 +135,7 @@ LooseBody<D, B>::LooseBody(const Nodes<D>& nodes, const Model<B>& model, const D
 // Of the loads themselves: what prescribed values add to the right-hand side does none.
 template <int D, int B>
 void LooseBody<D, B>::add_work() {
-  const std::vector<double> loads = load_vector<D, B>(nodes_, model_);
+  const std::vector<double>& loads = discretization_.load;
   typename Motions::Row work = Motions::Row::Zero(motions_.count());
   for (Index p = 0; p < nodes_.size(); ++p) {
     const double* b = loads.data() + Offset{p} * B;

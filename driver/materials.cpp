@@ -59,7 +59,7 @@ Field coefficient(const Scene& scene, const Scene::Body& body, Field Scene::Body
     for (const int k : numbers_of(scene.materials, part))
       add((scene.materials[k].*others).value_or(part.*own), scene.materials[k].volume);
   }
-  if (of_region.size() == 1) return body.*own;
+  if (of_region.size() == 1) return of_region.front();
   const int first = body.parts.empty() ? -1 : 0;  // the region of a body's own material
   const auto value = [of_region, first](const Site& site) {
     return of_region[static_cast<std::size_t>(site.region - first)](site);

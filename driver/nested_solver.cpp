@@ -16,6 +16,7 @@
 #include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
+#include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/moved_problem.hpp"
@@ -44,6 +45,9 @@ constexpr double slender = 16;
 
 /// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
 constexpr int patience_with_matrix = 40;
+
+/// How often a load step is solved again because bodies have slid on in it.
+constexpr int most_slides = 4;
 
 /// What rounding of the assembled matrix does, in units of what it does to products with it: an entry comes from about
 /// so many operations. (Cantilevers from 100:1 to 1000:1 in six units of length each differ by 2 to 7 of them.)
@@ -206,9 +210,32 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     remember(to_local(problem, before_[level]), problem);
   if (model.follows) numbers_before_[level].hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
+  if (!forces_.empty()) {
+    Discretization<B>& discretization = solution.discretization;
+    add_forces(level, 1, discretization);
+    problem.b = local_forces(problem, discretization.load);
+    discretization.prescribed.take_load(problem.b);
+    prescribe(problem, discretization.prescribed);
+  }
   solution.x = problem.start;
   times_.assemble += watch.elapsed();
   return solution;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs,
+                                      std::vector<std::vector<double>> forces) {
+  for (std::size_t level = 0; level < kept_.size(); ++level)
+    if (kept_[level]) add_forces(level, -1, kept_[level]->discretization);  // back to the model's own
+  pairs_.give(std::move(pairs));
+  forces_ = std::move(forces);
+}
+
+/// To its load.
+template <int D, int B>
+void NestedSolver<D, B>::add_forces(std::size_t level, double sign, Discretization<B>& discretization) const {
+  if (forces_.empty()) return;
+  for (std::size_t k = 0; k < forces_[level].size(); ++k) discretization.load[k] += sign * forces_[level][k];
 }
 
 /// Where bodies may touch each other.
@@ -217,7 +244,7 @@ void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
   if (D != B || !is_paired(model)) return;
   const Stopwatch watch;
   pairs_.find(model);
-  drop_algebraic_levels();
+  if (!pairs_.given()) drop_algebraic_levels();
   times_.setup += watch.elapsed();
 }
 
@@ -666,7 +693,17 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
   if (meshes_) return meshes_->solve_after(model, u);
   before_.back() = u;
-  return solve_safely(model);
+  pairs_.follow(model, u);
+  Solution<B> solution = solve_safely(model);
+  for (int again = 0; again < most_slides && solution.summary.converged(); ++again) {
+    if (!pairs_.follow(model, to_global(solution.discretization.problem, solution.x))) break;
+    progress_.phase("bodies have slid past each other, and are paired anew");
+    std::vector<Stage> before = std::move(solution.summary.stages);
+    for (Stage& stage : before) stage.kept = false;
+    solution = solve_safely(model);
+    solution.summary.put_in_front(std::move(before));
+  }
+  return solution;
 }
 
 template std::size_t factorised_meshes(const MeshHierarchy<2>&, const Scene::Solver&, int);

@@ -83,9 +83,19 @@ class NestedSolver {
   /// The next step comes after the last solve; until then every solve comes after the same one.
   void accept();
 
+  /// Of one body that touches others: from now on these pairs on each mesh, without jumps, and forces at the nodes of
+  /// each mesh, B per node, beside the model's loads.
+  void take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs, std::vector<std::vector<double>> forces);
+
+  /// Interpolation between the meshes `level` and `level` + 1.
+  const Prolongation& from_mesh(std::size_t level) const { return prolongations_[number(level)]; }
+
   /// Gives back the problem of the last solve, whose matrix and load the next one takes over as far as they stay the
   /// same; those of coarser levels are kept anyway. Without it the finest level's are assembled again.
   void take_back(const Model<B>& model, Discretization<B> last);
+
+  /// In the last solve, per obstacle by how much slaves were taken to have moved past masters; empty: not.
+  const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
 
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return first_ > 0 && !meshes_; }
@@ -112,6 +122,7 @@ class NestedSolver {
   bool pair_more(const Model<B>& model, Solution<B>& solution);
   std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
   std::size_t number(std::size_t level) const { return algebraic_ + level - first_; }
+  void add_forces(std::size_t level, double sign, Discretization<B>& discretization) const;
   void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
   std::span<const Prolongation> levels_below(std::size_t level) const;
   std::size_t levels_left_out(std::size_t level) const;
@@ -136,7 +147,8 @@ class NestedSolver {
   Scene::Solver options_;
   const std::size_t first_;  // the coarsest mesh that gives a level, or a start
   LevelPairs<D, B> pairs_;
-  const std::size_t factorised_;  // the number of meshes that have no coarser level
+  std::vector<std::vector<double>> forces_;  // per mesh, see take_contact(); empty: none
+  const std::size_t factorised_;             // the number of meshes that have no coarser level
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;

@@ -19,7 +19,7 @@ namespace signorini {
 
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
-                      std::vector<SlaveChoice> slaves) {
+                      std::vector<SlaveChoice> slaves, std::vector<Point<B>> shift) {
   Results<D, B> out{to_global(solution.discretization.problem, solution.x),
                     contact_state(nodes, model, solution.discretization, solution.x),
                     {},
@@ -28,6 +28,7 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     solution.pressure,
                     {},
                     std::move(slaves),
+                    std::move(shift),
                     conditions_across(nodes.mesh(), model)};
   out.slaves.resize(model.obstacles.size());
   out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
@@ -238,10 +239,11 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                   \
-  template Results<D, B> results(const Nodes<D>&, const Model<B>&, const Solution<B>&, std::vector<SlaveChoice>); \
-  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,  \
-                                  const Summary&, std::size_t);                                                   \
+#define SIGNORINI_RESULTS(D, B)                                                                                        \
+  template Results<D, B> results<D, B>(const Nodes<D>&, const Model<B>&, const Solution<B>&, std::vector<SlaveChoice>, \
+                                       std::vector<Point<B>>);                                                         \
+  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,       \
+                                  const Summary&, std::size_t);                                                        \
   template std::vector<std::string> model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

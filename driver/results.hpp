@@ -25,13 +25,14 @@ struct Results {
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
   std::vector<NodalForce<B>> counterforces;              ///< see there
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
+  std::vector<Point<B>> shift;                           ///< of slaves, see NestedSolver
   ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
 };
 
 /// @param slaves choose_slaves() of the model; none: of each obstacle the first body is
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
-                      std::vector<SlaveChoice> slaves = {});
+                      std::vector<SlaveChoice> slaves = {}, std::vector<Point<B>> shift = {});
 
 /// Probes with the places where they lie.
 template <int D>

@@ -31,8 +31,13 @@ std::vector<std::size_t> groups(const Scene& scene) {
   return group;
 }
 
+bool touches(const Scene& scene, const Scene::Body& body) {
+  return std::ranges::any_of(scene.obstacles, [&](const Scene::Obstacle& obstacle) {
+    return !obstacle.other.empty() && (obstacle.body == body.name || obstacle.other == body.name);
+  });
+}
+
 Scene::Body joined(std::vector<Scene::Body> parts) {
-  if (parts.size() == 1) return std::move(parts.front());
   if (parts.size() > most_bodies)
     input_error(parts.front().source.table,
                 fmt::format("{} bodies touch each other, expected at most {}", parts.size(), most_bodies));
@@ -58,7 +63,9 @@ Scene with_touching_bodies(const Scene& scene) {
     std::vector<Scene::Body> parts;
     for (std::size_t k = first; k < group.size(); ++k)
       if (group[k] == first) parts.push_back(scene.bodies[k]);
-    if (!parts.empty()) out.bodies.push_back(joined(std::move(parts)));
+    if (parts.empty()) continue;
+    const bool alone = !touches(scene, parts.front());
+    out.bodies.push_back(alone ? std::move(parts.front()) : joined(std::move(parts)));
   }
   return out;
 }
@@ -81,6 +88,14 @@ Scene::Solver solver_options(const Scene& scene, const Scene::Body& body) {
                 "expected auto or meshes");
   options.hierarchy = "meshes";
   return options;
+}
+
+std::string side_of(const Scene::Obstacle& obstacle, bool other) {
+  const std::string& body = other ? obstacle.other : obstacle.body;
+  if (obstacle.body != obstacle.other) return body;
+  const std::optional<Selection>& on = other ? obstacle.other_on : obstacle.on;
+  if (on && on->part) return part_of(body, *on->part);
+  return fmt::format("{} ({})", body, other ? "other_where" : "where");
 }
 
 Selection on_mesh_of(const Scene::Body& body, const std::string& part, Selection selection) {

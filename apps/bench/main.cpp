@@ -11,6 +11,7 @@
 #include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
+#include "apps/bench/bodies.hpp"
 #include "apps/bench/boundary.hpp"
 #include "apps/bench/calculix.hpp"
 #include "apps/bench/choice.hpp"
@@ -204,6 +205,9 @@ const Table tables[] = {
     {"--friction-direct", "only friction by cycles beside Newton's method with a direct solver",
      sized<print_friction_direct>},
     {"--calculix", "only friction beside CalculiX, whose program ccx has to be there", sized<print_calculix>},
+    {"--bodies", "only bodies that touch each other, as one problem and in turns, the tables of docs/bodies.md",
+     sized<print_bodies>},
+    {"--calculix-bodies", "only two bodies beside CalculiX, likewise", sized<print_calculix_bodies>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
     {"--variants", "only the tables of docs/variants.md",
      [](const Arguments&) { print_variants(), print_aggregates(); }},

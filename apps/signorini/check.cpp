@@ -109,7 +109,7 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
     fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k], obstacle.type,
                candidates[k].size());
     if (!obstacle.other.empty())
-      fmt::print("  the slave is {} ({})\n", slaves[k].exchanged ? obstacle.other : obstacle.body, slaves[k].reason);
+      fmt::print("  the slave is {} ({})\n", side_of(obstacle, slaves[k].exchanged), slaves[k].reason);
   }
 }
 

@@ -74,6 +74,8 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
                {},
                {},
                {}};
+  out.two_bodies =
+      std::ranges::any_of(results.slaves, [](const SlaveChoice& choice) { return !choice.reason.empty(); });
   if constexpr (B == 1) {
     out.value = nodes.at_vertices(results.u, B);
   } else {

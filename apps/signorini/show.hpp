@@ -17,13 +17,15 @@ struct Shown {
   std::vector<Flags> contact;    ///< 0 where the vertex is free, 1 in contact, with friction 2 where it slips, 3 sticks
   std::vector<double> pressure;  ///< contact pressure, empty for scalar problems
   std::vector<double> tangential;  ///< tangential traction, three per vertex, likewise
-  std::vector<Index> touched;      ///< vertices that an obstacle may reach
+  std::vector<Index> touched;      ///< vertices that an obstacle may reach; of two bodies that touch those of the slave
+  bool two_bodies = false;         ///< parts of the mesh touch each other
 };
 
 /// The panels of result.png. Meshes too fine to be seen are drawn on a coarser level; a note in `notes` says when even
 /// the coarsest is too fine. Panels may be empty.
-/// The deformed body coloured by `value`, and the contact pressure seen along its normal (3D) or as a profile (2D);
-/// where there is friction, besides, where it slips and sticks, in 2D with the tangential traction.
+/// The deformed body coloured by `value`, bodies in space that touch each other cut open where they do, and the contact
+/// pressure seen along its normal (3D) or as a profile (2D); where there is friction, besides, where it slips and
+/// sticks, in 2D with the tangential traction.
 template <int D>
 std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes);
 /// The graph of u (2D) or a section (3D), and the coincidence set likewise.

@@ -5,6 +5,7 @@
 
 #include "apps/signorini/drawn_level.hpp"
 #include "apps/signorini/show.hpp"
+#include "apps/signorini/slice.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
 
@@ -61,7 +62,9 @@ std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown) {
   const Mesh<D>& mesh = shown.hierarchy.finest();
   ContactZone<D> zone;
   double total = 0;
-  const auto pressed = [&](Index v) { return !shown.pressure.empty() && shown.pressure[v] > 0; };
+  std::vector<char> touched(mesh.points.size());
+  for (const Index v : shown.touched) touched[v] = 1;
+  const auto pressed = [&](Index v) { return touched[v] && !shown.pressure.empty() && shown.pressure[v] > 0; };
   for (const auto& face : mesh.boundary)
     for (const Index v : face.vertices)
       if (pressed(v)) {
@@ -106,6 +109,28 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
       normalise(side);
       for (int k = 0; k < 3; ++k) panel.from[k] = 0.9 * side[k] + 0.435 * zone->normal[k];
     }
+  return panel;
+}
+
+/// Bodies cut open through the middle of the contact zone, so that its normal lies in the section, as upright as may
+/// be.
+Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+  Section section{zone.middle, tangents(zone.normal)[0], zone.normal};
+  const auto widest = std::ranges::max_element(section.up, {}, [](double c) { return std::abs(c); });
+  if (*widest < 0)
+    for (double& c : section.up) c = -c;
+  Panel panel;
+  panel.title = "deformed bodies, cut open";
+  panel.label = shown.label;
+  panel.patches = few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
+    std::vector<Point<3>> points;
+    std::vector<double> value;
+    for (std::size_t v = 0; v < drawn.fine.size(); ++v) {
+      points.push_back(deformed(shown, drawn, static_cast<Index>(v), 1));
+      value.push_back(shown.value[drawn.fine[v]]);
+    }
+    return slice(drawn.mesh->elements, points, value, section);
+  });
   return panel;
 }
 
@@ -220,6 +245,8 @@ std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string
   const auto zone = contact_zone(shown);
   std::vector<Panel> panels{body_panel(shown, zone, notes)};
   if (!zone) return panels;
+  if constexpr (D == 3)
+    if (shown.two_bodies) panels.push_back(cut_panel(shown, *zone, notes));
   panels.push_back(pressure_panel(shown, *zone, notes));
   if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, *zone, notes));
   return panels;

@@ -41,7 +41,7 @@ Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View
   panel.patches = few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
     std::vector<double> values;
     for (const Index v : drawn.fine) values.push_back(value[v]);
-    return slice(*drawn.mesh, values, at);
+    return slice(drawn.mesh->elements, drawn.mesh->points, values, {{0, at, 0}, {1, 0, 0}, {0, 0, 1}});
   });
   return panel;
 }

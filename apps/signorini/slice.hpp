@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <span>
 #include <vector>
 
@@ -7,8 +8,14 @@
 
 namespace signorini {
 
-/// The section of a tetrahedral mesh with the plane y = `at`, drawn with x to the right and z upwards.
-/// @param value one per vertex
-std::vector<Patch> slice(const Mesh<3>& mesh, std::span<const double> value, double at);
+/// A plane through a point, spanned by two orthogonal unit vectors that point to the right and upwards in the picture.
+struct Section {
+  Point<3> through, right, up;
+};
+
+/// The section of tetrahedra with a plane.
+/// @param points, value one per vertex
+std::vector<Patch> slice(std::span<const std::array<Index, 4>> elements, std::span<const Point<3>> points,
+                         std::span<const double> value, const Section& section);
 
 }  // namespace signorini

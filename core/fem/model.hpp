@@ -65,6 +65,8 @@ struct ObstacleTerm {
   /// Of these two which one shall be the slave, see choose_slaves(), and how faces find each other.
   Slave slave = Slave::body;
   Pairing pairing = Pairing::normal;
+  bool resolve = false;  ///< they may overlap however deep at the start
+  bool renew = true;     ///< they find each other where the last load step has moved them to
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.

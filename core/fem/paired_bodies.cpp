@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
+#include "core/fem/select.hpp"
 #include "core/mesh/mirror.hpp"
 
 namespace signorini {
@@ -23,12 +25,13 @@ constexpr double nearly_across = 0.985;
 template <int D>
 void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
                  const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0) return;
+  if (deepest.slave_face < 0 || term.resolve) return;
   const Face<D>& face = mesh.boundary[slave[deepest.slave_face]];
   if (deepest.depth <= std::ldexp(longest_edge(mesh, face), mesh.refinements)) return;
   input_error(term.origin,
               fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
-                          "element of the coarsest mesh; expected bodies apart from each other, or touching",
+                          "element of the coarsest mesh; expected bodies apart from each other, or touching, or "
+                          "resolve = true, which presses them apart",
                           deepest.depth, fmt::join(deepest.place, ", ")));
 }
 
@@ -36,15 +39,22 @@ void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::ve
 template <int D>
 class Coupler {
  public:
-  Coupler(const Nodes<D>& nodes, const Model<D>& model, const std::vector<FixedDirections<D>>& fixes)
-      : nodes_(nodes), model_(model), fixes_(fixes), slave_of_(nodes.size(), -1), master_of_(nodes.size(), -1) {}
+  Coupler(const Nodes<D>& nodes, const Model<D>& model, const std::vector<FixedDirections<D>>& fixes,
+          const std::vector<Point<D>>& shift)
+      : nodes_(nodes),
+        model_(model),
+        fixes_(fixes),
+        shift_(shift),
+        slave_of_(nodes.size(), -1),
+        master_of_(nodes.size(), -1) {}
 
   void add(Index obstacle) {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
     const Mesh<D>& mesh = nodes_.mesh();
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
-    const MortarCoupling<D> found = couple_sides(nodes_, model_, term, faces.slave, faces.master);
-    refuse_deep<D>(mesh, term, faces.slave, found.deepest);
+    const MortarCoupling<D> found =
+        couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
+    if (shift_.empty()) refuse_deep<D>(mesh, term, faces.slave, found.deepest);
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
     if (found.nodes() > 0 && rows_.size() == before)
@@ -87,14 +97,24 @@ class Coupler {
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
+    const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
     node.part = found.part(k);
-    node.gap = (found.gap[k] / node.part - free->prescribed) / free->part;
+    node.gap = (found.gap[k] / node.part + before - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
       if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, row.column.back(), obstacle);
     }
+  }
+
+  std::vector<Point<D>> shifted_points(Index obstacle, const std::vector<Index>& slave) const {
+    if (shift_.empty()) return {};
+    std::vector<Point<D>> points = nodes_.mesh().points;
+    for (const Index f : slave)
+      for (const Index v : nodes_.mesh().boundary[f].vertices)
+        for (int i = 0; i < D; ++i) points[v][i] = nodes_.mesh().points[v][i] + shift_[obstacle][i];
+    return points;
   }
 
   [[noreturn]] void refuse_inclined(Index p, Index obstacle) const {
@@ -140,6 +160,7 @@ class Coupler {
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const std::vector<FixedDirections<D>>& fixes_;
+  const std::vector<Point<D>>& shift_;
   std::vector<Index> slave_of_, master_of_;  // per node: obstacle, -1: none
   std::vector<Row> rows_;
   PairedBodies<D> out_;
@@ -149,12 +170,42 @@ class Coupler {
 
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
-                                                   const std::vector<FixedDirections<D>>& fixes) {
+                                                   const std::vector<FixedDirections<D>>& fixes,
+                                                   const std::vector<Point<D>>& shift) {
   if (!is_paired(model)) return nullptr;
-  Coupler<D> coupler(nodes, model, fixes);
+  Coupler<D> coupler(nodes, model, fixes, shift);
   for (std::size_t k = 0; k < model.obstacles.size(); ++k)
     if (model.obstacles[k].other) coupler.add(static_cast<Index>(k));
   return coupler.take();
+}
+
+template <int D>
+Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const PairedBodies<D>& all,
+                  const PairedBodies<D>& near, const std::vector<double>& u) {
+  std::vector<double> length(static_cast<std::size_t>(nodes.size()));
+  for (const Index f : select_faces(nodes.mesh(), *model.obstacles[obstacle].on, model.t))
+    for (const Index p : nodes.of_face(f))
+      length[p] = std::max(length[p], longest_edge(nodes.mesh(), nodes.mesh().boundary[f]));
+  const bool any = std::ranges::find(near.nodes, obstacle, &PairedNode<D>::obstacle) != near.nodes.end();
+  const PairedBodies<D>& pairs = any ? near : all;
+  const Jumps<D>& jumps = *pairs.jumps;
+  Slip<D> out;
+  double count = 0;
+  for (const PairedNode<D>& node : pairs.nodes) {
+    if (node.obstacle != obstacle) continue;
+    const auto s = std::ranges::lower_bound(jumps.vector, node.node) - jumps.vector.begin();
+    for (int i = 0; i < D; ++i) {
+      double jump = u[Offset{node.node} * D + i];
+      for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
+        jump -= jumps.weight[k] * u[Offset{jumps.column[k]} * D + i];
+      out.mean[i] += jump / node.part;
+    }
+    out.length += length[node.node];
+    ++count;
+  }
+  for (double& c : out.mean) c /= std::max(count, 1.0);
+  out.length /= std::max(count, 1.0);
+  return out;
 }
 
 namespace {
@@ -238,9 +289,15 @@ template bool touches_elsewhere(const Nodes<2>&, const Model<2>&, const PairedBo
                                 const std::vector<double>&);
 template bool touches_elsewhere(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&, const PairedBodies<3>&,
                                 const std::vector<double>&);
-template std::shared_ptr<const PairedBodies<2>> pair_bodies(const Nodes<2>&, const Model<2>&,
-                                                            const std::vector<FixedDirections<2>>&);
-template std::shared_ptr<const PairedBodies<3>> pair_bodies(const Nodes<3>&, const Model<3>&,
-                                                            const std::vector<FixedDirections<3>>&);
+template std::shared_ptr<const PairedBodies<2>> pair_bodies<2>(const Nodes<2>&, const Model<2>&,
+                                                               const std::vector<FixedDirections<2>>&,
+                                                               const std::vector<Point<2>>&);
+template std::shared_ptr<const PairedBodies<3>> pair_bodies<3>(const Nodes<3>&, const Model<3>&,
+                                                               const std::vector<FixedDirections<3>>&,
+                                                               const std::vector<Point<3>>&);
+template Slip<2> slip_past(const Nodes<2>&, const Model<2>&, Index, const PairedBodies<2>&, const PairedBodies<2>&,
+                           const std::vector<double>&);
+template Slip<3> slip_past(const Nodes<3>&, const Model<3>&, Index, const PairedBodies<3>&, const PairedBodies<3>&,
+                           const std::vector<double>&);
 
 }  // namespace signorini

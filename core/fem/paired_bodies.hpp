@@ -30,9 +30,26 @@ struct PairedBodies {
 /// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
 /// of whose nodes are prescribed; bodies that overlap at the start by more than an element of the coarsest mesh.
 /// @param fixes collect_fixes() of both
+/// @param shift per obstacle of the model: sides find each other as if the slave's were moved by that, and may overlap
+/// there; gaps are counted from the undeformed bodies on, as the unknowns are. Empty: none is
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
-                                                   const std::vector<FixedDirections<D>>& fixes);
+                                                   const std::vector<FixedDirections<D>>& fixes,
+                                                   const std::vector<Point<D>>& shift = {});
+
+/// By how much the slave of an obstacle has moved past the master.
+template <int D>
+struct Slip {
+  Point<D> mean{};    ///< over the slave's nodes with a pair
+  double length = 0;  ///< of the faces around them, the mean of their longest edges
+};
+
+/// Of an obstacle between bodies.
+/// @param near pairs that count; where it has none of the obstacle all do
+/// @param u a displacement, D per node
+template <int D>
+Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const PairedBodies<D>& all,
+                  const PairedBodies<D>& near, const std::vector<double>& u);
 
 /// Of all pairs those that nearly touch when the bodies are displaced by u (B per node, global coordinates), and those
 /// that `also` has. Far from contact jumps are of no use: there each body is smoothed better by itself.

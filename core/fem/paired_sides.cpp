@@ -1,10 +1,16 @@
 #include "core/fem/paired_sides.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/dot.hpp"
+#include "core/base/error.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/join.hpp"
 
 namespace signorini {
 namespace {
@@ -20,32 +26,79 @@ std::vector<std::array<Index, D>> corners(const Mesh<D>& mesh, const std::vector
   return out;
 }
 
-/// Diagonal of the box around the mesh.
+/// Diagonal of the box around points.
 template <int D>
-double extent(const Mesh<D>& mesh) {
+double extent(std::span<const Point<D>> points) {
   double square = 0;
   for (std::size_t i = 0; i < D; ++i) {
-    const auto [low, high] = std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
+    const auto [low, high] = std::ranges::minmax(points, {}, [i](const Point<D>& x) { return x[i]; });
     square += (high[i] - low[i]) * (high[i] - low[i]);
   }
   return std::sqrt(square);
+}
+
+template <int D>
+void refuse_twice(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& faces) {
+  std::vector<Index> twice;
+  std::ranges::set_intersection(faces.slave, faces.master, std::back_inserter(twice));
+  if (twice.empty()) return;
+  Point<D> middle{};
+  for (const Index v : mesh.boundary[twice.front()].vertices)
+    for (int i = 0; i < D; ++i) middle[i] += mesh.points[v][i] / D;
+  input_error(term.origin, fmt::format("the face at ({:.6g}) is on both sides, of slave and master, as {} of {} are; "
+                                       "expected two parts of the body that have no face in common",
+                                       fmt::join(middle, ", "), twice.size(), faces.slave.size()));
+}
+
+/// The longest edge that faces of the coarsest mesh have there.
+template <int D>
+double coarsest_length(const Mesh<D>& mesh, const std::vector<Index>& faces) {
+  double longest = 0;
+  for (const Index f : faces) longest = std::max(longest, longest_edge(mesh, mesh.boundary[f]));
+  return std::ldexp(longest, mesh.refinements);
 }
 
 }  // namespace
 
 template <int D>
 PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t) {
-  return {select_faces(mesh, *term.on, t), select_faces(mesh, *term.other, t)};
+  PairedFaces out{select_faces(mesh, *term.on, t), select_faces(mesh, *term.other, t)};
+  std::ranges::sort(out.slave);
+  std::ranges::sort(out.master);
+  refuse_twice(mesh, term, out);
+  return out;
 }
 
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
-                               const std::vector<Index>& slave, const std::vector<Index>& master) {
+                               const std::vector<Index>& slave, const std::vector<Index>& master,
+                               std::span<const Point<D>> points) {
   const Mesh<D>& mesh = nodes.mesh();
+  if (points.empty()) points = mesh.points;
   const auto of_slave = corners(mesh, slave), of_master = corners(mesh, master);
-  return couple<D>(
-      {mesh.points, of_slave, term.origin, nodes.order()}, {mesh.points, of_master, term.origin, nodes.order()},
-      {.pairing = term.pairing, .reach = extent(mesh), .axisymmetric = model.plane == Plane::axisymmetric});
+  CoupleOptions options{
+      .pairing = term.pairing, .reach = extent<D>(points), .axisymmetric = model.plane == Plane::axisymmetric};
+  if (!term.resolve && body_of(term.on->part.value_or("")) == body_of(term.other->part.value_or("")))
+    options.depth = coarsest_length(mesh, slave);
+  return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()},
+                   options);
+}
+
+template <int D>
+std::vector<Point<D>> displaced_points(const Nodes<D>& nodes, const std::vector<double>& u) {
+  std::vector<Point<D>> points = nodes.mesh().points;
+  const std::vector<double> by = nodes.at_vertices(u, D);
+  for (std::size_t v = 0; v < points.size(); ++v)
+    for (std::size_t i = 0; i < D; ++i) points[v][i] += by[v * D + i];
+  return points;
+}
+
+template <int D>
+MortarCoupling<D> couple_displaced(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,
+                                   const std::vector<double>& u) {
+  const ObstacleTerm<D>& term = model.obstacles[obstacle];
+  const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
+  return couple_sides<D>(nodes, model, term, faces.slave, faces.master, displaced_points(nodes, u));
 }
 
 template <int D>
@@ -84,6 +137,8 @@ double longest_edge(const Mesh<D>& mesh, const Face<D>& face) {
   return std::sqrt(square);
 }
 
+template MortarCoupling<2> couple_displaced(const Nodes<2>&, const Model<2>&, Index, const std::vector<double>&);
+template MortarCoupling<3> couple_displaced(const Nodes<3>&, const Model<3>&, Index, const std::vector<double>&);
 template const FixedDirections<2>* fixed_at(const std::vector<FixedDirections<2>>&, Index);
 template const FixedDirections<3>* fixed_at(const std::vector<FixedDirections<3>>&, Index);
 template std::optional<FreeNormal<2>> free_normal<2>(const std::vector<FixedDirections<2>>&, Index, const Point<2>&);
@@ -92,9 +147,13 @@ template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
-template MortarCoupling<2> couple_sides(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
-                                        const std::vector<Index>&, const std::vector<Index>&);
-template MortarCoupling<3> couple_sides(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
-                                        const std::vector<Index>&, const std::vector<Index>&);
+template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                           const std::vector<Index>&, const std::vector<Index>&,
+                                           std::span<const Point<2>>);
+template MortarCoupling<3> couple_sides<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                           const std::vector<Index>&, const std::vector<Index>&,
+                                           std::span<const Point<3>>);
+template std::vector<Point<2>> displaced_points<2>(const Nodes<2>&, const std::vector<double>&);
+template std::vector<Point<3>> displaced_points<3>(const Nodes<3>&, const std::vector<double>&);
 
 }  // namespace signorini

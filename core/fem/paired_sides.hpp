@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/fem/fixes.hpp"
@@ -14,14 +15,27 @@ struct PairedFaces {
   std::vector<Index> slave, master;
 };
 
+/// Error(Exit::input) for a face that is picked twice, as where a body touches itself.
 template <int D>
 PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t);
 
-/// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere. Its nodes
-/// are vertices of the mesh.
+/// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere; two of one
+/// body not through it, as a face and the one on its back would, farther than an element of the coarsest mesh. Its
+/// nodes are vertices of the mesh.
+/// @param points where the vertices of the mesh are; none: as the mesh has them
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
-                               const std::vector<Index>& slave, const std::vector<Index>& master);
+                               const std::vector<Index>& slave, const std::vector<Index>& master,
+                               std::span<const Point<D>> points = {});
+
+/// The vertices of the mesh displaced by u, D per node.
+template <int D>
+std::vector<Point<D>> displaced_points(const Nodes<D>& nodes, const std::vector<double>& u);
+
+/// The sides of a model's obstacle between two bodies where u, D per node, takes them.
+template <int D>
+MortarCoupling<D> couple_displaced(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,
+                                   const std::vector<double>& u);
 
 /// The normal of a slave's node where some of its displacement is prescribed: contact acts along what is left of it.
 /// (On a plane of symmetry the mean normal of a curved surface is inclined, for faces are on one side only.)

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/fem/element.hpp"
+#include "core/fem/paired_sides.hpp"
 #include "core/fem/select.hpp"
 #include "core/geometry/faceted_distance.hpp"
 
@@ -31,11 +32,8 @@ Surface<D> faces_of(const Nodes<D>& nodes, const Model<D>& model, Index obstacle
 template <int D>
 Mesh<D> displaced(const Nodes<D>& nodes, const std::vector<double>& u) {
   Mesh<D> out;
-  out.points = nodes.mesh().points;
+  out.points = displaced_points(nodes, u);
   out.boundary = nodes.mesh().boundary;
-  const std::vector<double> by = nodes.at_vertices(u, D);
-  for (Index v = 0; v < out.vertices(); ++v)
-    for (int i = 0; i < D; ++i) out.points[v][i] += by[Offset{v} * D + i];
   return out;
 }
 
@@ -53,6 +51,31 @@ Gap<D> gap(Index node, const LocalConstraint<D>& constraint) {
   return out;
 }
 
+/// What an obstacle says of some nodes; empty where it fails.
+template <int D>
+std::vector<Gap<D>> gaps(const std::vector<SurfaceVertex>& vertices, const std::vector<Index>& nodes,
+                         const ObstacleTerm<D>& term) {
+  std::vector<LocalConstraint<D>> constraints(vertices.size());
+  Status status;
+  term.obstacle->assemble(vertices.data(), vertices.size(), constraints.data(), status);
+  std::vector<Gap<D>> out;
+  for (std::size_t v = 0; v < vertices.size() && status.ok(); ++v) out.push_back(gap<D>(nodes[v], constraints[v]));
+  return out;
+}
+
+/// A point of the slave as obstacles between bodies see it.
+template <int D>
+SurfaceVertex pair_vertex(const Point<D>& x, double gap, const Point<D>& normal) {
+  SurfaceVertex v{};
+  v.gap = gap;
+  for (int i = 0; i < D; ++i) {
+    v.position[i] = x[i];
+    v.normal[i] = normal[i];
+    v.away[i] = -normal[i];
+  }
+  return v;
+}
+
 /// To a rigid obstacle, by ascending node; empty where it fails.
 template <int D>
 std::vector<Gap<D>> gaps(const Nodes<D>& nodes, const Surface<D>& at, const ObstacleTerm<D>& term) {
@@ -62,11 +85,21 @@ std::vector<Gap<D>> gaps(const Nodes<D>& nodes, const Surface<D>& at, const Obst
     std::copy_n(nodes.at(at.nodes[v]).data(), D, vertices[v].position);
     std::copy_n(normals[v].data(), D, vertices[v].normal);
   }
-  std::vector<LocalConstraint<D>> constraints(vertices.size());
-  Status status;
-  term.obstacle->assemble(vertices.data(), vertices.size(), constraints.data(), status);
-  std::vector<Gap<D>> out;
-  for (std::size_t v = 0; v < vertices.size() && status.ok(); ++v) out.push_back(gap<D>(at.nodes[v], constraints[v]));
+  return gaps(vertices, at.nodes, term);
+}
+
+/// To the other body, where displacements take both, by ascending node.
+template <int D>
+std::vector<Gap<D>> pair_gaps(const Nodes<D>& nodes, const MortarCoupling<D>& coupling, const ObstacleTerm<D>& term) {
+  std::vector<SurfaceVertex> vertices(coupling.node.size());
+  std::vector<Index> at;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    at.push_back(nodes.of_vertex(coupling.node[k]));
+    vertices[k] =
+        pair_vertex<D>(nodes.at(at.back()), coupling.gap[k] / coupling.part(static_cast<Index>(k)), coupling.normal[k]);
+  }
+  std::vector<Gap<D>> out = gaps(vertices, at, term);
+  std::ranges::sort(out, {}, &Gap<D>::node);
   return out;
 }
 
@@ -91,7 +124,8 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
   const Mesh<D> there = displaced(nodes, u);
   const Nodes<D> moved = nodes.on(there);
-  const auto all = gaps(moved, faces_of(nodes, model, obstacle, false), term);
+  const auto all = term.other ? pair_gaps(nodes, couple_displaced(nodes, model, obstacle, u), term)
+                              : gaps(moved, faces_of(nodes, model, obstacle, false), term);
   if (all.empty()) return {};
   const auto* faceted = dynamic_cast<const geometry::FacetedDistance*>(term.shape.get());
   DeformedContact out;
@@ -128,7 +162,8 @@ template <int D, int B>
 std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
                                                 const ContactState<B>& state, const std::vector<double>& u) {
   if constexpr (B == D)
-    if (model.obstacles[obstacle].shape) return true_contact(nodes, model, obstacle, state, u);
+    if (model.obstacles[obstacle].shape || model.obstacles[obstacle].other)
+      return true_contact(nodes, model, obstacle, state, u);
   return violation(state, obstacle);
 }
 

@@ -73,7 +73,7 @@ void check_fixes(const Scene& scene) {
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
 void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
-    for (const char* key : {"other_on", "other_where", "slave", "pairing"})
+    for (const char* key : {"other_on", "other_where", "slave", "pairing", "resolve", "renew"})
       if (obstacle.source.given(key))
         input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the second body", key));
     return;
@@ -85,8 +85,10 @@ void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
     if (body->equation != Scene::Equation::elasticity)
       input_error(place, fmt::format("body '{}' has equation = 'diffusion'; expected two elastic bodies", body->name));
   if (obstacle.shape) input_error(obstacle.source.of("shape"), "'shape' has no meaning beside 'other'");
-  if (slave.name == master.name)
-    input_error(place, "a body that touches itself is not available in this version; expected another body");
+  if (slave.name == master.name && !obstacle.other_on)
+    input_error(place,
+                "a body that touches itself needs 'other_on' or 'other_where': the part that the one of 'on' "
+                "or 'where' touches");
   if (slave.plane != master.plane)
     input_error(place, fmt::format("bodies '{}' and '{}' differ in 'plane'; bodies that touch have the same",
                                    slave.name, master.name));

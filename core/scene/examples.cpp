@@ -70,7 +70,7 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 A warning is given where one of them is over 1 % of the displacements there.
 
 **Two bodies.** `elastic` and `elastic_coulomb` let two elastic bodies touch each other: `body` with `on` or `where`, and
-`other` with `other_on` or `other_where`. What they do, and which of them is the slave, is in [bodies.md](bodies.md). Other
+`other` with `other_on` or `other_where`. Both may be parts of one body. What they do, and which of them is the slave, is in [bodies.md](bodies.md). Other
 types take no `other`.
 
 **Friction.** `coulomb` is contact with a rigid obstacle, and friction whose tangential force at a node is at most the

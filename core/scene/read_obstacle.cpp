@@ -49,6 +49,8 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   const std::string slave = reader.text("slave");
   obstacle.slave = slave == "body" ? Slave::body : slave == "other" ? Slave::other : Slave::automatic;
   obstacle.pairing = reader.text("pairing") == "closest" ? Pairing::closest : Pairing::normal;
+  obstacle.resolve = reader.flag("resolve");
+  obstacle.renew = reader.flag("renew");
   if (!spec) return obstacle;
   obstacle.shape_name = spec->name;
   obstacle.shape = shape(reader, table, spec->name);

@@ -123,6 +123,8 @@ struct Scene {
     std::optional<Selection> other_on;
     Slave slave = Slave::automatic;
     Pairing pairing = Pairing::normal;
+    bool resolve = false;    ///< however deep the two overlap at the start
+    bool renew = true;       ///< pairs faces anew where the last step has moved them to
     std::string shape_name;  ///< the key `shape`; empty without
     std::optional<ObstacleShape> shape;
     RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate
@@ -135,6 +137,7 @@ struct Scene {
   struct Solver : SolverOptions {
     std::string start = "nested";    ///< nested or zero
     bool algebraic = true;           ///< levels chosen by the matrix below a large coarsest mesh
+    std::string bodies = "jumps";    ///< that touch each other: jumps or dirichlet-neumann
     std::string hierarchy = "auto";  ///< coarser levels: meshes, matrix (all algebraic), or auto: the latter where
                                      ///< cells are stretched
     Source source;

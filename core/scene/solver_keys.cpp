@@ -22,6 +22,10 @@ constexpr OptionRow<Solver> of_scenes[] = {
      "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
      "auto: the meshes, but the matrix where cells are stretched and algebraic levels are allowed",
      false, "See \"Stretched cells\"."},
+    {"bodies", &Solver::bodies, "jumps | dirichlet-neumann",
+     "how bodies that touch each other are solved: as one problem whose unknowns are jumps between them, or in turns, "
+     "the slave on the surface of the master, which feels its forces",
+     false, "See \"The other way\" in [bodies.md](bodies.md)."},
     {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh", false,
      "Below the coarsest mesh it comes from the next algebraic level. Coarser meshes that have a start themselves get "
      "one cycle for scalar problems, at most five for elastic bodies."},

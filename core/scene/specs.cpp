@@ -111,6 +111,11 @@ constexpr KeySpec obstacle[] = {
      "which of the two has the contact's unknowns: `body`, `other`, or the one that the program chooses"},
     {"pairing", text, "normal", "normal | closest", "",
      "how distances between two bodies are measured: along the slave's normal, or to the master's closest point"},
+    {"resolve", boolean, "false", "", "",
+     "two bodies may overlap at the start by more than an element, and are pressed apart"},
+    {"renew", boolean, "true", "", "",
+     "with `[steps]` faces of two bodies are paired anew where the last step has moved them to; else as they are "
+     "undeformed"},
 };
 
 constexpr KeySpec plane_obstacle[] = {

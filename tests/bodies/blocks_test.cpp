@@ -213,6 +213,35 @@ TEST(Overlap, OfMoreThanAnElementIsNamed) {
   expect_error(overlapping(0.3), Exit::input, ", 0.7)");
 }
 
+// Blocks that overlap by 0.3, free to widen: a uniform pressure shortens both, as an interference fit does.
+TEST(Overlap, IsPressedApartWhereTheSceneSaysSo) {
+  const std::string blocks = block("lower", "[0, 0]", "[1, 1]", "[8, 8]") +
+                             block("upper", "[0, 0.7]", "[1, 1.5]", "[7, 6]") +
+                             fix("lower", "bottom", "[\"free\", 0]") + fix("lower", "left", "[0, \"free\"]") +
+                             fix("upper", "top", "[\"free\", 0]") + fix("upper", "left", "[0, \"free\"]");
+  const double pressure = 0.3 / ((1 - 0.3 * 0.3) * (1 + 0.8));
+  expect_error(blocks + pair("upper", "bottom", "lower", "top"), Exit::input, "resolve = true");
+  for (const char* slave : {"body", "other"}) {
+    Driver driver(scene_of(
+        blocks + pair("upper", "bottom", "lower", "top", fmt::format("resolve = true\nslave = \"{}\"\n", slave))));
+    const Report& report = driver.solve();
+    ASSERT_TRUE(report.converged()) << report.reason();
+    const ContactReport& contact = report.last().contact[0];
+    EXPECT_NEAR(contact.force[1], pressure, 1e-9);
+    EXPECT_NEAR(contact.max_pressure, pressure, 1e-8);
+    EXPECT_NEAR(contact.largest_penetration, 0, 1e-9);
+    EXPECT_NEAR(contact.penetration_between_nodes, 0, 1e-9);
+    expect_opposite(contact);
+    expect_balance(report.last(), 1e-9);
+  }
+}
+
+TEST(Overlap, IsAKeyOfPairs) {
+  expect_error(block("a", "[0, 0]", "[1, 1]", "[2, 2]") + fix("a", "top", "[0, 0]") +
+                   tables::plane("a", "bottom", "[0, 0]", "[0, 1]") + "resolve = true\n",
+               Exit::input, "'resolve' has no meaning without 'other'");
+}
+
 // All of the boundary on both sides: faces on the far side do not see each other through the bodies.
 TEST(Overlap, IsNotSeenThroughBodies) {
   Driver driver(scene_of(block("below", "[0, 0]", "[2, 1]", "[8, 4]") +

@@ -1,67 +1,16 @@
 // Bodies from real surfaces (SIGNORINI_MESHES names their folder), filled with tetrahedra, and pressed on planes and on
 // each other's surface as rigid obstacles; levels are chosen by the matrix.
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
-
-#include "core/mesh/simplex.hpp"
+#include "real_surfaces.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 
 namespace signorini {
 namespace {
 
-struct Surface {
-  std::string file;
-  int up;  // direction that the body is pressed against
-  std::vector<Point<3>> points{};
-  std::vector<std::string> faces{};
-
-  /// The vertex that lies farthest in the direction of `sign`.
-  Point<3> farthest(double sign) const {
-    return *std::ranges::max_element(points, {}, [&](const Point<3>& p) { return sign * p[up]; });
-  }
-  double height() const { return farthest(1)[up] - farthest(-1)[up]; }
-};
-
-Surface read(const std::string& file, int up) {
-  Surface surface{file, up};
-  std::ifstream stream(file);
-  for (std::string line; std::getline(stream, line);) {
-    if (Point<3> p; std::sscanf(line.c_str(), "v %lf %lf %lf", &p[0], &p[1], &p[2]) == 3) surface.points.push_back(p);
-    if (line.starts_with("f ")) surface.faces.push_back(line);
-  }
-  return surface;
-}
-
-double diameter(const Surface& surface) {
-  Point<3> low = surface.points.front(), high = low;
-  for (const Point<3>& p : surface.points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
-  return length<3>(difference<3>(high, low));
-}
-
-/// The obstacle, scaled to the height of the body and with its top right below the lowest vertex of the body.
-std::string placed_below(const Surface& body, const Surface& obstacle, const std::string& name) {
-  Surface turned = obstacle;
-  turned.up = body.up;
-  const double scale = body.height() / turned.height();
-  const Point<3> top = turned.farthest(1), at = body.farthest(-1);
-  const std::string file = (std::filesystem::temp_directory_path() / name).string();
-  std::ofstream out(file);
-  for (const Point<3>& p : obstacle.points)
-    out << fmt::format("v {} {} {}\n", at[0] + scale * (p[0] - top[0]), at[1] + scale * (p[1] - top[1]),
-                       at[2] + scale * (p[2] - top[2]));
-  for (const std::string& face : obstacle.faces) out << face << '\n';
-  return file;
-}
+using namespace test;
 
 /// The upper quarter of the body goes down by 2 % of its height.
-std::string pressed(const Surface& body, double size, const std::string& obstacle) {
+std::string pressed(const RealSurface& body, double size, const std::string& obstacle) {
   Point<3> down{};
   down[body.up] = -0.02 * body.height();
   return test::SceneText{
@@ -73,16 +22,10 @@ std::string pressed(const Surface& body, double size, const std::string& obstacl
 }
 
 TEST(RealMeshes, ArePressedOnPlanesAndOnEachOtherInFewCycles) {
-  const char* folder = std::getenv("SIGNORINI_MESHES");
-  if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj, fandisk.obj and rocker-arm.obj";
-  std::vector<Surface> surfaces;
-  for (const auto& [name, up] : {std::pair{"spot.obj", 1}, {"fandisk.obj", 1}, {"rocker-arm.obj", 2}}) {
-    const std::string file = std::string(folder) + "/" + name;
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
-    surfaces.push_back(read(file, up));
-  }
-  for (const Surface& body : surfaces)
-    for (const Surface& obstacle : surfaces)
+  const std::vector<RealSurface> surfaces = real_surfaces();
+  if (surfaces.empty()) GTEST_SKIP() << no_surfaces;
+  for (const RealSurface& body : surfaces)
+    for (const RealSurface& obstacle : surfaces)
       for (const auto& [size, method] : {std::pair{0.05, "auto"}, {0.035, "auto"}, {0.025, "auto"}}) {
         const bool plane = &obstacle == &body;
         const Point<3> lowest = body.farthest(-1);

@@ -257,7 +257,6 @@ TEST(TwoBodies, AreRefusedWhereTheyCannotTouch) {
   expect_error(with("[0.5, 1.01]", "[0.5, 0.6]"), Exit::input, "the bodies overlap at the start, by 0.4");
   expect_error(with("other = \"below\"", "other = \"bellow\""), Exit::input, "did you mean 'below'?");
   expect_error(with("other_on = \"top\"", "other_on = \"topp\""), Exit::input, "did you mean 'below/top'?");
-  expect_error(with("other = \"below\"", "other = \"above\""), Exit::input, "a body that touches itself");
   expect_error(with("type = \"elastic\"", "type = \"contact\""), Exit::input, "acts on one body");
   expect_error(with("other = \"below\"\nother_on = \"top\"\nslave = \"body\"", ""), Exit::input, "missing key 'other'");
   expect_error(with("poisson = 0.3", "poisson = 0.49"), Exit::input, "expected order = 1");

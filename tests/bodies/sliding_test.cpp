@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <array>
+
+#include "tests/bodies/scenes.hpp"
+
+// Bodies that slide far along each other, step by step: they find each other anew where the last step has moved them.
+
+namespace signorini::test {
+namespace {
+
+using tables::block, tables::fix;
+
+constexpr double friction = 0.2, press = 0.01;
+
+std::string lower() { return block("lower", "[0, 0]", "[6, 1]", "[24, 4]") + fix("lower", "bottom", "[0, 0]"); }
+
+/// A block on it whose left edge is at x, pressed in the first step; `way` is how far it has gone then.
+std::string upper(double x, const std::string& way) {
+  return block("upper", fmt::format("[{}, 1]", x), fmt::format("[{}, 1.5]", x + 1), "[5, 3]", material(2)) +
+         fix("upper", "top", fmt::format("[\"{}\", {}]", way, -press));
+}
+
+std::string steps(int count, int refinements = 1) {
+  return fmt::format("[steps]\ncount = {}\n[refine]\nuniform = {}\n", count, refinements);
+}
+
+std::string slides(const std::string& more = "", const char* type = "elastic_coulomb") {
+  return pair("upper", "bottom", "lower", "top",
+              std::string(type) == "elastic" ? more : fmt::format("friction = {}\n{}", friction, more), type);
+}
+
+const Report& solved(Driver& driver) {
+  const Report& report = driver.solve();
+  EXPECT_TRUE(report.converged()) << report.reason();
+  return report;
+}
+
+// After each step of 0.25, which is an element of the lower block, all is as with a block that has been there from the
+// start and slides by as much as it takes to slip.
+TEST(Sliding, BlockFeelsTheSameWhereverItHasComeFrom) {
+  constexpr int count = 9;
+  Driver driver(scene_of(lower() + upper(1, "0.25 * (9 * t - 1)") + slides() + steps(count)));
+  const Report& report = solved(driver);
+  double slid = 0;
+  for (int step = 2; step <= count; ++step) {
+    SCOPED_TRACE(step);
+    const ContactReport& contact = report.steps[step - 1].contact[0];
+    Driver fresh(scene_of(lower() + upper(0.9 + 0.25 * (step - 1), "0.1 * (2 * t - 1)") + slides() + steps(2)));
+    const ContactReport& expected = solved(fresh).last().contact[0];
+    EXPECT_EQ(contact.slip_nodes, contact.nodes);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(contact.force[i], expected.force[i], 0.002 * expected.force[1]) << i;
+    EXPECT_NEAR(contact.area, expected.area, 1e-9);
+    EXPECT_NEAR(contact.max_pressure, expected.max_pressure, 0.01 * expected.max_pressure);
+    EXPECT_NEAR(contact.force[0], -friction * contact.force[1], 1e-9);
+    expect_opposite(contact);
+    expect_balance(report.steps[step - 1], 1e-9);
+    EXPECT_NEAR(contact.moment[0] + contact.pair->moment[0], 0, 1e-6 * std::abs(contact.moment[0]));
+    slid += friction * contact.force[1] * 0.25;
+    show("{}: force {:.6g} {:.6g}, as new {:.6g} {:.6g}; moments {:.6g} {:.6g}, {} iterations\n", step,
+         contact.force[0], contact.force[1], expected.force[0], expected.force[1], contact.moment[0],
+         contact.pair->moment[0], report.steps[step - 1].summary.iterations);
+  }
+  EXPECT_NEAR(report.last().contact[0].dissipated, slid, 0.05 * slid);
+}
+
+// A way back by less than the elastic slip turns nothing round, a longer one all of it.
+TEST(Sliding, BackwardsTurnsFrictionRound) {
+  Driver driver(scene_of(lower() +
+                         upper(1, "t < 0.15 ? 0 : t < 0.75 ? 1.5 * (t - 0.1) / 0.6 : t < 0.85 ? 1.499 : 1.4") +
+                         slides() + steps(10)));
+  const Report& report = solved(driver);
+  const auto part = [&](int step) {
+    const ContactReport& contact = report.steps[step - 1].contact[0];
+    return contact.force[0] / (friction * contact.force[1]);
+  };
+  EXPECT_NEAR(part(7), -1, 1e-6);
+  EXPECT_GT(part(8), -0.95) << "t = 0.8: back by 0.001";
+  EXPECT_LT(part(8), 0.5);
+  EXPECT_NEAR(part(10), 1, 1e-6);
+}
+
+// Half of the block leaves the lower one at its end.
+TEST(Sliding, OverTheEndLosesArea) {
+  const auto area = [](const std::string& more) {
+    Driver driver(scene_of(lower() + upper(4.5, "1.0 * (5 * t - 1) / 4") + slides(more, "elastic") + steps(5)));
+    return solved(driver).last().contact[0].area;
+  };
+  EXPECT_NEAR(area(""), 0.5, 0.15);
+  EXPECT_GT(area("renew = false\n"), 0.7);
+}
+
+/// A half disk that is pressed on the block, and then moved along it by two thirds of its diameter.
+TEST(Sliding, DiskKeepsItsPressure) {
+  Driver driver(scene_of(
+      lower() +
+      "[[body]]\nname = \"upper\"\nshape = \"half_disk\"\ncenter = [2, 1.6]\nradius = 0.6\nsize = \"0.05 + 0.3 * "
+      "sqrt((x - 2)^2 + (y - 1)^2)\"\n" +
+      material(2) + fix("upper", "flat", "[\"1.25 * max(0, (6 * t - 1) / 5)\", -0.02]") +
+      pair("upper", "curved", "lower", "top", fmt::format("friction = {}\n", friction), "elastic_coulomb") +
+      steps(6, 2)));
+  const Report& report = solved(driver);
+  const ContactReport& first = report.steps[1].contact[0];
+  EXPECT_NEAR(first.force[1], report.steps[0].contact[0].force[1], 0.02 * first.force[1]);
+  for (std::size_t step = 1; step < report.steps.size(); ++step) {
+    SCOPED_TRACE(step);
+    const ContactReport& contact = report.steps[step].contact[0];
+    show("force {:.6g} {:.6g}, area {:.4g}, pressure {:.4g} (first {:.6g}, {:.4g}, {:.4g}), inside {:.2g}\n",
+         contact.force[0], contact.force[1], contact.area, contact.max_pressure, first.force[1], first.area,
+         first.max_pressure, contact.largest_penetration);
+    EXPECT_EQ(contact.slip_nodes, contact.nodes);
+    EXPECT_NEAR(contact.force[1], first.force[1], 0.002 * first.force[1]);
+    EXPECT_NEAR(contact.force[0], -friction * contact.force[1], 0.03 * friction * contact.force[1]);
+    EXPECT_NEAR(contact.area, first.area, 0.02 * first.area);
+    EXPECT_NEAR(contact.max_pressure, first.max_pressure, 0.02 * first.max_pressure);
+    expect_opposite(contact);
+    expect_balance(report.steps[step], 1e-9);
+  }
+}
+
+// A motion in one step is linearised about its start, which the report does not hide; in small steps nothing is left.
+TEST(Sliding, InOneStepIsSeenInTheReport) {
+  const auto inside = [](int count) {
+    Driver driver(scene_of(
+        "[[body]]\nname = \"block\"\nshape = \"half_disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.1\n" + material(1) +
+        block("ram", "[-0.2, -2]", "[0.2, -1]", "[4, 10]", material(1)) + fix("block", "flat", "[0, 0]") +
+        fix("ram", "bottom", "[\"0.3 * t\", 0.01]") + pair("ram", "top", "block", "curved") + steps(count, 2)));
+    const ContactReport& contact = solved(driver).last().contact[0];
+    show("{} steps: inside {:.3g}, between nodes {:.3g}, off {:.3g}\n", count, contact.largest_penetration,
+         contact.penetration_between_nodes, contact.largest_opening);
+    return std::max(contact.largest_penetration, contact.largest_opening);
+  };
+  EXPECT_GT(inside(1), 4 * inside(8));
+}
+
+}  // namespace
+}  // namespace signorini::test
