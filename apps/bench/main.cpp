@@ -24,6 +24,7 @@
 #include "apps/bench/problems.hpp"
 #include "apps/bench/quadratic_matrices.hpp"
 #include "apps/bench/steps.hpp"
+#include "apps/bench/touching.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
 #include "apps/bench/warm.hpp"
@@ -227,6 +228,8 @@ const Table tables[] = {
      sized<print_friction_direct>},
     {"--calculix", "only friction beside CalculiX, whose program ccx has to be there", sized<print_calculix>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
+    {"--touching", "only the costs of bodies in contact with each other, a table of docs/bodies.md",
+     sized<print_touching>},
     {"--variants", "only the tables of docs/variants.md",
      [](bool, const std::string&) { print_variants(), print_aggregates(); }},
     {"--aggregates", "of these, only the table of aggregates", [](bool, const std::string&) { print_aggregates(); }},

@@ -36,7 +36,7 @@ struct ContactFields {
 };
 
 template <int D, int B>
-ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes) {
+ContactFields contact_fields(const Results<D, B>& results, const Nodes<D>& nodes) {
   const auto size = static_cast<std::size_t>(nodes.size());
   ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()),
                        std::vector<double>(size),
@@ -44,19 +44,21 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
                        std::vector<double>(size),
                        std::vector<double>(B > 1 ? 3 * size : 0),
                        std::vector<double>(B > 1 ? 3 * size : 0)};
-  for (const ContactNode<B>& node : state.nodes) {
+  const auto add = [&](const ContactNode<B>& node) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.recovered;
     fields.nodal_pressure[node.vertex] += node.pressure;
     const double contact = !node.contact ? 0 : !node.friction ? 1 : node.sticks ? 3 : 2;
     fields.contact[node.vertex] = std::max(fields.contact[node.vertex], contact);
-    if (B == 1 || !(node.area > 0)) continue;
+    if (B == 1 || !(node.area > 0)) return;
     for (int i = 0; i < B; ++i) {
       const std::size_t at = 3 * std::size_t(node.vertex) + i;
       fields.tangential[at] += node.traction[i];
       fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
     }
-  }
+  };
+  std::ranges::for_each(results.contact.nodes, add);
+  std::ranges::for_each(results.masters, add);
   for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
     *field = nodes.per_vertex(std::move(*field), 1);
   if (B > 1)
@@ -67,7 +69,7 @@ ContactFields contact_fields(const ContactState<B>& state, const Nodes<D>& nodes
 template <int D, int B>
 Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const Results<D, B>& results,
                const std::vector<Stress>& stress) {
-  ContactFields contact = contact_fields(results.contact, nodes);
+  ContactFields contact = contact_fields(results, nodes);
   Shown<D> out{hierarchy,
                {},
                {},
@@ -77,7 +79,8 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
                {},
                {}};
   std::vector<bool> touched(nodes.size());
-  for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
+  for (const auto* side : {&results.contact.nodes, &results.masters})
+    for (const auto& node : *side) touched[node.vertex] = true;
   for (Index v = 0; v < nodes.mesh().vertices(); ++v)
     if (touched[nodes.of_vertex(v)]) out.touched.push_back(v);
   if constexpr (B == 1) {
@@ -110,7 +113,7 @@ std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& r
     fields.push_back({"von_mises", 1, equivalent(stress)});
   }
   if (results.contact.obstacles.empty()) return fields;
-  ContactFields contact = contact_fields(results.contact, nodes);
+  ContactFields contact = contact_fields(results, nodes);
   fields.push_back({"gap", 1, std::move(contact.gap)});
   fields.push_back({"contact_pressure", 1, std::move(contact.pressure)});
   fields.push_back({"nodal_pressure", 1, std::move(contact.nodal_pressure)});

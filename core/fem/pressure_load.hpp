@@ -30,13 +30,15 @@ class PressureLoad final : public FollowingLoad<D> {
  private:
   DiscreteProblem<D>& problem() const { return discretization_.problem; }
   void solve(const std::vector<double>& residual, std::vector<double>& change);
+  const std::vector<double>& displacements(const std::vector<double>& x);
   const std::vector<double>& load_of(const std::vector<double>& p);
   void subtract(const std::vector<double>& load);
 
   const PressureSpace<D>& space_;
   Discretization<D>& discretization_;
   std::vector<double> p_;
-  std::vector<double> value_;             // of the space, in local coordinates
+  std::vector<double> value_;             // of the space, in local coordinates; where unknowns are jumps in global ones
+  std::vector<double> displacements_;     // then
   std::vector<double> inverse_;           // of the diagonal of what stands for the Schur complement
   std::vector<double> load_;              // C'p of the call before, D per node
   std::vector<double> step_, remaining_;  // of the solution with that
