@@ -1,5 +1,7 @@
 #include "driver/level_pairs.hpp"
 
+#include <utility>
+
 #include "core/fem/discretize.hpp"
 #include "core/fem/nested.hpp"
 #include "core/mesh/simplex.hpp"
@@ -21,17 +23,31 @@ void LevelPairs<D, B>::give(std::vector<Pairs> pairs) {
   given_ = true;
 }
 
+template <int D, int B>
+bool LevelPairs<D, B>::find(const Model<B>& model) {
+  bool stay = true;
+  if constexpr (D == B) {
+    if (given_) return true;
+    if (!model.follows) shift_.clear();
+    for (std::size_t level = first_; level < nodes_.size(); ++level) {
+      Pairs now = pair_bodies<D>(nodes_[level], model, collect_fixes(nodes_[level], model), shift_);
+      stay = stay && all_[level] && same_jumps(*now, *all_[level]);
+      all_[level] = std::move(now);
+    }
+    const bool held_before = std::exchange(held_, held(model));
+    stay = stay && held_ == held_before;
+    for (std::size_t level = first_; level < nodes_.size(); ++level)
+      chosen_[level] = stay ? with_new_gaps(*all_[level], *chosen_[level]) : all_[level];
+  }
+  return stay;
+}
+
 /// What holds a loose body may be far from where it is.
 template <int D, int B>
-void LevelPairs<D, B>::find(const Model<B>& model) {
-  if constexpr (D == B) {
-    if (given_) return;
-    if (!model.follows) shift_.clear();
-    for (std::size_t level = first_; level < nodes_.size(); ++level)
-      all_[level] = pair_bodies<D>(nodes_[level], model, collect_fixes(nodes_[level], model), shift_);
-    chosen_ = all_;
-    held_ = LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, all_[first_])).held();
-  }
+bool LevelPairs<D, B>::held(const Model<B>& model) const {
+  if constexpr (D == B)
+    return LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, all_[first_])).held();
+  return false;
 }
 
 /// The shape stays the undeformed one: in the dent of a body that slides the next step would have to climb its slope.
@@ -56,8 +72,23 @@ bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& 
 }
 
 template <int D, int B>
-void LevelPairs<D, B>::narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
-  if constexpr (D == B) chosen_[level] = near_contact(nodes_[level], model, *all_[level], u);
+bool LevelPairs<D, B>::narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
+  constexpr std::size_t most = 2;  // times as many as are needed
+  if constexpr (D == B) {
+    Pairs& chosen = chosen_[level];
+    const Pairs needed = near_contact(nodes_[level], model, *all_[level], u);
+    if (chosen->nodes.size() < all_[level]->nodes.size()) {
+      const Pairs both = near_contact(nodes_[level], model, *all_[level], u, chosen.get());
+      if (both->nodes.size() <= most * needed->nodes.size()) {
+        if (both->nodes.size() == chosen->nodes.size()) return false;
+        chosen = both;
+        return true;
+      }
+    }
+    chosen = needed;
+    return true;
+  }
+  return false;
 }
 
 template <int D, int B>
@@ -87,9 +118,9 @@ template <int D, int B>
 void LevelPairs<D, B>::connect(std::size_t level, std::span<Prolongation> between) {
   if (!all_[level]) return;
   for (std::size_t k = first_; k < level; ++k) {
-    const std::array now{chosen_[k], chosen_[k + 1]};
+    const std::array now{chosen_[k]->jumps, chosen_[k + 1]->jumps};
     if (connected_[k] == now) continue;
-    between[k - first_] = between_jumps(interpolation(k), *now[1]->jumps, *now[0]->jumps);
+    between[k - first_] = between_jumps(interpolation(k), *now[1], *now[0]);
     connected_[k] = now;
   }
 }

@@ -29,8 +29,9 @@ class LevelPairs {
   }
 
   /// Of a new model all that may touch; to be called where is_paired(). In the first load step as the undeformed bodies
-  /// lie to each other.
-  void find(const Model<B>& model);
+  /// lie to each other. Where nothing but gaps is new unknowns stay what they are.
+  /// @return whether they stay
+  bool find(const Model<B>& model);
 
   /// In a load step that follows another one: where a displacement of the finest mesh has taken bodies past each other,
   /// in the mean of where they nearly touch, by a part of an element since they last found each other, find() finds
@@ -50,8 +51,10 @@ class LevelPairs {
 
   /// Whether a solution is to choose among all.
   bool may_narrow(std::size_t level) const { return all_[level] && held_; }
-  /// Jumps are where a displacement of that mesh nearly touches, or one of the next coarser mesh does.
-  void narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u);
+  /// Jumps are where a displacement of that mesh nearly touches, or one of the next coarser mesh does; and, as long as
+  /// these are most of them, where they were in the last solve.
+  /// @return whether they are at other nodes now
+  bool narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u);
   void narrow_by_coarser(const Model<B>& model, std::size_t level, const std::vector<double>& u);
   /// Where a displacement of the finest mesh touches elsewhere as well jumps are there, too.
   /// @return whether it does
@@ -63,13 +66,14 @@ class LevelPairs {
 
  private:
   Prolongation interpolation(std::size_t refinement) const;
+  bool held(const Model<B>& model) const;
 
   const MeshHierarchy<D>& hierarchy_;
   const std::vector<Nodes<D>>& nodes_;
   const std::size_t first_;
   std::vector<Pairs> all_, chosen_;  // per mesh
   std::vector<Point<B>> shift_;
-  std::vector<std::array<Pairs, 2>> connected_;  // per refinement: what interpolation across it is between
+  std::vector<std::array<std::shared_ptr<const Jumps<B>>, 2>> connected_;  // per refinement: of the interpolation
   bool given_ = false;
   bool held_ = false;  // prescribed values hold all bodies
 };

@@ -243,8 +243,7 @@ template <int D, int B>
 void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
   if (D != B || !is_paired(model)) return;
   const Stopwatch watch;
-  pairs_.find(model);
-  if (!pairs_.given()) drop_algebraic_levels();
+  if (!pairs_.find(model)) drop_algebraic_levels();
   times_.setup += watch.elapsed();
 }
 
@@ -265,6 +264,7 @@ void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution)
   SolverOptions options = options_;
   options.tolerance = std::max(options.tolerance, roughly);
   solve_level(model, first_, options, nullptr, solution);
+  dropped_.insert(dropped_.end(), solution.summary.stages.begin(), solution.summary.stages.end());
   narrow_first(model, solution);
 }
 
@@ -273,9 +273,11 @@ template <int D, int B>
 void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
   if (!pairs_.may_narrow(first_)) return;
   const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
-  pairs_.narrow(model, first_, u);
+  if (!pairs_.narrow(model, first_, u)) return;
   drop_algebraic_levels();
+  std::vector<double> pressure = std::move(coarse.pressure);
   coarse = discretize_level(model, first_);
+  coarse.pressure = std::move(pressure);
   coarse.x = to_local(coarse.discretization.problem, u);
   continue_algebraically(coarse.discretization.problem);
 }
@@ -310,6 +312,7 @@ bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution)
   next.x = to_local(next.discretization.problem, u);
   make_admissible(next.discretization.problem, next.x);
   next.summary = std::move(solution.summary);
+  next.pressure = std::move(solution.pressure);
   solution = std::move(next);
   return true;
 }

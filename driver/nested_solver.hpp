@@ -160,7 +160,7 @@ class NestedSolver {
   std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve
   std::vector<std::optional<Kept>> kept_;    // per mesh
   bool continued_ = false;
-  std::vector<Stage> dropped_;            // starts that coarser levels did not give
+  std::vector<Stage> dropped_;            // starts that coarser levels did not give, and rough ones
   std::unique_ptr<NestedSolver> meshes_;  // what goes on where levels by the matrix did not do
   // Per mesh, solutions in global coordinates: of the last step that was accepted, and of the last solve (finest mesh:
   // none).

@@ -27,11 +27,13 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     {},
                     solution.pressure,
                     {},
+                    {},
                     std::move(slaves),
                     std::move(shift),
                     conditions_across(nodes.mesh(), model)};
   out.slaves.resize(model.obstacles.size());
   out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
+  out.masters = master_side(nodes, model, out.counterforces, out.u);
   const auto back = totals(out.counterforces, model.obstacles.size(), true);
   for (std::size_t k = 0; k < back.size(); ++k)
     for (int i = 0; i < B; ++i) out.contact.obstacles[k].force[i] += back[k][i];

@@ -6,6 +6,7 @@
 #include "core/fem/contact.hpp"
 #include "core/fem/counterforces.hpp"
 #include "core/fem/forces.hpp"
+#include "core/fem/master_side.hpp"
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
 #include "core/fem/slave_choice.hpp"
@@ -24,6 +25,7 @@ struct Results {
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
   std::vector<NodalForce<B>> counterforces;              ///< see there
+  std::vector<ContactNode<B>> masters;                   ///< master_side()
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
   std::vector<Point<B>> shift;                           ///< of slaves, see NestedSolver
   ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed

@@ -82,11 +82,7 @@ std::pair<Index, Index> regions_of_part(const Scene& scene, const Scene::Body& b
 Scene::Solver solver_options(const Scene& scene, const Scene::Body& body) {
   Scene::Solver options = scene.solver;
   if (body.parts.empty()) return options;
-  if (options.hierarchy == "matrix")
-    input_error(options.source.of("hierarchy"),
-                "levels chosen by the matrix are not available in this version for bodies that touch each other; "
-                "expected auto or meshes");
-  options.hierarchy = "meshes";
+  if (options.hierarchy == "auto") options.hierarchy = "meshes";
   return options;
 }
 

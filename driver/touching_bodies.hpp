@@ -10,8 +10,7 @@ Scene with_touching_bodies(const Scene& scene);
 /// The number of a part of such a body's first region on its mesh, see join(); with the number of regions that it has.
 std::pair<Index, Index> regions_of_part(const Scene& scene, const Scene::Body& body, std::size_t part);
 
-/// Of a body: those that touch each other have levels by their meshes only in this version.
-/// Error(Exit::input) where others are asked for.
+/// Of a body: those that touch each other have levels by their meshes where others are not asked for.
 Scene::Solver solver_options(const Scene& scene, const Scene::Body& body);
 
 /// What an obstacle between bodies calls its first or its other side: the body, and where both are the same the part.

@@ -27,6 +27,7 @@
 #include "apps/bench/quadratic_matrices.hpp"
 #include "apps/bench/ratios.hpp"
 #include "apps/bench/steps.hpp"
+#include "apps/bench/touching.hpp"
 #include "apps/bench/traffic.hpp"
 #include "apps/bench/variants.hpp"
 #include "apps/bench/warm.hpp"
@@ -209,6 +210,8 @@ const Table tables[] = {
      sized<print_bodies>},
     {"--calculix-bodies", "only two bodies beside CalculiX, likewise", sized<print_calculix_bodies>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
+    {"--touching", "only the costs of bodies in contact with each other, a table of docs/bodies.md",
+     sized<print_touching>},
     {"--variants", "only the tables of docs/variants.md",
      [](const Arguments&) { print_variants(), print_aggregates(); }},
     {"--aggregates", "of these, only the table of aggregates", [](const Arguments&) { print_aggregates(); }},

@@ -20,7 +20,8 @@ double status_of_memory(const std::string& wanted) {
   input_error("/proc/self/status", "has no line " + wanted);
 }
 
-/// Forgets what was freed and the peak so far. Bytes in use now.
+}  // namespace
+
 double begin_measuring() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << 5;
@@ -28,6 +29,10 @@ double begin_measuring() {
   if (status_of_memory("VmHWM:") > 1.05 * now) input_error("/proc/self/clear_refs", "does not reset the peak");
   return now;
 }
+
+double peak_memory() { return status_of_memory("VmHWM:"); }
+
+namespace {
 
 template <int B>
 double bytes(const BlockMatrix<B>& A) {
@@ -40,7 +45,7 @@ void row(int nodes) {
   const MeshHierarchy<3> hierarchy = build_hierarchy<3>(problem.scene, 3);
   const double before = begin_measuring();
   const Solved solved = solve_nonlinear<3, 3>(problem, hierarchy);
-  const double peak = status_of_memory("VmHWM:");
+  const double peak = peak_memory();
   const auto finest =
       discretize<3, 3>(Nodes(hierarchy.finest()), build_model<3>(problem.scene, 3, problem.registry, 1));
   const double matrix = bytes(finest.problem.A);

@@ -33,7 +33,7 @@ std::vector<double> full_tensors(const std::vector<Stress>& stress) {
 }  // namespace
 
 template <int D, int B>
-ContactFields contact_fields(const Nodes<D>& nodes, const ContactState<B>& state) {
+ContactFields contact_fields(const Nodes<D>& nodes, const Results<D, B>& results) {
   const auto size = static_cast<std::size_t>(nodes.size());
   ContactFields fields{std::vector<double>(size, std::numeric_limits<double>::quiet_NaN()),
                        std::vector<double>(size),
@@ -41,19 +41,21 @@ ContactFields contact_fields(const Nodes<D>& nodes, const ContactState<B>& state
                        std::vector<double>(size),
                        std::vector<double>(B > 1 ? 3 * size : 0),
                        std::vector<double>(B > 1 ? 3 * size : 0)};
-  for (const ContactNode<B>& node : state.nodes) {
+  const auto add = [&](const ContactNode<B>& node) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
     fields.pressure[node.vertex] += node.recovered;
     fields.nodal_pressure[node.vertex] += node.pressure;
     const double contact = !node.contact ? 0 : !node.friction ? 1 : node.sticks ? 3 : 2;
     fields.contact[node.vertex] = std::max(fields.contact[node.vertex], contact);
-    if (B == 1 || !(node.area > 0)) continue;
+    if (B == 1 || !(node.area > 0)) return;
     for (int i = 0; i < B; ++i) {
       const std::size_t at = 3 * std::size_t(node.vertex) + i;
       fields.tangential[at] += node.traction[i];
       fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
     }
-  }
+  };
+  std::ranges::for_each(results.contact.nodes, add);
+  std::ranges::for_each(results.masters, add);
   for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
     *field = nodes.per_vertex(std::move(*field), 1);
   if (B > 1)
@@ -217,7 +219,7 @@ void write_tables(AtomicFiles& files, const Report& report) {
 }
 
 #define SIGNORINI_OUTPUT(D, B)                                                                                   \
-  template ContactFields contact_fields(const Nodes<D>&, const ContactState<B>&);                                \
+  template ContactFields contact_fields(const Nodes<D>&, const Results<D, B>&);                                  \
   template std::vector<VtuField> point_fields(const Nodes<D>&, const Results<D, B>&, const std::vector<Stress>&, \
                                               ContactFields);                                                    \
   template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&,        \

@@ -17,7 +17,7 @@ struct ContactFields {
 };
 
 template <int D, int B>
-ContactFields contact_fields(const Nodes<D>& nodes, const ContactState<B>& state);
+ContactFields contact_fields(const Nodes<D>& nodes, const Results<D, B>& results);
 
 /// Values at the vertices as solution.vtu holds them. Contact quantities are there when there are obstacles; where none
 /// can be reached, or no unknown is free to, the gap is NaN and the others are zero.

@@ -58,7 +58,7 @@ class ResultFiles {
     fields_.clear();
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       fields_.push_back(driver_.visit(body, [](const auto& run) {
-        return Fields{run.stress(), contact_fields(run.nodes(), run.results().contact)};
+        return Fields{run.stress(), contact_fields(run.nodes(), run.results())};
       }));
   }
 

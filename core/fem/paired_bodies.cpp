@@ -273,6 +273,23 @@ std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const
 }
 
 template <int D>
+bool same_jumps(const PairedBodies<D>& a, const PairedBodies<D>& b) {
+  return std::ranges::equal(a.nodes, b.nodes,
+                            [](const PairedNode<D>& p, const PairedNode<D>& q) {
+                              return p.node == q.node && p.obstacle == q.obstacle && p.away == q.away;
+                            }) &&
+         *a.jumps == *b.jumps;
+}
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> with_new_gaps(const PairedBodies<D>& all, const PairedBodies<D>& chosen) {
+  PairedBodies<D> out;
+  out.jumps = chosen.jumps;
+  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
+  return std::make_shared<const PairedBodies<D>>(std::move(out));
+}
+
+template <int D>
 bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
                        const PairedBodies<D>& chosen, const std::vector<double>& u) {
   const Distances distance = distances(nodes, model, all, u);
@@ -285,6 +302,10 @@ template std::shared_ptr<const PairedBodies<2>> near_contact(const Nodes<2>&, co
                                                              const std::vector<double>&, const PairedBodies<2>*);
 template std::shared_ptr<const PairedBodies<3>> near_contact(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&,
                                                              const std::vector<double>&, const PairedBodies<3>*);
+template bool same_jumps(const PairedBodies<2>&, const PairedBodies<2>&);
+template bool same_jumps(const PairedBodies<3>&, const PairedBodies<3>&);
+template std::shared_ptr<const PairedBodies<2>> with_new_gaps(const PairedBodies<2>&, const PairedBodies<2>&);
+template std::shared_ptr<const PairedBodies<3>> with_new_gaps(const PairedBodies<3>&, const PairedBodies<3>&);
 template bool touches_elsewhere(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&, const PairedBodies<2>&,
                                 const std::vector<double>&);
 template bool touches_elsewhere(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&, const PairedBodies<3>&,

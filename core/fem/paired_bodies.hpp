@@ -58,6 +58,15 @@ std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const
                                                     const PairedBodies<D>& all, const std::vector<double>& u,
                                                     const PairedBodies<D>* also = nullptr);
 
+/// Whether unknowns are jumps at the same nodes, by the same weights and along the same directions: matrices stay the
+/// same. Gaps may differ.
+template <int D>
+bool same_jumps(const PairedBodies<D>& a, const PairedBodies<D>& b);
+
+/// Of all pairs those that `chosen` has, jumps taken from there: for pairs whose gaps alone are others by now.
+template <int D>
+std::shared_ptr<const PairedBodies<D>> with_new_gaps(const PairedBodies<D>& all, const PairedBodies<D>& chosen);
+
 /// Whether a displacement takes a pair that is not among `chosen` through its bound.
 template <int D>
 bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,

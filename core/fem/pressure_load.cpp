@@ -6,6 +6,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {
@@ -33,7 +34,7 @@ PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& 
       value_(space.value),
       materials_(static_cast<std::size_t>(space.materials)) {
   p_.resize(static_cast<std::size_t>(space.size));
-  for (std::size_t at = 0; at < space.column.size(); ++at)
+  for (std::size_t at = 0; !problem().jumps && at < space.column.size(); ++at)
     if (const double* Q = problem().frames.at(space.column[at])) {
       double local[D];
       block::transposed_product<D>(Q, value_.data() + at * D, local);
@@ -92,7 +93,16 @@ const std::vector<double>& PressureLoad<D>::load_of(const std::vector<double>& p
   for (Index k = 0; k < space_.size; ++k)
     for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
       for (int i = 0; i < D; ++i) load_[Offset{space_.column[at]} * D + i] += p[k] * value_[at * D + i];
+  if (problem().jumps) load_ = local_forces(problem(), std::move(load_));
   return load_;
+}
+
+/// What value_ is to be multiplied with.
+template <int D>
+const std::vector<double>& PressureLoad<D>::displacements(const std::vector<double>& x) {
+  if (!problem().jumps) return x;
+  displacements_ = to_global(problem(), x);
+  return displacements_;
 }
 
 template <int D>
@@ -135,10 +145,11 @@ void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>&
   residual.resize(p_.size());
   change.resize(p_.size());
   step_.resize(p_.size());
+  const std::vector<double>& u = displacements(x);
   for (Index k = 0; k < space_.size; ++k) {
     double sum = -product(space_, space_.compliance, k, p_);
     for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
-      for (int i = 0; i < D; ++i) sum += value_[at * D + i] * x[Offset{space_.column[at]} * D + i];
+      for (int i = 0; i < D; ++i) sum += value_[at * D + i] * u[Offset{space_.column[at]} * D + i];
     residual[k] = sum;
   }
   solve(residual, change);

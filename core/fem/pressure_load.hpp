@@ -33,13 +33,15 @@ class PressureLoad final : public FollowingLoad<D> {
   void find_directions();
   bool contains(std::size_t e, Index k) const { return e == materials_ || space_.material[k] == static_cast<Index>(e); }
   void solve(const std::vector<double>& residual, std::vector<double>& change);
+  const std::vector<double>& displacements(const std::vector<double>& x);
   const std::vector<double>& load_of(const std::vector<double>& p);
   void subtract(const std::vector<double>& load);
 
   const PressureSpace<D>& space_;
   Discretization<D>& discretization_;
   std::vector<double> p_;
-  std::vector<double> value_;             // of the space, in local coordinates
+  std::vector<double> value_;             // of the space, in local coordinates; where unknowns are jumps in global ones
+  std::vector<double> displacements_;     // then
   std::vector<double> schur_;             // what stands for the Schur complement C A^-1 C' + M
   std::vector<double> inverse_;           // of its diagonal
   std::vector<double> load_;              // C'p of the call before, D per node

@@ -1,0 +1,83 @@
+#include "tests/bodies/scenes.hpp"
+
+// What is known at the nodes of the master.
+
+namespace signorini::test {
+namespace {
+
+/// A block over another one, `apart` from it.
+std::string blocks(const char* slave, double apart, int order) {
+  const std::string material = fmt::format("order = {}\nyoung = 1\npoisson = 0\n", order);
+  return tables::block("lower", "[0, 0]", "[1, 1]", "[7, 4]", material) +
+         tables::block("upper", fmt::format("[0, {}]", 1 + apart), fmt::format("[1, {}]", 1.5 + apart), "[4, 2]",
+                       material) +
+         tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.06]") +
+         pair("upper", "bottom", "lower", "top", slave);
+}
+
+template <class Check>
+void each(const Check& check) {
+  for (const int order : {1, 2})
+    for (const char* slave : {"slave = \"body\"\n", "slave = \"other\"\n"}) {
+      SCOPED_TRACE(fmt::format("order {}, {}", order, slave));
+      check(slave, order);
+    }
+}
+
+// Without Poisson's ratio the stress is 0.06 / 1.5 everywhere.
+TEST(MasterSide, IsPressedAsTheSlaveIs) {
+  each([](const char* slave, int order) {
+    Driver driver(scene_of(blocks(slave, 0, order)));
+    ASSERT_TRUE(driver.solve().converged());
+    driver.visit(0, [](const auto& run) {
+      const auto& masters = run.results().masters;
+      EXPECT_GT(masters.size(), 4u);
+      for (const auto& node : masters) {
+        EXPECT_TRUE(node.contact);
+        EXPECT_NEAR(node.recovered, 0.04, 1e-9);
+        EXPECT_NEAR(node.pressure, 0.04, 1e-9);
+        EXPECT_NEAR(node.gap, 0, 1e-9);
+      }
+    });
+  });
+}
+
+TEST(MasterSide, KnowsHowFarTheSlaveIs) {
+  each([](const char* slave, int order) {
+    Driver driver(scene_of(blocks(slave, 0.1, order)));
+    ASSERT_TRUE(driver.solve().converged());
+    driver.visit(0, [](const auto& run) {
+      EXPECT_GT(run.results().masters.size(), 4u);
+      for (const auto& node : run.results().masters) {
+        EXPECT_FALSE(node.contact);
+        EXPECT_EQ(node.recovered, 0);
+        EXPECT_NEAR(node.gap, 0.04, 1e-9);
+      }
+    });
+  });
+}
+
+// Round bodies: the largest pressure and the width of what presses are alike on both sides.
+TEST(MasterSide, FeelsTheSamePressureWhereBodiesAreRound) {
+  Driver driver(scene_of(
+      "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\nsize = \"0.03 + 0.3 * "
+      "sqrt(x^2 + y^2)\"\nyoung = 1\npoisson = 0.3\n" +
+      tables::block("block", "[-1, -1]", "[1, 0]", "[64, 32]") + tables::fix("disk", "flat", "[0, -0.04]") +
+      tables::fix("block", "bottom", "[0, 0]") + pair("disk", "curved", "block", "top") + "[refine]\nuniform = 2\n"));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged());
+  const double largest = report.last().contact[0].max_pressure;
+  driver.visit(0, [&](const auto& run) {
+    double found = 0, force = 0;
+    for (const auto& node : run.results().masters) {
+      found = std::max(found, node.recovered);
+      force += node.pressure * node.area;
+    }
+    show("largest pressure {:.4g} on the slave, {:.4g} on the master\n", largest, found);
+    EXPECT_NEAR(found, largest, 0.03 * largest);
+    EXPECT_NEAR(force, length(report.last().contact[0].force), 0.01 * force);
+  });
+}
+
+}  // namespace
+}  // namespace signorini::test
