@@ -364,36 +364,58 @@ void add_forces(const ContactNode<B>& node, ContactSummary<B>& summary) {
   if (node.held || node.shared) summary.undetermined_force += node.pressure * node.area;
 }
 
-/// Of one obstacle.
+/// Adds up the nodes of one obstacle, which come by ascending vertex.
 template <int B>
-void add_to(ContactSummary<B>& summary, const std::vector<ContactNode<B>>& nodes, Index obstacle) {
-  ContactVertex<B> here;
-  for (const ContactNode<B>& node : nodes) {
-    if (node.obstacle != obstacle) continue;
-    if (here.vertex != node.vertex) {
-      here.add_to(summary);
-      here = {node.vertex};
+class ContactTotals {
+ public:
+  explicit ContactTotals(ContactSummary<B>& summary) : summary_(summary) {}
+  void add(const ContactNode<B>& node) {
+    if (here_.vertex != node.vertex) {
+      here_.add_to(summary_);
+      here_ = {node.vertex};
     }
-    here.add(node);
-    add_forces(node, summary);
+    here_.add(node);
+    add_forces(node, summary_);
   }
-  here.add_to(summary);
-}
+  void finish() const { here_.add_to(summary_); }
+
+ private:
+  ContactSummary<B>& summary_;
+  ContactVertex<B> here_;
+};
 
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
 void measure(const Nodes<D>& nodes, const Model<B>& model, Index obstacle, double least_force, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
+  ContactTotals<B> totals(summary);
+  const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
     node.area = surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
-    if (surface.in_body() && node.contact) summary.area += node.area;
+    if (!in_body) continue;
+    if (node.contact) summary.area += node.area;
+    totals.add(node);
   }
-  if (!surface.in_body()) summary.area = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
-  add_to(summary, state.nodes, obstacle);
+  if (!in_body) {
+    summary.area = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
+    for (const ContactNode<B>& node : state.nodes)
+      if (node.obstacle == obstacle) totals.add(node);
+  }
+  totals.finish();
+}
+
+/// What is held or shared and does not press is let go.
+template <int B>
+void release_what_does_not_press(const std::vector<double>& largest, std::vector<ContactNode<B>>& nodes) {
+  for (ContactNode<B>& node : nodes) {
+    const bool presses = node.pressure > positive_force * largest[node.obstacle];
+    if (node.held && !presses) release(node);
+    node.shared = node.shared && presses;
+  }
 }
 
 }  // namespace
@@ -422,11 +444,7 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
-  for (ContactNode<B>& node : state.nodes) {
-    const bool presses = node.pressure > positive_force * largest[node.obstacle];
-    if (node.held && !presses) release(node);
-    node.shared = node.shared && presses;
-  }
+  if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
     measure(nodes, model, static_cast<Index>(obstacle), positive_force * largest[obstacle], state);
   return state;

@@ -14,17 +14,11 @@ class PolyhedralBox final : public BoxObstacle<B> {
     status.fail(1, "these bounds come from other obstacles");
   }
 
-  // Flattened: rows are too short for a call each.
-  [[gnu::flatten]] void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
-    if (!view.facet_row) return BoxObstacle<B>::sweep(view, first, last, order);
-    const LevelView<B> level = view;  // stores to the iterate change nothing of it
-    const auto [from, to] = slots_between(level, first, last);
-    sweep_slots<B>(level, from, to, first, last, order, [&level](Index slot) {
-      if (has_facets(level, slot))
-        relax_in_polyhedron(level, slot);
-      else
-        relax_projected<B, BoxMinimiser<B>>(level, slot);
-    });
+  void sweep(const LevelView<B>& level, Index first, Index last, Order order) const noexcept override {
+    if (B == 1 || !level.facet_row)
+      BoxObstacle<B>::sweep(level, first, last, order);
+    else
+      sweep_with_facets(level, first, last, order);
   }
 
   void distance(const LevelView<B>& level, Index first, Index last, double* lower, double* upper,
@@ -49,6 +43,17 @@ class PolyhedralBox final : public BoxObstacle<B> {
   }
 
  private:
+  /// The view is copied: stores to the iterate change nothing of it. Flattened: rows are too short for a call each.
+  [[gnu::flatten]] static void sweep_with_facets(LevelView<B> level, Index first, Index last, Order order) {
+    const auto [from, to] = slots_between(level, first, last);
+    sweep_slots<B>(level, from, to, first, last, order, [&level](Index slot) {
+      if (has_facets(level, slot))
+        relax_in_polyhedron(level, slot);
+      else
+        relax_projected<B, BoxMinimiser<B>>(level, slot);
+    });
+  }
+
   /// The minimiser without bounds, relaxed, and that within them where it is not admissible.
   static void relax_in_polyhedron(const LevelView<B>& level, Index slot) {
     const Index p = level.constrained[slot];
