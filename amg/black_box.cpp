@@ -242,7 +242,7 @@ class BlackBox::BlockSolver final : public Solver {
                                       monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
-    if (!motions_->complete() && went_on(result.summary)) refuse_indefinite_by_steps<B>(problem_.A);
+    if (!motions_->complete() && is_in_doubt(levels, result.summary)) refuse_indefinite_by_steps<B>(problem_.A);
     if (fall_.certain && result.summary.outcome == Outcome::unbounded)
       go_on_without_motions(levels, result, monitor);
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
@@ -252,9 +252,14 @@ class BlackBox::BlockSolver final : public Solver {
     return result;
   }
 
-  /// Whether a method that solves linear systems has solved what cycles could not.
-  bool went_on(const Summary& summary) const {
-    return options_.method == "auto" && summary.converged() && !summary.stages.back().linear.empty();
+  /// Whether levels do not show if the energy falls along something smooth: a method that solves linear systems has
+  /// solved what cycles could not, or there are no levels. (Of many couplings a search takes longer than the solve.)
+  bool is_in_doubt(const AlgebraicLevels<B>& levels, const Summary& summary) const {
+    constexpr Offset few_blocks = 60;  // per vector
+    const bool alone =
+        levels.prolongations.empty() && std::ssize(problem_.A.column) <= few_blocks * Offset{problem_.A.size()};
+    const bool went_on = options_.method == "auto" && !summary.stages.back().linear.empty();
+    return summary.converged() && (alone || went_on);
   }
 
   void add_multiplier(Result& result) const {

@@ -206,6 +206,22 @@ TEST(Definite, StationaryPointsOfShiftedMembranesInRandomUnitsAreNotClaimed) {
   FAIL() << "the set-up has seen them all";
 }
 
+// Less its smallest eigenvalue 8 - (that of the Laplacian's roughest function): what has little energy changes its sign
+// from each unknown to the next. All couplings are positive, so there are no levels.
+TEST(Definite, StationaryPointsWhereRoughFunctionsFallAreNotClaimed) {
+  constexpr int cells = 271;
+  const double eigenvalue = 8 * std::pow(std::sin(std::numbers::pi / 2 / cells), 2);
+  const auto solved = [&](double times) {
+    const Matrix L = laplacian(cells), A = -shifted(L, 8 - times * eigenvalue);
+    BlackBox solver(A, 1);
+    const Eigen::VectorXd b = Eigen::VectorXd::Constant(A.rows(), -1e-6),
+                          lower = Eigen::VectorXd::Constant(A.rows(), -1);
+    return solver.solve(b, lower).summary.converged();
+  };
+  EXPECT_THAT([&] { solved(1.4); }, ::testing::ThrowsMessage<Error>(HasSubstr("indefinite: d'Ad is -")));
+  EXPECT_TRUE(solved(0.6));
+}
+
 TEST(Definite, LongSearches) {
   Random random(106);
   constexpr int cells = 161;
