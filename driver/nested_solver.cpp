@@ -71,7 +71,9 @@ bool is_stretched(const Mesh<D>& mesh, int block) {
 }
 
 /// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with
-/// the residual r in the middle between them, all in one pass over the matrix.
+/// the residual r in the middle between them, all in one pass over the matrix. Functionals that follow the solution are
+/// as they were after the last load step: with what presses less presses there is less friction, too, and all that is
+/// held would let go.
 template <int B>
 std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
   const std::vector<double>& first = vectors.front();
@@ -90,8 +92,9 @@ std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<st
         gain[v] += (vectors[v][at] - first[at]) * (problem.b[at] - Ax[i]);
       }
     }
+  const double* data = follows_solution(problem.segments) ? problem.constraints.before.data() : nullptr;
   for (std::size_t v = 1; v < vectors.size(); ++v)
-    gain[v] -= functional::change(problem, first.data(), vectors[v].data());
+    gain[v] -= functional::change(problem, first.data(), vectors[v].data(), data);
   std::size_t best = 0;
   for (std::size_t v = 1; v < vectors.size(); ++v)
     if (gain[v] >= gain[best]) best = v;

@@ -65,8 +65,9 @@ LevelView<B> view(const DiscreteProblem<B>& problem) {
 
 /// The same change for a problem.
 template <int B>
-double change(const DiscreteProblem<B>& problem, const double* from, const double* to) {
-  const LevelView<B> level = view(problem);
+double change(const DiscreteProblem<B>& problem, const double* from, const double* to, const double* data = nullptr) {
+  LevelView<B> level = view(problem);
+  if (data) level.data = data;
   double sum = 0;
   for (const Segment<B>& s : problem.segments)
     if (const Functional<B>* phi = s.obstacle->functional()) sum += phi->change(level, s.first, s.last, from, to);

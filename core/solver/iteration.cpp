@@ -170,7 +170,7 @@ void Iteration<B>::measure(double error) {
   moves_rigidly_ = squared < rounding;
   size_ = std::sqrt(std::max(squared, rounding));
   // Back at zero after a load step, but for rounding of positions: nothing is left that errors could be compared with.
-  const bool at_zero = reference_ == 0 && largest_before_ > 0 && is_rounding_of_unknowns();
+  const bool at_zero = zero_solves_ && largest_before_ > 0 && is_rounding_of_unknowns();
   s.algebraic_error = error == 0 || at_zero ? 0 : size_ > 0 ? error / size_ : 1;
   s.energy = energy(problem_, sums_.products) - 0.5 * of_load;
   if (finest().nonlinear) {
@@ -311,15 +311,37 @@ void Iteration<B>::finish_stage(double begin) {
   summary_.stages = {std::move(stage)};
 }
 
-// Where it is rounding the projected zero is the solution, and no other start has a scale to be measured by.
+// Where it is rounding the projected zero is the solution, and no other start has a scale to be measured by. After a
+// load step friction that follows the solution may hold what presses, whatever is taken off: then the forces of the
+// start are the scale, and zero is one solution of several.
 template <int B>
 double Iteration<B>::residual_at_projected_zero() {
   make_admissible(problem_, x_before_);
   const Sums sums = evaluate(x_before_, r_);
   const double size = std::max(sums.largest, largest_before_);
-  if (sums.natural_residual > of_products * std::numeric_limits<double>::epsilon() * size) return sums.natural_residual;
+  zero_solves_ = !(sums.natural_residual > of_products * std::numeric_limits<double>::epsilon() * size);
+  double held = 0;
+  if (follows() && largest_before_ > 0) {
+    make_admissible(problem_, x_);
+    evaluate(x_, r_);
+    held = displacement_by_forces(r_);
+  }
+  if (held > of_products * std::numeric_limits<double>::epsilon() * size) return std::max(held, sums.natural_residual);
+  if (!zero_solves_) return sums.natural_residual;
   x_ = x_before_;
   return 0;
+}
+
+// The largest displacement by what is left of forces at one vector, were it to move alone and free.
+template <int B>
+double Iteration<B>::displacement_by_forces(const std::vector<double>& r) const {
+  double largest = 0;
+  for (Index p = 0; p < problem_.A.size(); ++p) {
+    double d[B];
+    block::product<B>(finest().inverse.data() + Offset{p} * B * B, r.data() + Offset{p} * B, d);
+    largest = block::larger(largest, block::norm<B>(d));
+  }
+  return largest;
 }
 
 template <int B>

@@ -107,6 +107,7 @@ class Iteration {
   void finish_energies();
   void finish_stage(double begin);
   double residual_at_projected_zero();
+  double displacement_by_forces(const std::vector<double>& r) const;
 
   int before_ = 0;              // steps of other methods
   bool moves_rigidly_ = false;  // the iterate, but for rounding
@@ -116,6 +117,7 @@ class Iteration {
   std::vector<double> across_;  // of the step at facets that it stays on
   std::vector<double> gains_;   // one for each step
   double reference_ = 0;
+  bool zero_solves_ = false;  // the projected zero does
   double least_ = infinity;
   int stalled_ = 0;
   std::vector<double> zero_;              // empty without functionals

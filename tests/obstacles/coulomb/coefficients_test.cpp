@@ -1,5 +1,6 @@
 // Any coefficient of friction, small or large: what is called solved obeys Coulomb's law, as a judge says that knows
 // the displacements alone; what is not is said to be.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,6 +122,21 @@ TEST(Coefficients, AWedgeSlipsOutBelowTheAngleOfFrictionAndLocksAbove) {
       EXPECT_GT(driver.report().last().contact[0].stick_nodes, 0);
     }
   }
+}
+
+// What locks stays pressed when the load is taken off altogether, though all that lets go would be in balance, too.
+TEST(Coefficients, AWedgeThatLocksStaysPressedWithoutALoad) {
+  const auto pressed = [](const char* left) {
+    Driver driver(bench::wedge(1).with(
+        0.5, {fmt::format("load.0.value=[0, \"-0.01 * (t < 0.5 ? 2 * t : 1 - (1 - {}) * (2 * t - 1))\"]", left)}));
+    const StepReport& step = driver.solve().last();
+    EXPECT_TRUE(step.summary.converged()) << step.summary.reason;
+    EXPECT_LE(step.summary.iterations, 40) << left;
+    return std::hypot(step.contact[0].normal_force[0], step.contact[0].normal_force[1]);
+  };
+  const double without = pressed("0"), with = pressed("1e-5");
+  EXPECT_GT(without, 0.001);
+  EXPECT_NEAR(without, with, 1e-3 * with);
 }
 
 TEST(Coefficients, BoundsThatSwingSettleInAFewCycles) {
