@@ -213,8 +213,7 @@ AccuracyProblem cooks_membrane(int less, const std::filesystem::path&) {
           "Corners (0, 0), (48, 44), (48, 60), (0, 44), clamped at the left, E = 1, ν = 0.4999, plane strain, "
           "pressure 0.005 on the upper edge, below the lower one a rigid disk of radius 200 that touches it. "
           "`deflection` is that of (48, 60). *Linear* is what locks: `order = 1`, `pressure = \"none\"`; *quadratic* "
-          "the "
-          "default, with a pressure of its own. ",
+          "the default, with a pressure of its own. Linear elements on the next mesh are not solved in 200 cycles. ",
       .question = {.scene = R"toml([[body]]
 name = "membrane"
 shape = "polygon"
@@ -244,7 +243,7 @@ at = [48, 60]
 )toml"},
       .width = "width",
       .probe = "deflection",
-      .series = {{"linear", {order_1, "body.0.pressure=none"}, 5 - less}, {"quadratic", {order_2}, 4 - less}}};
+      .series = {{"linear", {order_1, "body.0.pressure=none"}, 4 - less}, {"quadratic", {order_2}, 4 - less}}};
   for (const double x : {16, 24, 32, 40})
     for (const double part : {0.1, 0.3, 0.5, 0.7, 0.9})
       out.question.samples.push_back({x, (1 - part) * (44.0 / 48 * x) + part * (44 + x / 3), 0});
