@@ -84,7 +84,7 @@ class PolynomialFit {
 /// Whether there are samples enough for a quadratic polynomial: at least K more than coefficients.
 template <int K, int N>
 bool enough_for_quadratic(const std::vector<Sample<K, N>>& samples) {
-  return samples.size() >= static_cast<std::size_t>(polynomial_terms(K, 2) + K);
+  return std::ssize(samples) >= polynomial_terms(K, 2) + K;
 }
 
 /// The value at the place itself: quadratic where there are samples enough, else linear where there is one more than
