@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "amg/coarsening/strength.hpp"
+
 namespace signorini {
 namespace {
 
@@ -20,13 +22,6 @@ template <int B>
 double trace(const double* block) {
   double sum = 0;
   for (int i = 0; i < B; ++i) sum += block[i * B + i];
-  return sum;
-}
-
-template <int B>
-double square(const double* block) {
-  double sum = 0;
-  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
   return sum;
 }
 

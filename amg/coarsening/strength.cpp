@@ -22,13 +22,6 @@ constexpr double strong_beside_positive = 0.3, positive = 0.25;
 constexpr double strong_norm = 0.2;  // of groups
 
 template <int B>
-double square(const double* block) {
-  double sum = 0;
-  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
-  return sum;
-}
-
-template <int B>
 double strength(const double* block) {
   if constexpr (B == 1) return std::max(0.0, -*block);
   return std::sqrt(square<B>(block));

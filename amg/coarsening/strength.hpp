@@ -63,6 +63,14 @@ struct StrengthGraph {
   void end_row() { row.push_back(static_cast<Offset>(to.size())); }
 };
 
+/// The square of the Frobenius norm of a block.
+template <int B>
+double square(const double* block) {
+  double sum = 0;
+  for (int i = 0; i < B * B; ++i) sum += block[i] * block[i];
+  return sum;
+}
+
 /// Whom the couplings of a graph come from, in rows that ascend; `balanced` is left out.
 StrengthGraph reversed(const StrengthGraph& graph);
 
