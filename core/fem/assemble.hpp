@@ -5,6 +5,7 @@
 #include "core/algebra/block_matrix.hpp"
 #include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
+#include "core/solver/jumps.hpp"
 
 namespace signorini {
 
@@ -12,8 +13,9 @@ namespace signorini {
 /// and memory are linear in the mesh. Coefficients that are expressions are taken at the centroids; for quadratic
 /// elements by a rule of degree 5.
 /// Errors (Exit::input): a coefficient out of range, an element without positive measure.
+/// @param jumps of elastic bodies: there is memory for the couplings that transform() adds
 template <int D, int B>
-BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model);
+BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model, const Jumps<B>* jumps = nullptr);
 
 /// Load vector, B per node: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
 /// exact for quartic fields; for quadratic elements both by one exact for cubic fields. An Error(Exit::input) names the

@@ -128,7 +128,7 @@ class Discretizer {
   Constraints<B>& constraints() { return out_.problem.constraints; }
 
   void assemble_stiffness() {
-    problem().A = stiffness(nodes_, model_);
+    problem().A = stiffness(nodes_, model_, problem().jumps.get());
     check_stiffness(nodes_, model_, problem().A);
     if (problem().jumps) transform(*problem().jumps, problem().A);
     rotate(problem().A, problem().frames);

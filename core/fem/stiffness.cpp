@@ -43,7 +43,7 @@ struct Assembly {
 };
 
 template <int D, int B, int P>
-Assembly<B> pattern(const Nodes<D>& nodes) {
+Assembly<B> pattern(const Nodes<D>& nodes, const Jumps<B>* jumps) {
   const Adjacency<D, P> around(nodes);
   const auto& elements = nodes.template elements<P>();
   const Index n = nodes.size();
@@ -66,6 +66,7 @@ Assembly<B> pattern(const Nodes<D>& nodes) {
     out.upper[p] = std::upper_bound(column.begin() + begin, column.end(), p) - column.begin();
     out.A.row.push_back(static_cast<Offset>(column.size()));
   }
+  if (jumps) reserve_couplings(*jumps, out.A);
   out.A.value.assign(column.size() * BlockMatrix<B>::block, 0.0);
   return out;
 }
@@ -202,12 +203,12 @@ void mirror(Assembly<B>& out) {
 }  // namespace
 
 template <int D, int B>
-BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model) {
+BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model, const Jumps<B>* jumps) {
   if constexpr (B == 1) {
     return scalar_stiffness(nodes, model);
   } else {
     return with_order(nodes, [&](auto order) {
-      Assembly<B> out = pattern<D, B, order>(nodes);
+      Assembly<B> out = pattern<D, B, order>(nodes, jumps);
       add_upper_half<D, B, order>(nodes, model, out);
       mirror(out);
       return std::move(out.A);
@@ -215,9 +216,9 @@ BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model) {
   }
 }
 
-template BlockMatrix<1> stiffness(const Nodes<2>&, const Model<1>&);
-template BlockMatrix<1> stiffness(const Nodes<3>&, const Model<1>&);
-template BlockMatrix<2> stiffness(const Nodes<2>&, const Model<2>&);
-template BlockMatrix<3> stiffness(const Nodes<3>&, const Model<3>&);
+template BlockMatrix<1> stiffness(const Nodes<2>&, const Model<1>&, const Jumps<1>*);
+template BlockMatrix<1> stiffness(const Nodes<3>&, const Model<1>&, const Jumps<1>*);
+template BlockMatrix<2> stiffness(const Nodes<2>&, const Model<2>&, const Jumps<2>*);
+template BlockMatrix<3> stiffness(const Nodes<3>&, const Model<3>&, const Jumps<3>*);
 
 }  // namespace signorini

@@ -28,26 +28,50 @@ std::vector<Index> number_of_slaves(const Jumps<B>& jumps, Index vectors) {
   return out;
 }
 
-/// The rows of Z' A Z, one after the other.
+/// A <- Z'A Z in place. Rows that change get longer: they are computed on their own first, then all rows move to where
+/// they end, the last one first.
 template <int B>
 class Transformation {
  public:
-  Transformation(const Jumps<B>& jumps, const BlockMatrix<B>& A)
+  Transformation(const Jumps<B>& jumps, BlockMatrix<B>& A)
       : jumps_(jumps), A_(A), slave_(number_of_slaves(jumps, A.size())), place_(slave_.size(), -1) {
     find_slaves_of_masters();
   }
 
-  BlockMatrix<B> product() {
-    BlockMatrix<B> out;
-    out.row.reserve(A_.row.size());
-    out.column.reserve(A_.column.size());
-    out.value.reserve(A_.value.size());
+  void apply() {
+    std::vector<Index> changing;
+    BlockMatrix<B> changed;
+    Offset shift = 0;
     for (Index p = 0; p < A_.size(); ++p) {
-      if (stays(p))
-        copy(p, out);
-      else
-        append(p, out);
-      out.row.push_back(static_cast<Offset>(out.column.size()));
+      if (stays(p)) continue;
+      changing.push_back(p);
+      append(p, changed);
+      shift += changed.row.back() - changed.row.end()[-2] - length(p);
+    }
+    resize(A_.row.back() + shift);
+    Index after = A_.size();
+    for (auto i = static_cast<Index>(changing.size()); i-- > 0; after = changing[i]) {
+      const Index p = changing[i];
+      const Offset end = A_.row[p + 1], old_length = length(p);
+      move_rows(p + 1, after, shift);
+      A_.row[p + 1] = end + shift;
+      const Offset begin = end + shift - (changed.row[i + 1] - changed.row[i]);
+      std::copy(changed.column.begin() + changed.row[i], changed.column.begin() + changed.row[i + 1],
+                A_.column.begin() + begin);
+      std::copy(changed.at(changed.row[i]), changed.at(changed.row[i + 1]), A_.at(begin));
+      shift = begin - (end - old_length);
+    }
+  }
+
+  /// At most so many blocks more has A then.
+  Offset most_added() const {
+    Offset out = 0;
+    for (Index p = 0; p < A_.size(); ++p) {
+      out += masters_in(p);
+      for (Offset j = first_[p]; j < first_[p + 1]; ++j) {
+        const Index slave = jumps_.vector[pairs_[j].slave];
+        out += length(slave) + masters_in(slave);
+      }
     }
     return out;
   }
@@ -75,9 +99,27 @@ class Transformation {
                         [&](Index q) { return slave_[q] >= 0; });
   }
 
-  void copy(Index p, BlockMatrix<B>& out) const {
-    out.column.insert(out.column.end(), A_.column.begin() + A_.row[p], A_.column.begin() + A_.row[p + 1]);
-    out.value.insert(out.value.end(), A_.at(A_.row[p]), A_.at(A_.row[p + 1]));
+  Offset length(Index p) const { return A_.row[p + 1] - A_.row[p]; }
+
+  /// All masters of the slaves in a row.
+  Offset masters_in(Index p) const {
+    Offset out = 0;
+    for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k)
+      if (const Index s = slave_[A_.column[k]]; s >= 0) out += jumps_.row[s + 1] - jumps_.row[s];
+    return out;
+  }
+
+  void resize(Offset blocks) {
+    A_.column.resize(static_cast<std::size_t>(blocks));
+    A_.value.resize(static_cast<std::size_t>(blocks) * B * B);
+  }
+
+  /// To places further on, and notes where they end.
+  void move_rows(Index begin, Index end, Offset shift) {
+    const Offset first = A_.row[begin], last = A_.row[end];
+    std::copy_backward(A_.column.begin() + first, A_.column.begin() + last, A_.column.begin() + last + shift);
+    std::copy_backward(A_.at(first), A_.at(last), A_.at(last + shift));
+    for (Index p = begin; p < end; ++p) A_.row[p + 1] += shift;
   }
 
   void append(Index p, BlockMatrix<B>& out) {
@@ -102,6 +144,7 @@ class Transformation {
       out.value.insert(out.value.end(), value, value + B * B);
     }
     for (const Index q : columns_) place_[q] = -1;
+    out.row.push_back(static_cast<Offset>(out.column.size()));
   }
 
   /// Adds M Z_q. to the row.
@@ -132,7 +175,7 @@ class Transformation {
   const double* projector(Index s) const { return jumps_.project.data() + Offset{s} * B * B; }
 
   const Jumps<B>& jumps_;
-  const BlockMatrix<B>& A_;
+  BlockMatrix<B>& A_;
   const std::vector<Index> slave_;  // per vector its number among the slaves, -1: none
   std::vector<Offset> first_;       // per vector: where the slaves that it is a master of begin
   std::vector<Pair> pairs_;
@@ -274,7 +317,12 @@ void transform_forces(const Jumps<B>& jumps, std::vector<double>& b) {
 
 template <int B>
 void transform(const Jumps<B>& jumps, BlockMatrix<B>& A) {
-  A = Transformation<B>(jumps, A).product();
+  Transformation<B>(jumps, A).apply();
+}
+
+template <int B>
+void reserve_couplings(const Jumps<B>& jumps, BlockMatrix<B>& A) {
+  A.value.reserve((A.column.size() + static_cast<std::size_t>(Transformation<B>(jumps, A).most_added())) * B * B);
 }
 
 template <int B>
@@ -287,6 +335,7 @@ Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fin
   template void to_jumps(const Jumps<B>&, std::vector<double>&);         \
   template void transform_forces(const Jumps<B>&, std::vector<double>&); \
   template void transform(const Jumps<B>&, BlockMatrix<B>&);             \
+  template void reserve_couplings(const Jumps<B>&, BlockMatrix<B>&);     \
   template Prolongation between_jumps(const Prolongation&, const Jumps<B>&, const Jumps<B>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)

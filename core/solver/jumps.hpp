@@ -41,6 +41,9 @@ void transform_forces(const Jumps<B>& jumps, std::vector<double>& b);
 /// A <- Z'A Z. Rows next to no side stay as they are.
 template <int B>
 void transform(const Jumps<B>& jumps, BlockMatrix<B>& A);
+/// Memory for the values of Z'A Z, so that they stay where they are: for an A that has its pattern only.
+template <int B>
+void reserve_couplings(const Jumps<B>& jumps, BlockMatrix<B>& A);
 
 /// Interpolation between unknowns, Z_fine^-1 P Z_coarse. At slave vectors whose coarse ones are on the slave's side as
 /// well it takes jumps to be interpolated from jumps alone, which leaves out by how much the master's displacements are
