@@ -133,6 +133,10 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
 
 namespace {
 
+void add_once(std::string warning, std::vector<std::string>& warnings) {
+  if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
+}
+
 /// Loads far smaller than stiffness times displacement are lost in rounding, and in the tolerance.
 void add_balance_warning(const StepReport& report, std::vector<std::string>& warnings) {
   constexpr double noticeable = 0.01;
@@ -140,12 +144,13 @@ void add_balance_warning(const StepReport& report, std::vector<std::string>& war
   for (const BalanceReport& balance : report.balance) {
     const double applied = size(balance.applied), left = size(balance.sum());
     if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;
-    std::string warning = fmt::format(
-        "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness "
-        "times "
-        "displacement for the tolerance or the machine's precision, and what they do is not known",
-        balance.body, left, applied);
-    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
+    add_once(
+        fmt::format(
+            "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness "
+            "times "
+            "displacement for the tolerance or the machine's precision, and what they do is not known",
+            balance.body, left, applied),
+        warnings);
   }
 }
 
@@ -163,12 +168,17 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_, solver_.shift());
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
-  if (!solution.undetermined.empty()) {
-    std::string warning = fmt::format(
-        "{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves least along them",
-        model_.origin, fmt::join(solution.undetermined, "; "));
-    if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
-  }
+  if (!solution.undetermined.empty())
+    add_once(fmt::format("{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves "
+                         "least along them",
+                         model_.origin, fmt::join(solution.undetermined, "; ")),
+             warnings);
+  if (solution.slides_on)
+    add_once(
+        fmt::format("{}: in a step bodies slide past each other by more than part of an element, however often they "
+                    "are paired anew: take shorter steps",
+                    model_.origin),
+        warnings);
   add_balance_warning(report, warnings);
   times_.output += watch.elapsed();
   solver_.take_back(model_, std::move(solution.discretization));

@@ -53,11 +53,19 @@ bool LevelPairs<D, B>::held(const Model<B>& model) const {
 /// The shape stays the undeformed one: in the dent of a body that slides the next step would have to climb its slope.
 template <int D, int B>
 bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& u) {
-  bool moved = false;
+  std::vector<Point<B>> shift = shift_after(model, u);
+  if (shift == shift_) return false;
+  shift_ = std::move(shift);
+  return true;
+}
+
+template <int D, int B>
+std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Model<B>& model, const std::vector<double>& u) const {
+  std::vector<Point<B>> shift = shift_;
   if constexpr (D == B) {
-    if (given_ || !model.follows || !is_paired(model) || !all_.back()) return false;
-    std::vector<Point<B>> shift = shift_;
+    if (given_ || !model.follows || !is_paired(model) || !all_.back()) return shift;
     shift.resize(model.obstacles.size());
+    bool moved = false;
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
       if (!term.other || !term.renew) continue;
@@ -66,9 +74,9 @@ bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& 
       shift[k] = slip.mean;
       moved = true;
     }
-    if (moved) shift_ = std::move(shift);
+    if (!moved) return shift_;
   }
-  return moved;
+  return shift;
 }
 
 template <int D, int B>

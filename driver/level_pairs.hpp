@@ -38,6 +38,10 @@ class LevelPairs {
   /// them there from now on.
   /// @return whether it has
   bool follow(const Model<B>& model, const std::vector<double>& u);
+  /// Whether it would.
+  bool would_follow(const Model<B>& model, const std::vector<double>& u) const {
+    return shift_after(model, u) != shift_;
+  }
 
   /// From now on these are all that may touch, per mesh, whatever the model says.
   void give(std::vector<Pairs> pairs);
@@ -65,6 +69,7 @@ class LevelPairs {
   void connect(std::size_t level, std::span<Prolongation> between);
 
  private:
+  std::vector<Point<B>> shift_after(const Model<B>& model, const std::vector<double>& u) const;
   Prolongation interpolation(std::size_t refinement) const;
   bool held(const Model<B>& model) const;
 

@@ -701,14 +701,16 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   before_.back() = u;
   pairs_.follow(model, u);
   Solution<B> solution = solve_safely(model);
+  const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
   for (int again = 0; again < most_slides && solution.summary.converged(); ++again) {
-    if (!pairs_.follow(model, to_global(solution.discretization.problem, solution.x))) break;
+    if (!pairs_.follow(model, displacement())) return solution;
     progress_.phase("bodies have slid past each other, and are paired anew");
     std::vector<Stage> before = std::move(solution.summary.stages);
     for (Stage& stage : before) stage.kept = false;
     solution = solve_safely(model);
     solution.summary.put_in_front(std::move(before));
   }
+  solution.slides_on = solution.summary.converged() && pairs_.would_follow(model, displacement());
   return solution;
 }
 

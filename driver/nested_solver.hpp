@@ -32,6 +32,7 @@ struct Solution {
   std::vector<double> pressure;  ///< of NestedSolver::pressure_space()
   Summary summary;
   std::vector<std::string> undetermined;  ///< motions that nothing decides, see LooseBody
+  bool slides_on = false;                 ///< bodies have slid past each other since they were last paired
 };
 
 /// How levels below the coarsest mesh are chosen: classical or aggregation; nothing where there are none.

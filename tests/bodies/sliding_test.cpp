@@ -132,5 +132,22 @@ TEST(Sliding, InOneStepIsSeenInTheReport) {
   EXPECT_GT(inside(1), 4 * inside(8));
 }
 
+// A slender column that is pushed up beside the lowest point of a round body bends out of the way: each pairing lets it
+// slide on to the next one.
+TEST(Sliding, StepsThatAreTooLongSaySo) {
+  const auto told = [](const std::string& more) {
+    Driver driver(
+        scene_of("[[body]]\nname = \"round\"\nshape = \"half_disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.15\n" +
+                 material(1) + block("column", "[0.3, -4]", "[0.5, -1]", "[3, 40]", material(0.05)) +
+                 fix("round", "flat", "[0, 0]") + fix("column", "bottom", "[0, \"0.6 * t\"]") +
+                 pair("column", "top", "round", "curved", more) + "[steps]\nat = [0.1, 1]\n"));
+    return std::ranges::any_of(solved(driver).warnings, [](const std::string& warning) {
+      return warning.find("however often they are paired anew") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(""));
+  EXPECT_FALSE(told("renew = false\n"));
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -126,7 +126,10 @@ TYPED_TEST(JumpsOf, MatrixIsTheDenseProduct) {
   for (const double density : {0.02, 0.3}) {
     const auto A = random_symmetric<D>(random, bodies.vectors, density);
     auto C = A;
+    reserve_couplings(bodies.Z, C);
+    const double* const place = C.value.data();
     transform(bodies.Z, C);
+    EXPECT_EQ(C.value.data(), place);
     const Eigen::MatrixXd Z = dense_basis(bodies.Z, bodies.vectors), expected = Z.transpose() * dense(A) * Z;
     EXPECT_LE((dense(C) - expected).norm(), 1e-13 * expected.norm());
     for (Index p = 0; p < C.size(); ++p) {
