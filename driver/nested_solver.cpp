@@ -43,8 +43,9 @@ constexpr double most_across = D == 2 ? 4 : 16;
 /// Layers of vertices over vertices across, from where on bending makes coarser levels poor ones.
 constexpr double slender = 16;
 
-/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do.
-constexpr int patience_with_matrix = 40;
+/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do. With friction
+/// they may take sixty.
+constexpr int patience_with_matrix = 40, patience_with_friction = 100;
 
 /// How often a load step is solved again because bodies have slid on in it.
 constexpr int most_slides = 4;
@@ -584,7 +585,8 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   body.require_minimum();
   const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
   SolverOptions options = options_;
-  if (may_fall_back()) options.max_iterations = std::min(options.max_iterations, patience_with_matrix);
+  if (may_fall_back())
+    options.max_iterations = std::min(options.max_iterations, moves ? patience_with_matrix : patience_with_friction);
   solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
   while (solution.summary.converged() && pair_more(model, solution)) {
     std::vector<Stage> before = std::move(solution.summary.stages);

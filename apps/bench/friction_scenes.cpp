@@ -14,6 +14,14 @@ const std::string plane_block = tables::block("block", "[0, 0]", "[2, 1]", "[4, 
                                 "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.3\nbody = \"block\"\non = \"bottom\"\n"
                                 "shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n";
 
+// Pushed along a floor into a wall that leans and moves.
+const std::string corner_block =
+    tables::block("block", "[0, 0]", "[1, 1]", "[4, 4]") + tables::fix("block", "top", "[\"0.1*t\", -0.05]") +
+    "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.3\nbody = \"block\"\nwhere = \"y == 0 && x <= 0.5\"\n"
+    "shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n"
+    "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.3\nbody = \"block\"\nwhere = \"x == 1 && y >= 0.25 && y <= 0.75\"\n"
+    "shape = \"plane\"\npoint = [\"1.02 - 0.03*t\", \"0.1*t\"]\nnormal = [-1, 0.05]\n";
+
 std::string refined(int refinements) { return fmt::format("refine.uniform={}", refinements); }
 
 }  // namespace
@@ -21,12 +29,15 @@ std::string refined(int refinements) { return fmt::format("refine.uniform={}", r
 Scene FrictionScene::with(double friction, const Overrides& more) const {
   Overrides all = joined(overrides, more);
   for (int k = 0; k < obstacles; ++k) all.push_back(fmt::format("obstacle.{}.friction={}", k, friction));
-  return file.empty() ? parse_scene(plane_block, "block.toml", ".", all) : read_scene(scene_file(file), all);
+  if (!file.empty()) return read_scene(scene_file(file), all);
+  return parse_scene(obstacles == 1 ? plane_block : corner_block, "block.toml", ".", all);
 }
 
 FrictionScene block_2d(const std::string& name, const std::string& top, int refinements) {
   return {name, "", 1, {"fix.0.value=" + top, refined(refinements)}};
 }
+
+FrictionScene corner(int refinements) { return {"floor and wall", "", 2, {refined(refinements)}}; }
 
 FrictionScene block_3d(const std::string& name, const std::string& top, int refinements) {
   return {name, "block_with_coulomb_friction_3d.toml", 1, {"fix.0.value=" + top, refined(refinements)}};

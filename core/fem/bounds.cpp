@@ -325,7 +325,10 @@ void BoundCombiner<D, B>::merge(const Reduced& bound) {
       for (int i = 0; i < B; ++i) apart = std::max(apart, std::fabs(bound.direction[i] - sign * other.direction[i]));
       if (apart > parallel) continue;
       const double lower = sign > 0 ? bound.lower : -bound.upper, upper = sign > 0 ? bound.upper : -bound.lower;
-      if (lower > other.lower) other.lower = lower, other.lower_obstacle = obstacle, other.lower_from = bound.from;
+      // Of two that touch at once the one with a functional presses, not the one that rounding puts in front.
+      const double tie = functional_ && other.lower_from == functional_ ? rounding(obstacle) : 0;
+      if (lower > other.lower + tie)
+        other.lower = lower, other.lower_obstacle = obstacle, other.lower_from = bound.from;
       if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle, other.upper_from = bound.from;
       return;
     }

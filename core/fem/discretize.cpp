@@ -191,6 +191,7 @@ class Discretizer {
     const auto& combined = first == last ? none : combiner_.combine(first, last, fixed, held_);
     // What cannot move does not change a functional.
     const Bound<B>* functional = first == last || (fixed && fixed->count == B) ? nullptr : combiner_.functional();
+    if (functional && !combined.empty() && cannot_press(*functional, combined.front())) functional = nullptr;
     const auto& faces = first == last ? none : combiner_.facets();
     const bool constrained = !combined.empty() || !faces.empty() || functional;
     if (constrained) add_constraint(p, combined);
@@ -230,6 +231,21 @@ class Discretizer {
       const std::size_t at = constraints().lower.size() - B + static_cast<std::size_t>(k);
       constraints().lower[at] = constraints().upper[at] = problem().start[Offset{p} * B + k];
     }
+  }
+
+  /// Friction by the force of an obstacle that another one along the same direction is in front of: there is none.
+  bool cannot_press(const Bound<B>& bound, const CombinedBound<B>& along) const {
+    const ObstacleTerm<B>& term = model_.obstacles[bound.obstacle];
+    if (along.lower_from == &bound || !term.obstacle->renewal()) return false;
+    const Friction* friction = term.obstacle->friction();
+    const FrictionLaw law = friction ? friction->law(functionals_[bound.data].data.data()) : FrictionLaw{1, 1};
+    if (law.coefficient == 0) return false;
+    if (law.bound == 0) return true;
+    input_error(term.origin,
+                fmt::format("at ({}) {} is nearer along the same direction, so that the force that the "
+                            "functional depends on is another one's, which is not available in this "
+                            "version",
+                            fmt::join(nodes_.at(bound.vertex), ", "), model_.obstacles[along.lower_obstacle].origin));
   }
 
   /// A functional that follows the force along its direction has to know that.

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 #include "core/sdk/functional_obstacle.hpp"
@@ -107,9 +108,12 @@ struct GivenFrictionSolver {
   }
 
   /// The length l of the whole vector, at which |w(l)|^2 + resting = l^2 for w(l) = l (S l + g)^-1 p: the root of a
-  /// decreasing convex function, from its left by Newton's method.
+  /// decreasing convex function, from its left by Newton's method. The start is the length that the largest stiffness
+  /// would leave: from zero p / g overflows where the bound g is tiny.
   static double sliding_length(const double* s, const double* p, int count, double g, double resting) {
+    const double stiffest = count == 2 ? std::max(s[0], s[1]) : s[0];
     double l = std::sqrt(resting);
+    if (stiffest > 0) l = std::max(l, (std::hypot(p[0], count == 2 ? p[1] : 0) - g) / stiffest);
     for (int k = 0; k < 100; ++k) {
       double f = l > 0 ? resting / (l * l) - 1 : -1, slope = l > 0 ? -2 * resting / (l * l * l) : 0;
       for (int a = 0; a < count; ++a) {

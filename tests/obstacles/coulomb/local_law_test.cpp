@@ -158,5 +158,34 @@ TEST(CoulombLocalLaw, FrozenItIsFrictionWithAGivenBound) {
   }
 }
 
+template <int B>
+Vec<B> with_given_bound(const LocalProblem<B>& p, double bound) {
+  const Eigen::Matrix<double, B, B, Eigen::RowMajor> M = p.M;
+  double lower[B], upper[B];
+  std::fill_n(lower, B, -infinity);
+  std::fill_n(upper, B, infinity);
+  lower[0] = p.lower;
+  const Slot<B> slot{lower, upper, &bound, p.last.data(), (1u << B) - 2, true};
+  Vec<B> y;
+  GivenFrictionSolver<B>::minimise(slot, M.data(), p.r.data(), p.x.data(), y.data());
+  return y;
+}
+
+template <int B>
+void expect_tiny_bounds_hold_nothing() {
+  Random random(11);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto p = random_local<B>(random, 0.3);
+    const Vec<B> smooth = with_given_bound(p, 0);
+    for (const double bound : {1e-20, 1e-150, 1e-200, 1e-308, 5e-324})
+      EXPECT_LE((with_given_bound(p, bound) - smooth).norm(), 1e-13 * (1 + smooth.norm())) << bound;
+  }
+}
+
+TEST(CoulombLocalLaw, TinyBoundsHoldNothing) {
+  expect_tiny_bounds_hold_nothing<2>();
+  expect_tiny_bounds_hold_nothing<3>();
+}
+
 }  // namespace
 }  // namespace signorini::test

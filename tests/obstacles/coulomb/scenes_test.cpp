@@ -232,6 +232,29 @@ TEST(Coulomb, ScenesMayBeTurnedAndScaled) {
   EXPECT_EQ(other.contact().slip_nodes, first.contact().slip_nodes);
 }
 
+// Two floors in one place, which rounding tells apart: that with friction presses.
+TEST(Coulomb, OfTwoFloorsInOnePlaceTheRoughOnePresses) {
+  const TemporaryFolder folder;
+  const Motion<2> motion = rotation2(0.7);
+  const std::string file = folder.write("turned.msh", msh(rectangle({0, 0}, {2, 1}, {4, 2}), motion));
+  const auto floor = [&](double x) {
+    return "on = \"bottom\"\nshape = \"plane\"\npoint = " + text(motion.turned({x, 0})) +
+           "\nnormal = " + text(motion.turned({0, 1})) + "\n";
+  };
+  const auto contacts = [&](const std::string& more) {
+    const SceneText scene{.body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3", file),
+                          .fixes = {"on = \"top\"\nvalue = " + text(motion.turned({0.01, -0.03}))},
+                          .obstacle = coulomb(floor(0.1), "0.3"),
+                          .refinements = 2};
+    Driver driver(parse_scene(std::string(scene) + more, "test.toml", "."));
+    return driver.solve().last().contact;
+  };
+  const auto alone = contacts(""), both = contacts("[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\n" + floor(1.7));
+  EXPECT_EQ(both[1].nodes, 0);
+  EXPECT_EQ(both[0].slip_nodes, alone[0].slip_nodes);
+  for (int i = 0; i < 2; ++i) EXPECT_NEAR(both[0].force[i], alone[0].force[i], 1e-10);
+}
+
 TEST(Coulomb, TheOrderOfVerticesDoesNotMatter) {
   const TemporaryFolder folder;
   const Mesh<2> mesh = rectangle({0, 0}, {2, 1}, {8, 4});
@@ -351,6 +374,35 @@ TEST(Coulomb, OnlyNodesWithFrictionSlipOrStick) {
   EXPECT_GT(smooth, 0);
   EXPECT_GT(open, 0) << "no test";
   EXPECT_EQ(r.contact().slip_nodes + r.contact().stick_nodes, rough);
+}
+
+// A rough floor below a smooth plate, and below half of one: what cannot press does not drag.
+TEST(Coulomb, AnObstacleBehindAnotherOneDragsNothing) {
+  for (const char* depth : {"0.5", "1e-6"}) {
+    SCOPED_TRACE(depth);
+    const auto contacts = [&](const char* plate) {
+      const std::string floor =
+          std::string("on = \"bottom\"\nshape = \"plane\"\npoint = [\"0.1*t\", -") + depth + "]\nnormal = [0, 1]";
+      Driver driver(
+          parse_scene(std::string(block2(coulomb(floor, "0.5"), 2)) +
+                          "[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\non = \"bottom\"\nshape = \"expression\"\n" +
+                          "distance = \"" + plate + "\"\n[steps]\ncount = 2\n",
+                      "test.toml", "."));
+      const Report& report = driver.solve();
+      EXPECT_TRUE(report.converged()) << report.reason();
+      return report.last().contact;
+    };
+    const auto behind = contacts("y");
+    EXPECT_EQ(behind[0].nodes, 0);
+    EXPECT_EQ(behind[0].force[0], 0);
+    EXPECT_EQ(behind[0].dissipated, 0);
+    EXPECT_GT(behind[1].force[1], 0.01);
+    EXPECT_NEAR(behind[1].force[0], 0, 1e-12);
+    const auto half = contacts("x < 1.1 ? y : y + 1");
+    EXPECT_GT(half[1].force[1], 0.001);
+    EXPECT_NEAR(half[1].force[0], 0, 1e-12);
+    EXPECT_LE(std::abs(half[0].force[0]), 0.5 * half[0].force[1] + 1e-9);
+  }
 }
 
 TEST(Coulomb, ThatAnExpressionDoesNotDragIsSaid) {
