@@ -16,6 +16,7 @@
 #include "amg/black_box/recognise_block.hpp"
 #include "amg/black_box/refinement.hpp"
 #include "amg/black_box/refuse_indefinite.hpp"
+#include "amg/black_box/row_units.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "amg/registration.hpp"
 #include "core/algebra/products.hpp"
@@ -90,6 +91,56 @@ class BlackBox::Solver {
 
   static std::unique_ptr<Solver> create(const SparseRows& A, const Given& given, int block,
                                         const SolverOptions& options, const NearNullSpace& near_null = {});
+};
+
+/// The same in other units of the rows. Bounds that hold are met to the last bit.
+class BlackBox::InUnits final : public Solver {
+ public:
+  /// @param units of A
+  InUnits(const SparseRows& A, std::vector<double> units, const SolverOptions& options)
+      : units_(std::move(units)), solver_(Solver::create(in_units(checked(A), units_), {}, 1, options)) {}
+
+  void set_tolerance(double tolerance) override { solver_->set_tolerance(tolerance); }
+  void set_matrix(const SparseRows& A) override {
+    if (A.rows == static_cast<Index>(units_.size())) return solver_->set_matrix(in_units(checked(A), units_));
+    solver_->set_matrix(A);  // which says so
+  }
+
+  Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
+               std::span<const double> start, const Monitor& monitor) override {
+    check_size("b", b, units_.size());
+    const GivenBounds bounds(units_.size(), lower, upper);
+    if (!start.empty()) check_size("start", start, units_.size());
+    const auto times = [](double value, double unit) { return value * unit; };
+    const auto over = [](double value, double unit) { return value / unit; };
+    Result result =
+        solver_->solve(changed(b, times), changed(lower, over), changed(upper, over), changed(start, over), monitor);
+    for (std::size_t i = 0; i < units_.size(); ++i) {
+      const auto [low, high] = bounds[i];
+      const signed char active = result.active[i];
+      result.x[i] = active < 0 ? low : active > 0 ? high : block::clamp(result.x[i] * units_[i], low, high);
+      result.multiplier[i] /= units_[i];
+    }
+    return result;
+  }
+
+ private:
+  /// What is wrong with it is said in the units that it is given in.
+  static const SparseRows& checked(const SparseRows& A) {
+    std::vector<Flags> zero_rows;
+    (void)block_matrix<1>(A, &zero_rows);
+    return A;
+  }
+
+  template <class Change>
+  std::vector<double> changed(std::span<const double> values, const Change& change) const {
+    std::vector<double> out(values.size());
+    std::transform(values.begin(), values.end(), units_.begin(), out.begin(), change);
+    return out;
+  }
+
+  const std::vector<double> units_;
+  const std::unique_ptr<Solver> solver_;
 };
 
 template <int B>
@@ -369,7 +420,6 @@ class BlackBox::BlockSolver final : public Solver {
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
                                                            const SolverOptions& options,
                                                            const NearNullSpace& near_null) {
-  if (block == 0 && !given) block = recognised_block(A);
   switch (block) {
     case 1:
       return std::make_unique<BlockSolver<1>>(A, given, options, near_null);
@@ -382,8 +432,15 @@ std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, 
   }
 }
 
-BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options, const NearNullSpace& near_null)
-    : solver_(Solver::create(A, {}, block, options, near_null)) {}
+BlackBox::BlackBox(const SparseRows& A, int block, const SolverOptions& options, const NearNullSpace& near_null) {
+  if (block == 0) block = recognised_block(A);
+  std::vector<double> units;
+  if (block == 1 && near_null.modes == 0 && near_null.value.empty()) units = recognised_units(A);
+  if (units.empty())
+    solver_ = Solver::create(A, {}, block, options, near_null);
+  else
+    solver_ = std::make_unique<InUnits>(A, std::move(units), options);
+}
 
 BlackBox::BlackBox(const SparseRows& A, std::span<const SparseRows> interpolations, int block,
                    const SolverOptions& options, std::span<const SparseRows> coarse_matrices)

@@ -83,6 +83,7 @@ class BlackBox {
 
  private:
   class Solver;
+  class InUnits;
   template <int B>
   class BlockSolver;
   std::unique_ptr<Solver> solver_;

@@ -16,12 +16,6 @@ constexpr Index fewest_blocks = 4;               // below, chance makes rows ali
 /// neighbours in a seven-point stencil have 5 / 7.
 constexpr double alike = 0.75;
 
-bool has_proper_rows(const SparseRows& A) {
-  return A.rows > 0 && A.rows == A.columns && std::ssize(A.row) == A.rows + 1 && A.row.front() == 0 &&
-         std::ranges::is_sorted(A.row) && A.row.back() == std::ssize(A.column) && A.column.size() == A.value.size() &&
-         std::ranges::all_of(A.column, [&](Index c) { return c >= 0 && c < A.columns; });
-}
-
 /// Compares which blocks rows are coupled to, blocks beginning `shift` columns before a multiple of their size.
 class Couplings {
  public:
@@ -88,7 +82,7 @@ double part_mixed(const SparseRows& A, Index block) {
 }  // namespace
 
 int recognised_block(const SparseRows& A) {
-  if (!has_proper_rows(A)) return 1;
+  if (!is_square(A)) return 1;
   for (const Index block : {3, 2})
     if (A.rows % block == 0 && A.rows >= fewest_blocks * block && Couplings(A, block, 0).part_alike() >= most &&
         part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= more_than_rounding)

@@ -60,6 +60,12 @@ void check_entries(const SparseRows& matrix, std::string_view place) {
     }
 }
 
+bool is_square(const SparseRows& A) {
+  return A.rows > 0 && A.rows == A.columns && std::ssize(A.row) == A.rows + 1 && A.row.front() == 0 &&
+         std::ranges::is_sorted(A.row) && A.row.back() == std::ssize(A.column) && A.column.size() == A.value.size() &&
+         std::ranges::all_of(A.column, [&](Index c) { return c >= 0 && c < A.columns; });
+}
+
 SparseRows from_triangle(const SparseRows& triangle) {
   constexpr const char* place = "triangle of a matrix";
   check_entries(triangle, place);

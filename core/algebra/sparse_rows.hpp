@@ -49,6 +49,9 @@ struct SparseRows {
 /// finite. Rows and columns are counted from 1 in messages.
 void check_entries(const SparseRows& matrix, std::string_view place);
 
+/// Whether there are rows, as many as columns, that follow each other and whose columns exist.
+bool is_square(const SparseRows& matrix);
+
 /// The symmetric matrix that one of its triangles, the lower or the upper one with the diagonal, stands for.
 /// Error(Exit::input) for a matrix as above, and where entries lie on both sides of the diagonal.
 SparseRows from_triangle(const SparseRows& triangle);
