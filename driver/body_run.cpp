@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/problem.hpp"
@@ -137,23 +137,6 @@ void add_once(std::string warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
 }
 
-/// Loads far smaller than stiffness times displacement are lost in rounding, and in the tolerance.
-void add_balance_warning(const StepReport& report, std::vector<std::string>& warnings) {
-  constexpr double noticeable = 0.01;
-  const auto size = [](const std::vector<double>& v) { return std::sqrt(dot(v, v)); };
-  for (const BalanceReport& balance : report.balance) {
-    const double applied = size(balance.applied), left = size(balance.sum());
-    if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;
-    add_once(
-        fmt::format(
-            "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness "
-            "times "
-            "displacement for the tolerance or the machine's precision, and what they do is not known",
-            balance.body, left, applied),
-        warnings);
-  }
-}
-
 }  // namespace
 
 template <int D, int B>
@@ -179,7 +162,8 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
                     "are paired anew: take shorter steps",
                     model_.origin),
         warnings);
-  add_balance_warning(report, warnings);
+  for (std::string& warning : balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report))
+    add_once(std::move(warning), warnings);
   times_.output += watch.elapsed();
   solver_.take_back(model_, std::move(solution.discretization));
   return report;
