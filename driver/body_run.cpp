@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -118,12 +119,26 @@ Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model) {
   return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
 }
 
+namespace {
+
+/// The file of the plugin whose obstacle a message begins with; "" where it is none.
+std::string file_of_plugin(const Scene& scene, const Registry& registry, std::string_view message) {
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (message.starts_with(obstacle.source.table + ": ")) return registry.entry("obstacle", obstacle.type).file;
+  return {};
+}
+
+}  // namespace
+
 /// Where there is no solution, perhaps the body was meant to be on the other side.
 template <int D, int B>
 Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
   try {
     return solve_or_take_turns(model);
   } catch (const Error& error) {
+    if (const std::string file = file_of_plugin(scene_, registry_, error.what());
+        error.status() == Exit::plugin && !file.empty())
+      throw Error(Exit::plugin, fmt::format("{} ({})", error.what(), file));
     if (error.status() != Exit::no_solution) throw;
     const auto reasons = start_warnings(Nodes(hierarchy_.levels.front()), model, true);
     if (reasons.empty()) throw;
