@@ -40,10 +40,14 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
         times.mesh += watch.elapsed();
         return hierarchy;
       }()),
-      probes_(locate_probes(hierarchy_.finest(), scene, body)),
       solver_(hierarchy_, solver_options(scene, scene.bodies[body]), registry, progress, times,
               nodes_of(hierarchy_, scene.bodies[body].order)) {
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
+}
+
+template <int D, int B>
+void BodyRun<D, B>::find_probes() {
+  probes_ = locate_probes(mesh(), scene_, body_);
 }
 
 template <int D, int B>
