@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
-#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/problem.hpp"
@@ -39,10 +40,14 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
         times.mesh += watch.elapsed();
         return hierarchy;
       }()),
-      probes_(locate_probes(hierarchy_.finest(), scene, body)),
       solver_(hierarchy_, solver_options(scene, scene.bodies[body]), registry, progress, times,
               nodes_of(hierarchy_, scene.bodies[body].order)) {
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
+}
+
+template <int D, int B>
+void BodyRun<D, B>::find_probes() {
+  probes_ = locate_probes(mesh(), scene_, body_);
 }
 
 template <int D, int B>
@@ -118,12 +123,26 @@ Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model) {
   return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
 }
 
+namespace {
+
+/// The file of the plugin whose obstacle a message begins with; "" where it is none.
+std::string file_of_plugin(const Scene& scene, const Registry& registry, std::string_view message) {
+  for (const Scene::Obstacle& obstacle : scene.obstacles)
+    if (message.starts_with(obstacle.source.table + ": ")) return registry.entry("obstacle", obstacle.type).file;
+  return {};
+}
+
+}  // namespace
+
 /// Where there is no solution, perhaps the body was meant to be on the other side.
 template <int D, int B>
 Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
   try {
     return solve_or_take_turns(model);
   } catch (const Error& error) {
+    if (const std::string file = file_of_plugin(scene_, registry_, error.what());
+        error.status() == Exit::plugin && !file.empty())
+      throw Error(Exit::plugin, fmt::format("{} ({})", error.what(), file));
     if (error.status() != Exit::no_solution) throw;
     const auto reasons = start_warnings(Nodes(hierarchy_.levels.front()), model, true);
     if (reasons.empty()) throw;
@@ -135,23 +154,6 @@ namespace {
 
 void add_once(std::string warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
-}
-
-/// Loads far smaller than stiffness times displacement are lost in rounding, and in the tolerance.
-void add_balance_warning(const StepReport& report, std::vector<std::string>& warnings) {
-  constexpr double noticeable = 0.01;
-  const auto size = [](const std::vector<double>& v) { return std::sqrt(dot(v, v)); };
-  for (const BalanceReport& balance : report.balance) {
-    const double applied = size(balance.applied), left = size(balance.sum());
-    if (!(applied > 0 && left > noticeable * applied) || !report.summary.converged()) continue;
-    add_once(
-        fmt::format(
-            "body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside stiffness "
-            "times "
-            "displacement for the tolerance or the machine's precision, and what they do is not known",
-            balance.body, left, applied),
-        warnings);
-  }
 }
 
 }  // namespace
@@ -179,7 +181,8 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
                     "are paired anew: take shorter steps",
                     model_.origin),
         warnings);
-  add_balance_warning(report, warnings);
+  for (std::string& warning : balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report))
+    add_once(std::move(warning), warnings);
   times_.output += watch.elapsed();
   solver_.take_back(model_, std::move(solution.discretization));
   return report;

@@ -24,6 +24,8 @@ class BodyRun {
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
           std::vector<std::string>& warnings, PromisedMemory* promised = nullptr);
 
+  /// Those of all steps, which may be others than before. Error(Exit::input) for one outside the body.
+  void find_probes();
   /// The next step, at t, is the first one of its steps: friction counts from the undeformed body.
   void begin(double t);
   /// Tries the step at t, from the last solution that was accepted where there is one, and says what came out. Errors:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
@@ -58,6 +59,23 @@ std::string blamed(const Status& status, const Scene::Obstacle& scene, const Reg
                      registry.entry("obstacle", scene.type).file, scene.type);
 }
 
+/// @param plugin where messages begin
+void check_descriptor(const ObstacleDescriptor& descriptor, int block, const std::string& plugin) {
+  constexpr int most_directions = std::extent_v<decltype(descriptor.direction)>;
+  const auto refuse = [&](const std::string& what) { throw Error(Exit::plugin, plugin + " " + what); };
+  if (const int found = descriptor.directions; found < 0 || found > most_directions)
+    refuse(fmt::format("describes {} directions, expected 0 to {}", found, most_directions));
+  if (const int found = descriptor.data; found < 0 || found > most_data)
+    refuse(fmt::format("has {} numbers of its own, expected 0 to {}", found, most_data));
+  for (int k = 0; k < descriptor.directions; ++k) {
+    const auto& [name, components, values] = descriptor.direction[k];
+    if (!name || !*name) refuse(fmt::format("describes direction {} without a name", k));
+    if (components < 1 || components > block)
+      refuse(fmt::format("describes {} components of '{}', expected 1 to {}", components, name, block));
+    if (values < 1) refuse(fmt::format("describes {} values of '{}', expected at least 1", values, name));
+  }
+}
+
 /// The obstacle with the settings it holds on to.
 template <int B>
 ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry, double t) {
@@ -82,13 +100,7 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   check_asked(*settings, origin);  // first: what it then complains about may be due to it
   if (!status.ok()) throw_failure(status, blamed(status, scene, registry));
   if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
-  constexpr int most_directions = sizeof(ObstacleDescriptor::direction) / sizeof(ObstacleDescriptor::Direction);
-  if (const int found = obstacle->descriptor().directions; found < 0 || found > most_directions)
-    throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' describes {} directions, expected 0 to {}", origin,
-                                          scene.type, found, most_directions));
-  if (const int found = obstacle->descriptor().data; found < 0 || found > most_data)
-    throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' has {} numbers of its own, expected 0 to {}", origin,
-                                          scene.type, found, most_data));
+  check_descriptor(obstacle->descriptor(), B, fmt::format("{}: the plugin of '{}'", origin, scene.type));
   if (obstacle->functional() && !obstacle->linearisation())
     throw Error(Exit::plugin,
                 fmt::format("{}: the plugin of '{}' has a functional without its linearisation", origin, scene.type));

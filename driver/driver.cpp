@@ -1,6 +1,7 @@
 #include "driver/driver.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/scene/read_tables.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
@@ -32,11 +34,45 @@ Driver::Driver(Scene scene, const Progress& progress)
 
 Driver::~Driver() = default;
 
+namespace {
+
+/// What is kept of the bodies has to be of these.
+void refuse_other_bodies(const Scene& kept, const Scene& scene) {
+  const auto same = [](const Scene::Body& a, const Scene::Body& b) {
+    return a.name == b.name && a.equation == b.equation && a.plane == b.plane && a.order == b.order;
+  };
+  if (std::ranges::equal(kept.bodies, scene.bodies, same)) return;
+  const auto names = [](const Scene& of) {
+    std::vector<std::string> all;
+    for (const Scene::Body& body : of.bodies) all.push_back(body.name);
+    return all;
+  };
+  throw Error(Exit::usage,
+              fmt::format("{}: the bodies are others ({}), or of other kinds, than those that were solved before ({}); "
+                          "expected a driver of their own for them",
+                          scene.file.string(), fmt::join(names(scene), ", "), fmt::join(names(kept), ", ")));
+}
+
+}  // namespace
+
 /// The scene may have changed, but for its bodies.
 void Driver::prepare() {
+  check_scene(scene_, report_.scene);
+  report_.plugins = load_plugins(scene_, registry_);
   if (bodies_.empty()) report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
-  solved_ = with_touching_bodies(scene_);
+  Scene next = with_touching_bodies(scene_);
+  if (!bodies_.empty()) refuse_other_bodies(solved_, next);
+  solved_ = std::move(next);
   if (bodies_.empty()) build_bodies();
+}
+
+void Driver::require_body(std::size_t body) const {
+  if (body < bodies_.size()) return;
+  throw Error(Exit::usage, bodies_.empty()
+                               ? fmt::format("{}: there are no bodies before a solve has begun", report_.scene)
+                               : fmt::format("{}: there is no body {}, expected 0 to {}: bodies that touch each other "
+                                             "count as one",
+                                             report_.scene, body, bodies_.size() - 1));
 }
 
 void Driver::build_bodies() {
@@ -90,6 +126,7 @@ const Report& Driver::solve(const std::function<void()>& done) {
 }
 
 void Driver::begin() {
+  for (std::size_t body = 0; body < bodies(); ++body) visit(body, [](auto& run) { run.find_probes(); });
   const double t = scene_.steps.at.front();
   at_step(scene_, t, [&] {
     for (std::size_t body = 0; body < bodies(); ++body)

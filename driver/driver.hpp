@@ -33,8 +33,8 @@ class Driver {
   Driver(const Driver&) = delete;
   Driver& operator=(const Driver&) = delete;
 
-  /// May be changed between solves, but for the bodies' meshes, [solver], [refine] and the plugins it needs, which are
-  /// taken from it once. Values are used as they are: read_scene() would have refused some.
+  /// May be changed between solves, but for the bodies' meshes, [solver] and [refine], which are taken from it once.
+  /// The next solve checks names, lengths and constants as read_scene() does, and loads further plugins.
   Scene& scene() { return scene_; }
   const Scene& scene() const { return scene_; }
 
@@ -55,14 +55,17 @@ class Driver {
   /// Coordinates of these vertices, likewise.
   std::vector<double> points(std::size_t body = 0) const;
 
-  /// Calls visit(run) with the BodyRun<D, B> of a body; there is one once a solve has begun.
+  /// Calls visit(run) with the BodyRun<D, B> of a body; there is one once a solve has begun. Error(Exit::usage) for a
+  /// body that is not there, here and above.
   template <class Visit>
   decltype(auto) visit(std::size_t body, Visit&& visit) const {
-    return std::visit([&](const auto& run) -> decltype(auto) { return visit(std::as_const(*run)); }, bodies_.at(body));
+    require_body(body);
+    return std::visit([&](const auto& run) -> decltype(auto) { return visit(std::as_const(*run)); }, bodies_[body]);
   }
   template <class Visit>
   decltype(auto) visit(std::size_t body, Visit&& visit) {
-    return std::visit([&](auto& run) -> decltype(auto) { return visit(*run); }, bodies_.at(body));
+    require_body(body);
+    return std::visit([&](auto& run) -> decltype(auto) { return visit(*run); }, bodies_[body]);
   }
   std::size_t bodies() const { return bodies_.size(); }
 
@@ -79,6 +82,7 @@ class Driver {
 
   static const Progress& waiting();
   void prepare();
+  void require_body(std::size_t body) const;
   void build_bodies();
   void begin();
   bool advance(const Advance& by, const std::function<void()>& done);

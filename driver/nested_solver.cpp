@@ -10,6 +10,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/fem/check_functionals.hpp"
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
 #include "core/mesh/slender.hpp"
@@ -557,8 +558,11 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
+    if (error.status() != Exit::interrupted)
+      blame_functionals(nodes_[level], model, solution.discretization, solution.x);
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
+  check_functionals(nodes_[level], model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
   if constexpr (D == B) {

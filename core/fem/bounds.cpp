@@ -83,7 +83,8 @@ class Collector {
     if (bounds_.empty()) bounds_.reserve(static_cast<std::size_t>(candidates.size(nodes_)));
     const Obstacle<B>& of = *model_.obstacles[obstacle].obstacle;
     functional_ = of.functional() != nullptr;
-    needs_numbers_ = of.descriptor().data > 0;
+    told_ = of.descriptor().data;
+    describes_none_ = of.descriptor().directions == 0;
     if (model_.obstacles[obstacle].other)
       collect_paired(candidates);
     else
@@ -139,6 +140,11 @@ class Collector {
       throw Error(Exit::plugin,
                   fmt::format("{}: the plugin bounds {} directions at {}, expected 0 to {}",
                               model_.obstacles[obstacle_].origin, directions, position(nodes_, vertex), B));
+    if (directions > 0 && describes_none_)
+      throw Error(Exit::plugin, fmt::format("{}: the plugin bounds {} at {}, and its descriptor has no direction",
+                                            model_.obstacles[obstacle_].origin,
+                                            directions == 1 ? "a direction" : fmt::format("{} directions", directions),
+                                            position(nodes_, vertex)));
   }
 
   /// @param part of its bounds, see PairedNode
@@ -162,7 +168,8 @@ class Collector {
                               bound.lower == infinity ? "infinite lower bound" : "upper bound of minus infinity",
                               position(nodes_, vertex)));
     const bool bounded = bound.lower > -infinity || bound.upper < infinity;
-    if (functional_ && k == 0 && (!needs_numbers_ || has_data(constraint, vertex) || bounded)) {
+    const bool numbers = functional_ && k == 0 && has_numbers(constraint, vertex);
+    if (functional_ && k == 0 && (told_ == 0 || numbers || bounded)) {
       rules_ = true;
       bound.data = static_cast<Index>(functionals_.size());
       add_functional(at, constraint);
@@ -178,10 +185,15 @@ class Collector {
     if (!status.ok()) throw_failure(status, model_.obstacles[obstacle_].origin);
   }
 
-  // Any but zeros.
-  bool has_data(const LocalConstraint<B>& constraint, Index vertex) const {
+  // Any but zeros. Those beyond what the descriptor tells are kept nowhere.
+  bool has_numbers(const LocalConstraint<B>& constraint, Index vertex) const {
     bool any = false;
-    for (const double value : constraint.data) {
+    for (int k = 0; k < most_data; ++k) {
+      const double value = constraint.data[k];
+      if (k >= told_ && value != 0)
+        throw Error(Exit::plugin,
+                    fmt::format("{}: the plugin gives its functional {} numbers at {}, and its descriptor tells of {}",
+                                model_.obstacles[obstacle_].origin, k + 1, position(nodes_, vertex), told_));
       if (!std::isfinite(value))
         input_error(model_.obstacles[obstacle_].origin,
                     fmt::format("number that is not finite at {}", position(nodes_, vertex)));
@@ -196,7 +208,9 @@ class Collector {
   std::vector<FunctionalNumbers<B>>& functionals_;
   const PairedBodies<B>* pairing_;
   Index obstacle_ = 0;
-  bool functional_ = false, needs_numbers_ = false;
+  bool functional_ = false;
+  int told_ = 0;  // numbers of its own that the descriptor tells of
+  bool describes_none_ = false;
   bool rules_ = false;  // its functional acts at the vertex, all of whose directions are coordinates then
   std::vector<Index> numbers_;
   std::vector<double> parts_;

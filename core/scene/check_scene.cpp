@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
@@ -38,20 +39,36 @@ bool scalar(const Scene& scene, const std::string& body) {
   return scene.body(body).equation == Scene::Equation::diffusion;
 }
 
+// The reader refuses such constants already; a program may have written others. Expressions are checked in use.
+void expect_finite(const Field& field, const std::string& place) {
+  if (const auto value = field.constant(); value && !std::isfinite(*value))
+    input_error(place, fmt::format("found {}, expected a finite number", *value));
+}
+
+void check_coefficients(const Scene& scene) {
+  for (const Scene::Body& body : scene.bodies) {
+    expect_finite(body.young, body.source.of("young"));
+    expect_finite(body.poisson, body.source.of("poisson"));
+    expect_finite(body.diffusion, body.source.of("diffusion"));
+  }
+}
+
 // What the equation takes, and nothing else.
 void check_materials(const Scene& scene) {
   for (const Scene::Material& m : scene.materials) {
     const bool diffusion = scalar(scene, m.body);
-    const auto check = [&](const char* key, bool given, bool wanted) {
+    const auto check = [&](const char* key, const std::optional<Field>& value, bool wanted) {
+      const bool given = value.has_value();
       const char* equation = diffusion ? "diffusion" : "elasticity";
       if (given && !wanted)
         input_error(m.source.of(key), fmt::format("'{}' has no meaning for equation = '{}'", key, equation));
       if (!given && wanted)
         input_error(m.source.table, fmt::format("missing key '{}', required for equation = '{}'", key, equation));
+      if (given) expect_finite(*value, m.source.of(key));
     };
-    check("young", m.young.has_value(), !diffusion);
-    check("poisson", m.poisson.has_value(), !diffusion);
-    check("diffusion", m.diffusion.has_value(), diffusion);
+    check("young", m.young, !diffusion);
+    check("poisson", m.poisson, !diffusion);
+    check("diffusion", m.diffusion, diffusion);
     if (!std::holds_alternative<Scene::MeshFile>(scene.body(m.body).shape))
       input_error(
           m.source.of("volume"),
@@ -67,7 +84,14 @@ void check_fixes(const Scene& scene) {
       input_error(fix.source.of("value"), "every component is free: nothing is fixed");
     if (fix.frame == Frame::normal && scalar(scene, fix.body))
       input_error(fix.source.of("frame"), "a scalar unknown has no frame 'normal'");
+    for (const std::optional<Field>& component : fix.value)
+      if (component) expect_finite(*component, fix.source.of("value"));
   }
+}
+
+void check_loads(const Scene& scene) {
+  for (const Scene::Load& load : scene.loads)
+    for (const Field& component : load.value) expect_finite(component, load.source.of("value"));
 }
 
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
@@ -163,6 +187,7 @@ struct ShapeCheck {
 
   void vector(const std::vector<Field>& fields, std::string_view key) const {
     expect_length(fields.size(), dimension, source.of(key), "coordinate");
+    for (const Field& field : fields) expect_finite(field, source.of(key));
   }
   void direction(const std::vector<Field>& fields, std::string_view key) const {
     vector(fields, key);
@@ -215,12 +240,14 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_unique(scene.bodies);
   check_unique(scene.probes);
   check_bodies(scene, scene.materials);
+  check_coefficients(scene);
   check_materials(scene);
   check_bodies(scene, scene.fixes);
   check_bodies(scene, scene.loads);
   check_bodies(scene, scene.obstacles);
   check_bodies(scene, scene.probes);
   check_fixes(scene);
+  check_loads(scene);
   check_obstacles(scene);
   check_held(scene, place);
   check_symmetry(scene);

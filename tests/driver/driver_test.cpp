@@ -1,9 +1,11 @@
 #include "driver/driver.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "apps/scenes/tables.hpp"
 
@@ -254,6 +256,79 @@ TEST(Driver, TellsWhatTheBoundaryOfAMeshIsTakenFor) {
   EXPECT_EQ(json["pieces"].size(), 5u);
   EXPECT_EQ(json["straightened"], 0);
   EXPECT_TRUE(to_json(Driver(scene_of(scalar)).solve())["geometry"].empty());
+}
+
+/// A change of a scene after a first solve that the next one refuses, saying so.
+struct Refused {
+  std::function<void(Scene&)> change;
+  Exit status;
+  std::vector<std::string> told;  // parts of the message
+};
+
+void expect_refused(const std::string& text, const Refused& refused) {
+  SCOPED_TRACE(refused.told.back());
+  Driver driver(scene_of(text));
+  ASSERT_TRUE(driver.solve().converged());
+  const Scene right = driver.scene();
+  refused.change(driver.scene());
+  try {
+    driver.solve();
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), refused.status);
+    for (const std::string& part : refused.told) EXPECT_THAT(error.what(), testing::HasSubstr(part));
+  }
+  driver.scene() = right;
+  EXPECT_TRUE(driver.solve().converged());
+}
+
+TEST(Driver, refuses_wrong_names_and_lengths_as_the_reader_does) {
+  const Refused cases[] = {
+      {[](Scene& s) { s.obstacles[0].body = "nobody"; }, Exit::input, {"obstacle.0.body", "no body 'nobody'"}},
+      {[](Scene& s) { s.loads[0].body = "x"; }, Exit::input, {"load.0.body", "no body 'x'"}},
+      {[](Scene& s) { s.fixes[1].body = "blok"; }, Exit::input, {"fix.1.body", "did you mean 'block'"}},
+      {[](Scene& s) { s.obstacles[0].other = "nobody"; }, Exit::input, {"no body 'nobody'"}},
+      {[](Scene& s) { s.obstacles[0].type = "contakt"; }, Exit::plugin, {"obstacle.0.type", "contakt"}},
+      {[](Scene& s) { s.bodies[0].young = NAN; }, Exit::input, {"young", "body.0"}},
+      {[](Scene& s) { s.probes.emplace_back(); }, Exit::input, {"no body ''"}},
+      {[](Scene& s) { s.fixes[0].value.clear(); }, Exit::input, {"fix.0.value", "nothing is fixed"}},
+      {[](Scene& s) { s.loads[0].value.clear(); }, Exit::input, {"load.0.value", "expected 3 components, found 0"}},
+      {[](Scene& s) { s.loads[0].value[1] = NAN; }, Exit::input, {"load.0.value", "found nan"}},
+      {[](Scene& s) { s.fixes[0].value[2] = -INFINITY; }, Exit::input, {"fix.0.value", "found -inf"}},
+      {[](Scene& s) { std::get<Scene::SphereShape>(*s.obstacles[0].shape).center.pop_back(); },
+       Exit::input,
+       {"obstacle.0.center", "expected 3 coordinates, found 2"}},
+      {[](Scene& s) { std::get<Scene::SphereShape>(*s.obstacles[0].shape).center[1] = NAN; },
+       Exit::input,
+       {"obstacle.0.center", "found nan"}},
+      {[](Scene& s) { s.bodies.push_back(s.bodies[0]), s.bodies[1].name = "b", s.fixes[0].body = "b"; },
+       Exit::usage,
+       {"bodies are others (block, b)", "solved before (block)"}},
+  };
+  for (const Refused& refused : cases) expect_refused(elastic, refused);
+}
+
+TEST(Driver, finds_probes_that_were_added) {
+  Driver driver(scene_of(elastic));
+  driver.solve();
+  driver.scene().probes = {{"corner", "block", {0, 0, 1}, {}}};
+  EXPECT_NEAR(driver.solve().last().probes.at(0).value[2], 0, 1e-12);
+  driver.scene().probes[0].at[0] = 7;
+  EXPECT_THROW(driver.solve(), Error);
+}
+
+TEST(Driver, knows_no_other_bodies) {
+  Driver driver(scene_of(elastic));
+  EXPECT_THROW(driver.solution(), Error);  // of no solve yet
+  for (const auto& ask : {std::function([&] { driver.start_from(9, {}); }), std::function([&] { driver.solution(9); }),
+                          std::function([&] { driver.points(1); })})
+    try {
+      ask();
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::usage);
+      EXPECT_THAT(error.what(), testing::HasSubstr("there is no body"));
+    }
 }
 
 }  // namespace

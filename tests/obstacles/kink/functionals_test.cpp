@@ -108,5 +108,28 @@ TEST(Functionals, WithoutALinearisationAreRefused) {
   expect_refused("vague", "has a functional without its linearisation");
 }
 
+TEST(Functionals, OfWrongDescriptorsAreRefused) {
+  expect_refused("wide", "describes 3 components of 'value', expected 1 to 1");
+  expect_refused("nameless", "describes direction 0 without a name");
+  expect_refused("silent", "bounds a direction at (");
+}
+
+TEST(Functionals, WithMoreNumbersThanTheyTellOfAreRefused) {
+  expect_refused("talkative", "gives its functional 2 numbers at (");
+}
+
+// The matrix is not to blame.
+TEST(Functionals, WithoutAnAnswerAreToldWithTheirLibrary) {
+  try {
+    Driver(parse_scene(membrane("type = \"lost\""), "test.toml", ".")).solve();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::plugin);
+    EXPECT_THAT(error.what(), testing::AllOf(testing::StartsWith("test.toml:"), testing::HasSubstr("obstacle.0: at ("),
+                                             testing::HasSubstr("the result of the local solver is (nan)"),
+                                             testing::HasSubstr("libsignorini_obstacle_lost.so)")));
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

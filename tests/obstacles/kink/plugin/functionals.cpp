@@ -41,7 +41,7 @@ struct Cost {
   }
 };
 
-class CostObstacle final : public FunctionalObstacle<1, Cost> {
+class CostObstacle : public FunctionalObstacle<1, Cost> {
  public:
   explicit CostObstacle(const Settings&) {}
   ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 0}; }
@@ -206,6 +206,54 @@ class Vague final : public BoxObstacle<1>, public Functional<1> {
   double slope(const LevelView<1>&, Index, Index, const double*, const double*) const noexcept override { return 0; }
 };
 
+/// An obstacle that says one thing of itself wrongly.
+class Misdescribed : public CostObstacle {
+ public:
+  Misdescribed(const Settings& settings, const ObstacleDescriptor& descriptor)
+      : CostObstacle(settings), descriptor_(descriptor) {}
+  ObstacleDescriptor descriptor() const noexcept override { return descriptor_; }
+
+ private:
+  ObstacleDescriptor descriptor_;
+};
+
+struct Wide final : Misdescribed {
+  explicit Wide(const Settings& settings) : Misdescribed(settings, {1, {{"value", 3, 1}}, 0}) {}
+};
+struct Nameless final : Misdescribed {
+  explicit Nameless(const Settings& settings) : Misdescribed(settings, {1, {{nullptr, 1, 1}}, 0}) {}
+};
+struct Silent final : Misdescribed {
+  explicit Silent(const Settings& settings) : Misdescribed(settings, {0, {}, 0}) {}
+};
+
+/// Gives more numbers than it tells of.
+struct Talkative final : Misdescribed {
+  explicit Talkative(const Settings& settings) : Misdescribed(settings, {1, {{"value", 1, 1}}, 1}) {}
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status& status) const noexcept override {
+    CostObstacle::assemble(vertices, count, constraints, status);
+    for (std::size_t k = 0; k < count; ++k) constraints[k].data[1] = 1;
+  }
+};
+
+/// A local solver without an answer.
+struct Lost : Cost {
+  static void minimise(const Slot<1>&, const double*, const double*, const double*, double* y) { *y = std::nan(""); }
+};
+class LostObstacle final : public FunctionalObstacle<1, Lost> {
+ public:
+  explicit LostObstacle(const Settings& settings) : cost_(settings) {}
+  ObstacleDescriptor descriptor() const noexcept override { return cost_.descriptor(); }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status& status) const noexcept override {
+    cost_.assemble(vertices, count, constraints, status);
+  }
+
+ private:
+  CostObstacle cost_;
+};
+
 void register_all(Registrar& registrar, Status& status) {
   const auto add = [&](const char* id, Obstacle<1>* (*one)(const Settings&, Status&) noexcept,
                        Obstacle<2>* (*two)(const Settings&, Status&) noexcept,
@@ -216,6 +264,11 @@ void register_all(Registrar& registrar, Status& status) {
   add("hardening", sdk::create<HardeningObstacle, 1>, nullptr, nullptr);
   add("greedy", sdk::create<Greedy, 1>, nullptr, nullptr);
   add("vague", sdk::create<Vague, 1>, nullptr, nullptr);
+  add("wide", sdk::create<Wide, 1>, nullptr, nullptr);
+  add("nameless", sdk::create<Nameless, 1>, nullptr, nullptr);
+  add("silent", sdk::create<Silent, 1>, nullptr, nullptr);
+  add("talkative", sdk::create<Talkative, 1>, nullptr, nullptr);
+  add("lost", sdk::create<LostObstacle, 1>, nullptr, nullptr);
   add("spring", nullptr, sdk::create<SpringObstacle, 2>, nullptr);
   add("rail", nullptr, nullptr, sdk::create<RailObstacle, 3>);
 }

@@ -1,0 +1,76 @@
+#include "driver/balance_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/dot.hpp"
+#include "core/sdk/block.hpp"
+#include "driver/touching_bodies.hpp"
+
+namespace signorini {
+namespace {
+
+/// Whether each node is one of a part of the body; all are where it has none.
+template <int D>
+std::vector<char> nodes_of_part(const Scene& scene, const Scene::Body& body, std::size_t part, const Nodes<D>& nodes) {
+  std::vector<char> inside(static_cast<std::size_t>(nodes.size()), body.parts.empty());
+  if (body.parts.empty()) return inside;
+  const auto [first, count] = regions_of_part(scene, body, part);
+  with_order(nodes, [&, first = first, count = count](auto order) {
+    const auto& elements = nodes.template elements<order>();
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (nodes.region(e) >= first && nodes.region(e) < first + count)
+        for (const Index p : nodes.of(elements[e])) inside[p] = true;
+  });
+  return inside;
+}
+
+/// The sum of their sizes, node by node: loads that balance each other count.
+template <int B>
+double size_of(const std::vector<double>& load, const std::vector<char>& inside) {
+  double sum = 0;
+  for (std::size_t p = 0; p < inside.size(); ++p)
+    if (inside[p]) sum += block::norm<B>(load.data() + p * B);
+  return sum;
+}
+
+/// @param radial the first entry is no resultant: radial forces of an axisymmetric body need not balance
+double left_over(const BalanceReport& balance, bool radial) {
+  std::vector<double> sum = balance.sum();
+  if (radial) sum.front() = 0;
+  return std::sqrt(dot(sum, sum));
+}
+
+}  // namespace
+
+template <int D, int B>
+std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
+                                          const std::vector<double>& load, const StepReport& report) {
+  constexpr double noticeable = 0.01;
+  std::vector<std::string> warnings;
+  if (!report.summary.converged()) return warnings;
+  const BodyReport& whole = report.bodies.front();
+  for (std::size_t part = 0; part < report.balance.size(); ++part) {
+    const double left = left_over(report.balance[part], whole.axisymmetric && B == D);
+    const double loads = whole.copies * size_of<B>(load, nodes_of_part(scene, body, part, nodes));
+    if (!(loads > 0 && left > noticeable * loads)) continue;
+    warnings.push_back(
+        fmt::format("body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside "
+                    "stiffness times displacement for the tolerance or the machine's precision, and what they do is "
+                    "not known",
+                    report.balance[part].body, left, loads));
+  }
+  return warnings;
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                                           \
+  template std::vector<std::string> balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&, \
+                                                           const std::vector<double>&, const StepReport&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

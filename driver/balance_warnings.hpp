@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/fem/nodes.hpp"
+#include "core/io/report.hpp"
+#include "core/scene/scene.hpp"
+
+namespace signorini {
+
+/// Bodies whose loads are lost in the tolerance or in rounding: what acts on them does not balance beside their loads.
+/// @param load Discretization::load
+/// @param report of this body alone, with its parts
+template <int D, int B>
+std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
+                                          const std::vector<double>& load, const StepReport& report);
+
+}  // namespace signorini

@@ -1,0 +1,71 @@
+#include "driver/balance_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/scenes/tables.hpp"
+#include "driver/driver.hpp"
+
+// Loads that are lost are told, and loads that balance each other are not taken for lost.
+
+namespace signorini::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string refined = "[refine]\nuniform = 2\n";
+const std::string square = tables::block("block", "[0, 0]", "[1, 1]", "[7, 7]") +
+                           tables::fix("block", "bottom", "[0, 0]") +
+                           tables::plane("block", "right", "[1.01, 0]", "[-1, 0]");
+
+std::vector<std::string> warnings(const std::string& text) {
+  Driver driver(parse_scene(text + refined, "test.toml", "."));
+  EXPECT_TRUE(driver.solve().converged());
+  return driver.report().warnings;
+}
+
+auto warns_of(const std::string& body) {
+  return Contains(AllOf(HasSubstr("body '" + body + "': forces balance up to"), HasSubstr("too small")));
+}
+
+TEST(BalanceWarnings, not_for_loads_that_cancel) {
+  EXPECT_THAT(
+      warnings(square + tables::load("block", "[-0.1, 0]", "left") + tables::load("block", "[0.1, 0]", "right")),
+      Not(warns_of("block")));
+  EXPECT_THAT(warnings(square + tables::load("block", "['0.1 * cos(pi * x)', 0]", "top")), Not(warns_of("block")));
+}
+
+// The radial entry of a sum is none of forces that hold each other.
+TEST(BalanceWarnings, not_for_radial_forces_of_axisymmetric_bodies) {
+  const std::string ring =
+      tables::block("ring", "[1, 0]", "[2, 1]", "[4, 4]", "plane = 'axisymmetric'\nyoung = 1\npoisson = 0.3\n") +
+      tables::fix("ring", "top", "['free', 0]") + tables::plane("ring", "bottom", "[0, 0]", "[0, 1]");
+  EXPECT_THAT(warnings(ring + tables::load("ring", "[0.05, 0]", "left")), Not(warns_of("ring")));
+}
+
+TEST(BalanceWarnings, for_loads_lost_beside_what_displacements_do) {
+  const std::string pressed = tables::block("block", "[0, 0]", "[1, 1]", "[7, 7]") +
+                              tables::fix("block", "top", "[0, -0.05]") +
+                              tables::plane("block", "bottom", "[0, 0]", "[0, 1]");
+  EXPECT_THAT(warnings(pressed + tables::load("block", "[0, -1e-16]")), warns_of("block"));
+  EXPECT_THAT(warnings(pressed + tables::load("block", "[0, -1e-3]")), Not(warns_of("block")));
+}
+
+// Of bodies that touch each other each has loads of its own to be compared with.
+TEST(BalanceWarnings, for_the_body_whose_loads_are_lost) {
+  const std::string pair = tables::block("upper", "[0, 1]", "[1, 2]", "[3, 3]") +
+                           tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
+                           tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.02]") +
+                           "[[obstacle]]\ntype = 'elastic'\nbody = 'upper'\non = 'bottom'\nother = 'lower'\nother_on "
+                           "= 'top'\n" +
+                           tables::load("upper", "[-0.01, 0]", "left") + tables::load("upper", "[0.01, 0]", "right");
+  const auto told = warnings(pair + tables::load("lower", "[0, -1e-16]"));
+  EXPECT_THAT(told, warns_of("lower"));
+  EXPECT_THAT(told, Not(warns_of("upper")));
+}
+
+}  // namespace
+}  // namespace signorini::test
