@@ -176,8 +176,9 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
       add_pair<B>(obstacle, results.slaves[k], whole[k].total(forces.on_body[k]), whole[k].total(forces.on_other[k]),
                   report);
     if (B == 1) continue;
-    const std::array<double, 3> about = reference_point(obstacle, t);
+    const std::array<double, 3> about = reference_point(obstacle, t), start = reference_point(obstacle, 0);
     report.moment_about.assign(about.begin(), about.begin() + D);
+    for (int i = 0; i < D; ++i) report.motion.push_back(about[i] - start[i]);
   }
   add_moments(nodes, scene.bodies[body].plane, results, reports);
   for (ContactReport& report : reports) report.radius = radius(D, scene.bodies[body].plane, report.area);

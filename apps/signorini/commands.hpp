@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/error.hpp"
-
 namespace signorini {
 
 /// `signorini solve`.
@@ -16,7 +14,8 @@ struct SolveArguments {
   bool quiet = false;
 };
 
-Exit solve_command(const SolveArguments& arguments);
+/// Error(Exit::not_converged) where what was written is no solution.
+void solve_command(const SolveArguments& arguments);
 
 /// `signorini qp`. Paths of files that are not given are empty.
 struct QpArguments {
@@ -28,7 +27,8 @@ struct QpArguments {
   std::optional<std::string> method;
 };
 
-Exit qp_command(const QpArguments& arguments);
+/// Error(Exit::not_converged) as above.
+void qp_command(const QpArguments& arguments);
 
 /// `signorini check`: says what would be solved.
 void check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "apps/signorini/interrupt.hpp"
+#include "core/base/error.hpp"
 #include "core/base/proc.hpp"
 #include "core/io/convergence.hpp"
 
@@ -17,6 +18,8 @@ namespace signorini {
 namespace {
 // Seconds.
 constexpr double longest_silence = 5, longest_silence_of_logs = 10;
+
+constexpr const char* not_solved = "not solved: ";
 }  // namespace
 
 Console::Console(bool quiet) {
@@ -79,7 +82,7 @@ std::string described(const Stage& stage) {
 void print_summary(const Summary& summary, bool solved, const std::string& reason) {
   const std::vector<Index>& unknowns = summary.level_unknowns;
   fmt::print("{}", convergence_table(summary.history));
-  fmt::print("{}: {}\n", solved ? "solved" : "not solved", reason);
+  fmt::print("{}{}\n", solved ? "solved: " : not_solved, reason);
   if (summary.stages.size() > 1)
     for (const Stage& stage : summary.stages) fmt::print("{}", described(stage));
   fmt::print("{} unknowns on {} levels ({} to {}), {} iterations, rate {}, energy {:.10g}\n",
@@ -96,6 +99,10 @@ void print_of_written(const std::function<void()>& print) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
   if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
   print_warnings({"standard output: cannot be written: is the disk full? The results are in their files."});
+}
+
+void fail_unless_solved(bool solved, const std::string& reason) {
+  if (!solved) throw Error(Exit::not_converged, not_solved + reason);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

@@ -40,6 +40,9 @@ void print_summary(const Summary& summary, bool solved, const std::string& reaso
 /// written there is a warning, and nothing is printed from then on.
 void print_of_written(const std::function<void()>& print);
 
+/// Error(Exit::not_converged) where results were written that are no solution.
+void fail_unless_solved(bool solved, const std::string& reason);
+
 /// On standard error, a line each.
 void print_warnings(const std::vector<std::string>& warnings);
 

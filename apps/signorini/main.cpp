@@ -11,6 +11,7 @@
 
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/interrupt.hpp"
+#include "core/base/error.hpp"
 #include "core/base/heap.hpp"
 #include "core/base/version.hpp"
 #include "core/component/crash.hpp"
@@ -241,9 +242,9 @@ int run(int argc, char** argv) {
     const std::string unknown = unknown_option(app);
     return report_error((unknown.empty() ? error.what() : unknown) + "; see 'signorini --help'", Exit::usage);
   }
-  if (*solve) return static_cast<int>(solve_command(arguments.solve));
+  if (*solve) solve_command(arguments.solve);
   if (*check) check_command(arguments.solve.scene, arguments.solve.overrides);
-  if (*qp) return static_cast<int>(qp_command(arguments.qp));
+  if (*qp) qp_command(arguments.qp);
   if (*list) list_command(arguments.list_kinds);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/interrupt.hpp"
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/io/matrix_market.hpp"
 #include "core/io/output_files.hpp"
@@ -71,7 +72,7 @@ class QpRun {
         outputs_({arguments.matrix, arguments.load, arguments.lower, arguments.upper, arguments.start,
                   arguments.near_null, arguments.coordinates}) {}
 
-  Exit run() {
+  void run() {
     read();
     BlackBox solver = set_up();
     solve(solver);
@@ -80,7 +81,7 @@ class QpRun {
       print_of_written([this] { print(); });
     else
       print();
-    return result_.summary.converged() ? Exit::solved : Exit::not_converged;
+    fail_unless_solved(result_.summary.converged(), result_.summary.reason);
   }
 
  private:
@@ -173,6 +174,6 @@ class QpRun {
 
 }  // namespace
 
-Exit qp_command(const QpArguments& arguments) { return QpRun(arguments).run(); }
+void qp_command(const QpArguments& arguments) { QpRun(arguments).run(); }
 
 }  // namespace signorini

@@ -86,13 +86,12 @@ Panel forces_over_t(const Report& report) {
   return panel;
 }
 
-/// How far what the force acts on has moved, see steps_panels().
-Vector displacement(const Report& report, const StepReport& step, std::size_t k) {
+/// How far what the force acts on has moved along the obstacle, see steps_panels().
+Vector displacement(const StepReport& step, std::size_t k) {
   const ContactReport& contact = step.contact[k];
   const auto probe = std::ranges::find(step.probes, contact.body, &ProbeReport::body);
   Vector u = probe == step.probes.end() ? contact.displacement : probe->value;
-  const Vector& first = report.steps.front().contact[k].moment_about;
-  for (std::size_t i = 0; i < contact.moment_about.size(); ++i) u[i] -= contact.moment_about[i] - first[i];
+  for (std::size_t i = 0; i < contact.motion.size(); ++i) u[i] -= contact.motion[i];
   return u;
 }
 
@@ -103,7 +102,7 @@ Line over_displacement(const Report& report, std::size_t k, Vector ContactReport
   if (axis.empty()) return line;
   line.points.push_back({0, 0});
   for (const StepReport& step : report.steps)
-    line.points.push_back({-along(axis, displacement(report, step, k)), along(axis, step.contact[k].*force)});
+    line.points.push_back({-along(axis, displacement(step, k)), along(axis, step.contact[k].*force)});
   return line;
 }
 

@@ -9,6 +9,7 @@
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/output.hpp"
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
 #include "driver/touching_bodies.hpp"
@@ -159,7 +160,7 @@ std::optional<Error> solve_steps(Driver& driver, ResultFiles& results) {
 }
 }  // namespace
 
-Exit solve_command(const SolveArguments& arguments) {
+void solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
   const Console progress(arguments.quiet);
@@ -181,7 +182,7 @@ Exit solve_command(const SolveArguments& arguments) {
     print_of_written([&] { print_result(report, written); });
     print_warnings(report.warnings);
   }
-  return report.converged() ? Exit::solved : Exit::not_converged;
+  fail_unless_solved(report.converged(), report.reason());
 }
 
 }  // namespace signorini

@@ -52,6 +52,7 @@ Json contact(const ContactReport& contact) {
             {"tangential_force", contact.tangential_force},
             {"moment", contact.moment},
             {"moment_about", contact.moment_about},
+            {"motion", contact.motion},
             {"dissipated_in_step", contact.dissipated_in_step},
             {"dissipated", contact.dissipated},
             {"displacement", contact.displacement},

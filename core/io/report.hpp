@@ -33,6 +33,7 @@ struct ContactReport {
   /// Of an elastic body: of `force` about the point `moment_about`, with the undeformed positions: about the z-axis in
   /// 2D, else three entries.
   std::vector<double> moment, moment_about;
+  std::vector<double> motion;        ///< of the point `moment_about` since t = 0, from where friction counts
   double dissipated_in_step = 0;     ///< work of friction, not negative
   double dissipated = 0;             ///< the same since the first step
   std::vector<double> displacement;  ///< mean of the surface that it may reach, one entry per unknown of a vertex

@@ -56,7 +56,7 @@ std::string heading(const Report& report, std::size_t dimension) {
   else
     row.names("moment", dimension);
   row.names("moment_about", dimension).text("dissipated_in_step").text("dissipated");
-  row.names("displacement", dimension);
+  row.names("displacement", dimension).names("motion", dimension);
   for (const ProbeReport& probe : report.last().probes) row.names(probe.name, dimension);
   return row.line();
 }
@@ -68,6 +68,7 @@ std::string line(const StepReport& step, const ContactReport& contact, std::size
   row.vector(contact.normal_force, dimension).vector(contact.tangential_force, dimension);
   row.vector(contact.moment, dimension == 2 ? 1 : 3).vector(contact.moment_about, dimension);
   row.number(contact.dissipated_in_step).number(contact.dissipated).vector(contact.displacement, dimension);
+  row.vector(contact.motion, dimension);
   for (const ProbeReport& probe : step.probes)
     row.vector(probe.body == contact.body ? probe.value : std::vector<double>(), dimension);
   return row.line();

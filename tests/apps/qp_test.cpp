@@ -226,6 +226,7 @@ TEST_F(Qp, AtTheIterationLimitTheResultIsWrittenAndMarked) {
   const Ended ended = signorini({"qp", "A.mtx", "b.mtx", "--method", "pgs", "--out", "x.mtx", "--report", "r.json"});
   EXPECT_EQ(ended.status, 3) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("not solved: iteration limit"));
+  EXPECT_THAT(ended.err, HasSubstr("signorini: error: not solved: iteration limit"));
   EXPECT_EQ(json().at("converged"), false);
   EXPECT_EQ(solution(n).size(), static_cast<std::size_t>(n));
 }

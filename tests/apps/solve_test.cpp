@@ -7,6 +7,7 @@ namespace signorini::test {
 namespace {
 using testing::HasSubstr;
 using testing::IsSupersetOf;
+using testing::StartsWith;
 using testing::UnorderedElementsAre;
 
 class Solve : public Program {};
@@ -31,6 +32,34 @@ TEST_F(Solve, PrintsTheConvergenceTableAndNothingWhenQuiet) {
   const Ended quiet = signorini({"solve", "membrane.toml", "--quiet"});
   EXPECT_EQ(quiet.status, 0);
   EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Solve, SaysOnStandardErrorWhyThereIsNoSolution) {
+  write("membrane.toml", membrane);
+  const std::vector<std::string> limited{"solve", "membrane.toml",         "--set", "solver.max_iterations=1",
+                                         "--set", "solver.method=monotone"};
+  const Ended ended = signorini(limited);
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.out, HasSubstr("not solved: iteration limit 1"));
+  EXPECT_THAT(ended.out, HasSubstr("report.json"));
+  EXPECT_THAT(ended.err, StartsWith("signorini: error: not solved: iteration limit 1"));
+  auto silent = limited;
+  silent.push_back("--quiet");
+  const Ended quiet = signorini(silent);
+  EXPECT_EQ(quiet.status, 3);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_EQ(quiet.err, ended.err);
+}
+
+// Every outcome that is no solution: here a pushed block that friction does not hold.
+TEST_F(Solve, SaysSoOfFrictionThatDoesNotComeToRest) {
+  write("block.toml", tables::block("b", "[0, 0]", "[2, 1]", "[8, 4]") + tables::load("b", "[0.0031, -0.01]") +
+                          tables::plane("b", "bottom", "[0, 0]", "[0, 1]") + "[refine]\nuniform = 1\n");
+  const Ended quiet = signorini(
+      {"solve", "block.toml", "--quiet", "--set", "obstacle.0.type=coulomb", "--set", "obstacle.0.friction=0.2"});
+  EXPECT_EQ(quiet.status, 3);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_THAT(quiet.err, StartsWith("signorini: error: not solved: friction"));
 }
 
 TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {

@@ -7,6 +7,7 @@
 
 #include "apps/scenes/tables.hpp"
 #include "apps/signorini/show_steps.hpp"
+#include "driver/driver.hpp"
 #include "program.hpp"
 
 namespace signorini::test {
@@ -69,7 +70,7 @@ TEST_F(Steps, TableHasWhatTheReportSays) {
          {"obstacle", "nodes", "open_nodes", "slip_nodes", "stick_nodes", "dissipated_in_step", "dissipated"})
       EXPECT_EQ(number(key), contact.at(key)) << key;
     for (int i = 0; i < 2; ++i)
-      for (const char* key : {"normal_force", "tangential_force", "moment_about", "displacement"})
+      for (const char* key : {"normal_force", "tangential_force", "moment_about", "displacement", "motion"})
         EXPECT_EQ(number(std::string(key) + "_" + "xy"[i]), contact.at(key).at(i)) << key;
     EXPECT_EQ(number("moment_z"), contact.at("moment").at(0));
     EXPECT_EQ(number("corner_x"), steps[k].at("probes").at(0).at("displacement").at(0));
@@ -216,7 +217,7 @@ TEST(StepsPanels, HaveForcesWithTheirSigns) {
     contact.slip_nodes = 1;
     contact.normal_force = {across[k], 4};
     contact.tangential_force = {along[k], 0};
-    contact.moment_about = contact.displacement = {0, 0};
+    contact.motion = contact.displacement = {0, 0};
   }
   const std::vector<Panel> panels = steps_panels(report);
   ASSERT_EQ(panels.size(), 2u);
@@ -228,6 +229,38 @@ TEST(StepsPanels, HaveForcesWithTheirSigns) {
   EXPECT_EQ(tangential.name, "tangential");
   EXPECT_EQ(normal.points.back()[1], 5);
   EXPECT_EQ(normal.name, "normal, size");
+}
+
+/// All steps of a scene without probes.
+Report solved(const fs::path& file, const std::vector<std::string>& overrides) {
+  Scene scene = read_scene(file, overrides);
+  scene.probes.clear();
+  Driver driver(std::move(scene));
+  return driver.solve();
+}
+
+std::vector<std::array<double, 2>> force_over_displacement(const Report& report) {
+  return steps_panels(report).at(1).lines.at(0).points;
+}
+
+// It begins at t = 0 and not at the first step, which here is a third of the way.
+TEST_F(Steps, ForceOverDisplacementIsThatOfTheWayAlongTheObstacle) {
+  const fs::path file = write("block.toml", block);
+  const std::string steps = "steps.at=[0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]";
+  const Report pushed = solved(file, {steps, "fix.0.value=['-0.1 * t', -0.03]"});
+  const Report dragged = solved(file, {steps, "fix.0.value=[0, -0.03]", "obstacle.0.point=['0.5 + 0.1 * t', 0]"});
+  const auto top = force_over_displacement(pushed), plane = force_over_displacement(dragged);
+  const double dissipated = dragged.last().contact[0].dissipated;
+  ASSERT_EQ(top.size(), 9u);
+  ASSERT_EQ(plane.size(), 9u);
+  for (std::size_t k = 0; k < top.size(); ++k) {
+    EXPECT_NEAR(plane[k][0], top[k][0], 1e-8) << k;
+    EXPECT_NEAR(plane[k][1], top[k][1], 1e-8) << k;
+    EXPECT_GE(plane[k][0], k == 0 ? 0 : plane[k - 1][0]) << "it moves one way";
+  }
+  double area = 0;
+  for (std::size_t k = 1; k < plane.size(); ++k) area += plane[k][1] * (plane[k][0] - plane[k - 1][0]);
+  EXPECT_NEAR(area / dissipated, 1, 0.02) << "force times way";
 }
 
 TEST_F(Steps, CheckLooksAtAllOfThem) {

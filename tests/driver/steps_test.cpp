@@ -176,6 +176,8 @@ at = [0.75, 1]
   for (const StepReport& step : driver.report().steps) {
     const ContactReport& contact = step.contact[0];
     EXPECT_THAT(contact.moment_about, ElementsAre(0.8, -3.1 + 0.2 * step.t));
+    EXPECT_EQ(contact.motion[0], 0);
+    EXPECT_NEAR(contact.motion[1], 0.2 * step.t, 1e-15) << "also before the first step";
     EXPECT_GT(contact.force[1], 1e-3);
     EXPECT_NEAR(contact.moment[0], 0, 1e-12);
     EXPECT_GT(contact.open_nodes, 0);
