@@ -66,8 +66,22 @@ ContactFields contact_fields(const Nodes<D>& nodes, const Results<D, B>& results
 namespace {
 
 template <int D, int B>
+std::vector<Reached> reached(const Nodes<D>& nodes, const Results<D, B>& results, const std::vector<int>& numbers) {
+  std::vector<Reached> out;
+  std::vector<char> touched(nodes.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    std::ranges::fill(touched, 0);
+    for (const auto& node : results.contact.nodes)
+      if (node.obstacle == static_cast<Index>(k)) touched[node.vertex] = 1;
+    for (Index v = 0; v < nodes.mesh().vertices(); ++v)
+      if (touched[nodes.of_vertex(v)]) out.push_back({v, numbers[k]});
+  }
+  return out;
+}
+
+template <int D, int B>
 Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const Results<D, B>& results,
-               const std::vector<Stress>& stress, const ContactFields& contact) {
+               const std::vector<Stress>& stress, const ContactFields& contact, const std::vector<int>& numbers) {
   Shown<D> out{hierarchy,
                {},
                {},
@@ -81,10 +95,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
   if constexpr (B == 1) {
     out.value = nodes.at_vertices(results.u, B);
   } else {
-    std::vector<bool> touched(nodes.size());
-    for (const auto& node : results.contact.nodes) touched[node.vertex] = true;
-    for (Index v = 0; v < nodes.mesh().vertices(); ++v)
-      if (touched[nodes.of_vertex(v)]) out.touched.push_back(v);
+    out.reached = reached(nodes, results, numbers);
     out.displacement = nodes.at_vertices(results.u, B);
     out.value = equivalent(stress);
     out.pressure = contact.pressure;
@@ -195,9 +206,10 @@ void draw_convergence(AtomicFiles& files, Report& report) {
 template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                  const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
-                 const std::string& suffix, Report& report) {
+                 const std::vector<int>& numbers, const std::string& suffix, Report& report) {
   paint(report, [&](const Painter& draw) {
-    const auto panels = result_panels<D, B>(shown(hierarchy, nodes, results, stress, contact), report.warnings);
+    const auto panels =
+        result_panels<D, B>(shown(hierarchy, nodes, results, stress, contact, numbers), report.warnings);
     if (!panels.empty()) draw.panels(files.stage("result" + suffix + ".png"), panels);
   });
 }
@@ -223,7 +235,8 @@ void write_tables(AtomicFiles& files, const Report& report) {
   template std::vector<VtuField> point_fields(const Nodes<D>&, const Results<D, B>&, const std::vector<Stress>&, \
                                               ContactFields);                                                    \
   template void draw_result(AtomicFiles&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&,        \
-                            const std::vector<Stress>&, const ContactFields&, const std::string&, Report&);
+                            const std::vector<Stress>&, const ContactFields&, const std::vector<int>&,           \
+                            const std::string&, Report&);
 SIGNORINI_OUTPUT(2, 1)
 SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)

@@ -56,11 +56,12 @@ bool is_result_file(const std::string& name);
 
 /// Draw the convergence history and the result. What could not be drawn goes to `report.warnings`.
 void draw_convergence(AtomicFiles& files, Report& report);
+/// @param numbers of the body's obstacles in the scene
 /// @param suffix of the picture's name, see body_suffix()
 template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                  const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
-                 const std::string& suffix, Report& report);
+                 const std::vector<int>& numbers, const std::string& suffix, Report& report);
 
 /// The forces of the obstacles over the steps, where there are several; else nothing.
 void draw_steps(AtomicFiles& files, Report& report);

@@ -7,6 +7,12 @@
 
 namespace signorini {
 
+/// A vertex that an obstacle may reach.
+struct Reached {
+  Index vertex;
+  int obstacle;  ///< number in the scene
+};
+
 /// What a picture of the result needs, on the vertices of the finest mesh.
 template <int D>
 struct Shown {
@@ -17,7 +23,7 @@ struct Shown {
   std::vector<Flags> contact;    ///< 0 where the vertex is free, 1 in contact, with friction 2 where it slips, 3 sticks
   std::vector<double> pressure;  ///< contact pressure, empty for scalar problems
   std::vector<double> tangential;  ///< tangential traction, three per vertex, likewise
-  std::vector<Index> touched;      ///< vertices that an obstacle may reach; of two bodies that touch those of the slave
+  std::vector<Reached> reached;    ///< by obstacles, ascending; of two bodies that touch each other on the slave
   bool two_bodies = false;         ///< parts of the mesh touch each other
 };
 
@@ -25,7 +31,8 @@ struct Shown {
 /// the coarsest is too fine. Panels may be empty.
 /// The deformed body coloured by `value`, bodies in space that touch each other cut open where they do, and the contact
 /// pressure seen along its normal (3D) or as a profile (2D); where there is friction, besides, where it slips and
-/// sticks, in 2D with the tangential traction.
+/// sticks, in 2D with the tangential traction. Profiles are lines for each obstacle. They begin to count in the middle
+/// of its contact, the mean place weighted by pressure.
 template <int D>
 std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes);
 /// The graph of u (2D) or a section (3D), and the coincidence set likewise.

@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "apps/signorini/drawn_level.hpp"
 #include "apps/signorini/show.hpp"
@@ -57,14 +61,15 @@ struct ContactZone {
   double radius = 0;
 };
 
+/// Of the vertices that some obstacles may reach.
 template <int D>
-std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown) {
+std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown, std::span<const Reached> reached) {
   const Mesh<D>& mesh = shown.hierarchy.finest();
   ContactZone<D> zone;
   double total = 0;
-  std::vector<char> touched(mesh.points.size());
-  for (const Index v : shown.touched) touched[v] = 1;
-  const auto pressed = [&](Index v) { return touched[v] && !shown.pressure.empty() && shown.pressure[v] > 0; };
+  std::vector<char> counts(mesh.points.size());
+  for (const auto& [v, obstacle] : reached) counts[v] = 1;
+  const auto pressed = [&](Index v) { return counts[v] && !shown.pressure.empty() && shown.pressure[v] > 0; };
   for (const auto& face : mesh.boundary)
     for (const Index v : face.vertices)
       if (pressed(v)) {
@@ -78,7 +83,7 @@ std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown) {
       }
   if (!(total > 0) || !(normalise(zone.normal) > 1e-3 * total)) return std::nullopt;
   for (double& x : zone.middle) x /= total;
-  for (const Index v : shown.touched)
+  for (const auto& [v, obstacle] : reached)
     if (pressed(v)) zone.radius = std::max(zone.radius, length<D>(difference<D>(mesh.points[v], zone.middle)));
   zone.radius = std::max(zone.radius, 0.01 * extent(mesh));
   return zone;
@@ -191,46 +196,90 @@ Panel friction_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vec
   return panel;
 }
 
-/// What value(vertex) is along the contact zone, by ascending place.
-template <class Value>
-Line along_zone(const Shown<2>& shown, const ContactZone<2>& zone, const Value& value) {
-  const Point<2> tangent = tangents(zone.normal)[0];
-  Line line;
-  for (const Index v : shown.touched) {
+/// The contact with one obstacle.
+struct Profile {
+  std::string name;  ///< of the obstacle; empty where it is the only one
+  ContactZone<2> zone;
+  std::vector<std::pair<double, Index>> places;  ///< ascending from the middle of the zone, and the vertices there
+  Point<2> tangent() const { return tangents(zone.normal)[0]; }
+};
+
+Profile profile(const Shown<2>& shown, const ContactZone<2>& zone, std::span<const Reached> reached) {
+  Profile out{{}, zone, {}};
+  for (const auto& [v, obstacle] : reached) {
     const Point<2> d = difference<2>(shown.hierarchy.finest().points[v], zone.middle);
-    if (length<2>(d) < 1.5 * zone.radius) line.points.push_back({dot(d, tangent), value(v)});
+    if (length<2>(d) < 1.5 * zone.radius) out.places.emplace_back(dot(d, out.tangent()), v);
   }
-  std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a[0] < b[0]; });
+  std::ranges::sort(out.places);
+  return out;
+}
+
+/// Of each obstacle that presses.
+std::vector<Profile> profiles(const Shown<2>& shown) {
+  std::vector<Profile> out;
+  std::span<const Reached> rest = shown.reached;
+  while (!rest.empty()) {
+    const int obstacle = rest.front().obstacle;
+    const auto end = std::ranges::find_if(rest, [&](const Reached& r) { return r.obstacle != obstacle; });
+    const auto here = rest.first(static_cast<std::size_t>(end - rest.begin()));
+    rest = rest.subspan(here.size());
+    if (const auto zone = contact_zone(shown, here)) {
+      out.push_back(profile(shown, *zone, here));
+      out.back().name = fmt::format("obstacle {}", obstacle);
+    }
+  }
+  if (out.size() == 1) out.front().name.clear();
+  return out;
+}
+
+/// What value(vertex) is along a contact.
+template <class Value>
+Line along(const Profile& profile, const Value& value) {
+  Line line{{}, profile.name};
+  for (const auto& [place, v] : profile.places) line.points.push_back({place, value(v)});
   return line;
 }
 
-Panel pressure_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vector<std::string>&) {
+/// A line for each contact: value(profile, vertex). They leave the styles 1 and 2 to marks of friction.
+template <class Value>
+Panel profile_panel(const std::vector<Profile>& profiles, const Value& value) {
   Panel panel;
+  panel.across = "place along the contact, from its middle";
+  panel.view = View::lines;
+  for (const Profile& profile : profiles) {
+    Line& line = panel.lines.emplace_back(along(profile, [&](Index v) { return value(profile, v); }));
+    line.style = panel.lines.size() == 1 ? 0 : static_cast<int>(panel.lines.size()) + 1;
+  }
+  return panel;
+}
+
+Panel pressure_panel(const Shown<2>& shown, const std::vector<Profile>& profiles) {
+  Panel panel = profile_panel(profiles, [&](const Profile&, Index v) { return shown.pressure[v]; });
   panel.title = "contact pressure along the contact zone";
   panel.label = "contact pressure";
-  panel.view = View::lines;
-  panel.lines = {along_zone(shown, zone, [&](Index v) { return shown.pressure[v]; })};
   return panel;
 }
 
 /// The tangential traction, and where it slips and sticks.
-Panel friction_panel(const Shown<2>& shown, const ContactZone<2>& zone, std::vector<std::string>&) {
-  const Point<2> tangent = tangents(zone.normal)[0];
-  const auto traction = [&](Index v) {
-    return shown.tangential[3 * std::size_t(v)] * tangent[0] + shown.tangential[3 * std::size_t(v) + 1] * tangent[1];
+Panel friction_panel(const Shown<2>& shown, const std::vector<Profile>& profiles) {
+  const auto traction = [&](const Profile& profile, Index v) {
+    const double* on_vertex = &shown.tangential[3 * std::size_t(v)];
+    return dot(Point<2>{on_vertex[0], on_vertex[1]}, profile.tangent());
   };
-  const auto where = [&](Flags state, const char* name) {
-    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-    Line marks = along_zone(shown, zone, [&](Index v) { return shown.contact[v] == state ? traction(v) : nowhere; });
-    marks.name = name;
-    marks.joined = false;
-    return marks;
-  };
-  Panel panel;
+  Panel panel = profile_panel(profiles, traction);
   panel.title = "slip and stick";
   panel.label = "tangential traction";
-  panel.view = View::lines;
-  panel.lines = {along_zone(shown, zone, traction), where(2, "slip"), where(3, "stick")};
+  for (Line& line : panel.lines) line.marked = false;
+  const auto mark = [&](Flags state, const char* name) {
+    Line marks{{}, name, false};
+    marks.style = state - 1;
+    for (const Profile& profile : profiles)
+      for (const auto& [place, v] : profile.places)
+        if (shown.contact[v] == state) marks.points.push_back({place, traction(profile, v)});
+    panel.lines.push_back(std::move(marks));
+  };
+  mark(2, "slip");
+  mark(3, "stick");
   return panel;
 }
 
@@ -238,17 +287,29 @@ bool has_friction(const std::vector<Flags>& contact) {
   return std::any_of(contact.begin(), contact.end(), [](Flags state) { return state > 1; });
 }
 
+void add_contact(const Shown<2>& shown, const std::optional<ContactZone<2>>&, std::vector<std::string>&,
+                 std::vector<Panel>& panels) {
+  const std::vector<Profile> contacts = profiles(shown);
+  if (contacts.empty()) return;
+  panels.push_back(pressure_panel(shown, contacts));
+  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, contacts));
+}
+
+void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>& zone, std::vector<std::string>& notes,
+                 std::vector<Panel>& panels) {
+  if (!zone) return;
+  if (shown.two_bodies) panels.push_back(cut_panel(shown, *zone, notes));
+  panels.push_back(pressure_panel(shown, *zone, notes));
+  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, *zone, notes));
+}
+
 }  // namespace
 
 template <int D>
 std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
-  const auto zone = contact_zone(shown);
+  const auto zone = contact_zone(shown, std::span(shown.reached));
   std::vector<Panel> panels{body_panel(shown, zone, notes)};
-  if (!zone) return panels;
-  if constexpr (D == 3)
-    if (shown.two_bodies) panels.push_back(cut_panel(shown, *zone, notes));
-  panels.push_back(pressure_panel(shown, *zone, notes));
-  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, *zone, notes));
+  add_contact(shown, zone, notes, panels);
   return panels;
 }
 

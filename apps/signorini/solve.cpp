@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
+#include "driver/numbers.hpp"
 #include "driver/touching_bodies.hpp"
 
 namespace signorini {
@@ -69,7 +70,7 @@ class ResultFiles {
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&](const auto& run) {
         draw_result(files_, run.hierarchy(), run.nodes(), run.results(), fields_[body].stress, fields_[body].contact,
-                    body_suffix(body, driver_.bodies()), driver_.report());
+                    numbers_of(scene().obstacles, run.body()), body_suffix(body, driver_.bodies()), driver_.report());
       });
   }
 

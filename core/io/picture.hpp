@@ -27,6 +27,7 @@ struct Line {
   std::vector<std::array<double, 2>> points;
   std::string name = {};  ///< for the key; empty: not in it
   bool joined = true;
+  bool marked = true;  ///< joined points have marks where they are few
   bool dashed = false;
   int style = -1;  ///< number of a colour and a marker, for lines that belong together; -1: the line's own number
 };

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/io/cairo/painter.hpp"
 #include "core/io/cairo/plot.hpp"
@@ -84,7 +85,7 @@ double draw_key(Sheet& sheet, double left, double top, const std::vector<Line>& 
     const std::size_t row = shown / 2, column = shown % 2;
     const Spot at{left + between * static_cast<double>(column), top + high * (0.5 + static_cast<double>(row))};
     if (lines[k].joined) sheet.line(at, {at.x + length, at.y}, stroke);
-    sheet.mark({at.x + length / 2, at.y}, marker, stroke);
+    if (lines[k].marked) sheet.mark({at.x + length / 2, at.y}, marker, stroke);
     sheet.text({at.x + length + 8, at.y}, lines[k].name, {0, 0.5});
     ++shown;
   }
@@ -129,7 +130,7 @@ void draw_lines(Sheet& sheet, double left, const Panel& panel) {
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const auto [marker, stroke] = style(lines, k);
     if (lines[k].joined)
-      plot.curve(lines[k].points, marker, stroke);
+      plot.curve(lines[k].points, lines[k].marked ? std::optional(marker) : std::nullopt, stroke);
     else
       plot.marks(lines[k].points, marker, stroke);
   }

@@ -55,12 +55,12 @@ void Plot::marks(std::span<const std::array<double, 2>> points, Marker marker, c
     if (std::isfinite(x) && std::isfinite(y)) sheet_.mark(spot(x, y), marker, stroke);
 }
 
-void Plot::curve(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke) {
+void Plot::curve(std::span<const std::array<double, 2>> points, std::optional<Marker> marker, const Stroke& stroke) {
   std::vector<Spot> line;
   const auto end_line = [&] {
     sheet_.polyline(line, stroke);
-    if (points.size() <= marks_up_to || line.size() == 1)
-      for (const Spot& at : line) sheet_.mark(at, marker, stroke);
+    if (marker && (points.size() <= marks_up_to || line.size() == 1))
+      for (const Spot& at : line) sheet_.mark(at, *marker, stroke);
     line.clear();
   };
   for (const auto& [x, y] : points)

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,7 +25,8 @@ class Plot {
   /// To the right of the plot.
   void second_axis(const std::string& label);
   /// Points that are not numbers interrupt the line.
-  void curve(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke);
+  /// @param marker of the points, where they are few
+  void curve(std::span<const std::array<double, 2>> points, std::optional<Marker> marker, const Stroke& stroke);
   /// The points alone.
   void marks(std::span<const std::array<double, 2>> points, Marker marker, const Stroke& stroke);
 

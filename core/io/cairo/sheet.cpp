@@ -11,6 +11,7 @@
 namespace signorini {
 namespace {
 constexpr double font_size = 15, power_size = 11, power_rise = 6, marker_radius = 3.5;
+constexpr std::array white{255, 255, 255};
 
 void set_colour(cairo_t* cairo, const std::array<int, 3>& colour) {
   cairo_set_source_rgb(cairo, colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
@@ -27,7 +28,7 @@ double width_of(cairo_t* cairo, const std::string& text, double size) {
 Sheet::Sheet(int width, int height)
     : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo_(cairo_create(surface_.get())) {
   cairo_select_font_face(cairo_.get(), "sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  fill({0, 0}, width, height, {255, 255, 255});
+  fill({0, 0}, width, height, white);
 }
 
 void Sheet::set(const Stroke& stroke) {
@@ -53,9 +54,12 @@ void Sheet::mark(Spot at, Marker marker, const Stroke& stroke) {
     cairo_rectangle(cairo_.get(), at.x - r, at.y - r, 2 * r, 2 * r);
   else
     cairo_arc(cairo_.get(), at.x, at.y, r, 0, 2 * std::numbers::pi);
-  if (marker == Marker::circle)
+  if (marker == Marker::circle) {
+    set_colour(cairo_.get(), white);  // no line goes through it
+    cairo_fill_preserve(cairo_.get());
+    set_colour(cairo_.get(), stroke.colour);
     cairo_stroke(cairo_.get());
-  else
+  } else
     cairo_fill(cairo_.get());
 }
 
