@@ -13,13 +13,12 @@
 #include "core/fem/check_functionals.hpp"
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
-#include "core/mesh/slender.hpp"
-#include "core/mesh/stretch.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
 #include "driver/loose_body.hpp"
+#include "driver/mesh_levels.hpp"
 #include "driver/moved_problem.hpp"
 #include "methods/nested_iteration.hpp"
 #include "methods/solve.hpp"
@@ -27,25 +26,8 @@
 namespace signorini {
 namespace {
 
-/// Vectors on the coarsest mesh above which the hierarchy goes on below it.
-constexpr Index large_coarsest_mesh = 1000;
-
-/// Stretching of cells (core/mesh/stretch.hpp) from which on algebraic levels from the finest mesh take about
-/// half the cycles of nested meshes or less, in about the same time: their set-up costs more for elastic bodies.
-constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
-constexpr double many = 0.1;  // part of the cells so stretched
-
-/// Vertices across the coarsest mesh of an elastic body, and across all where cells are stretched, which then have no
-/// good coarser level, up to which a factorisation costs no more than some cycles. Other meshes have one: they are
-/// factorised up to two cells across (in space three), which bend badly as coarse levels.
-constexpr double cheap_across = 20;
-template <int D>
-constexpr double most_across = D == 2 ? 4 : 16;
-/// Layers of vertices over vertices across, from where on bending makes coarser levels poor ones.
-constexpr double slender = 16;
-
-/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do. With friction
-/// they may take sixty.
+/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do. With
+/// friction they may take sixty.
 constexpr int patience_with_matrix = 40, patience_with_friction = 100;
 
 /// How often a load step is solved again because bodies have slid on in it.
@@ -66,11 +48,6 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
 
 template <int D, int B>
 using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
-
-template <int D>
-bool is_stretched(const Mesh<D>& mesh, int block) {
-  return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
-}
 
 /// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with
 /// the residual r in the middle between them, all in one pass over the matrix. Functionals that follow the solution are
@@ -130,36 +107,6 @@ NearNullSpace near_null_space(const Nodes<D>& nodes, const Jumps<B>* jumps) {
 }
 
 }  // namespace
-
-std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices) {
-  if (!options.algebraic || vertices <= large_coarsest_mesh) return {};
-  const Coarsening wanted = algebraic_settings(options).coarsening;
-  if (wanted != Coarsening::automatic) return wanted;
-  return block > 1 ? Coarsening::aggregation : Coarsening::classical;
-}
-
-template <int D>
-std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block) {
-  if (block == 1 || options.hierarchy != "auto" || options.coarse != "newton") return 0;
-  const bool stretched = is_stretched(hierarchy.levels.front(), block);
-  std::size_t count = 0;
-  for (const Mesh<D>& mesh : hierarchy.levels) {
-    const LayerShape shape = layer_shape(mesh);
-    const double most = stretched || count == 0 ? cheap_across : most_across<D>;
-    const bool factorised = shape.across <= most && (stretched || shape.along >= slender * shape.across);
-    if (!factorised) break;
-    ++count;
-  }
-  return stretched && count < hierarchy.levels.size() ? 0 : count;
-}
-
-template <int D>
-std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block, int order) {
-  const std::size_t finest = hierarchy.levels.size() - static_cast<std::size_t>(order);
-  if (options.hierarchy != "auto") return options.hierarchy == "matrix" ? finest : 0;
-  if (!options.algebraic || factorised_meshes(hierarchy, options, block) > 0) return 0;
-  return is_stretched(hierarchy.levels.front(), block) ? finest : 0;
-}
 
 template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
@@ -720,10 +667,6 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solution;
 }
 
-template std::size_t factorised_meshes(const MeshHierarchy<2>&, const Scene::Solver&, int);
-template std::size_t factorised_meshes(const MeshHierarchy<3>&, const Scene::Solver&, int);
-template std::size_t first_mesh(const MeshHierarchy<2>&, const Scene::Solver&, int, int);
-template std::size_t first_mesh(const MeshHierarchy<3>&, const Scene::Solver&, int, int);
 template class NestedSolver<2, 1>;
 template class NestedSolver<3, 1>;
 template class NestedSolver<2, 2>;
