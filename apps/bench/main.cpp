@@ -6,14 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/bench/accuracy/peers.hpp"
 #include "apps/bench/accuracy/tables.hpp"
 #include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
 #include "apps/bench/bodies.hpp"
 #include "apps/bench/boundary.hpp"
-#include "apps/bench/calculix.hpp"
 #include "apps/bench/choice.hpp"
 #include "apps/bench/friction_coefficients.hpp"
 #include "apps/bench/friction_costs.hpp"
@@ -177,7 +175,6 @@ void sized(const Arguments& arguments) {
 constexpr const char* of_chosen = "--choice";
 constexpr const char* of_kept_aside = "--kept-aside";
 constexpr const char* of_accuracy = "--accuracy";
-constexpr const char* of_peers = "--accuracy-peers";
 
 const Table tables[] = {
     {"--algebraic", "only the table of matrices without meshes", sized<print_algebraic>},
@@ -193,8 +190,6 @@ const Table tables[] = {
      sized<print_partial_slip>},
     {of_accuracy, "only errors beside seconds, the tables of docs/accuracy.md",
      [](const Arguments& a) { print_accuracy(a.quick, a.only, a.pictures); }},
-    {of_peers, "only the ball of quadratic elements beside CalculiX and GetFEM, where these are there",
-     [](const Arguments& a) { print_accuracy_peers(a.quick, a.only); }},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
     {"--incompressible", "only elements for nearly incompressible material, the tables of docs/rubber.md",
      sized<print_incompressible>},
@@ -205,10 +200,8 @@ const Table tables[] = {
     {"--friction-renewal", "only when the bounds of friction are best renewed", sized<print_friction_renewal>},
     {"--friction-direct", "only friction by cycles beside Newton's method with a direct solver",
      sized<print_friction_direct>},
-    {"--calculix", "only friction beside CalculiX, whose program ccx has to be there", sized<print_calculix>},
     {"--bodies", "only bodies that touch each other, as one problem and in turns, the tables of docs/bodies.md",
      sized<print_bodies>},
-    {"--calculix-bodies", "only two bodies beside CalculiX, likewise", sized<print_calculix_bodies>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
     {"--touching", "only the costs of bodies in contact with each other, a table of docs/bodies.md",
      sized<print_touching>},
@@ -236,11 +229,11 @@ int main(int argc, char** argv) {
   bench::Arguments arguments;
   app.add_flag("--quick", arguments.quick, "leave out the largest sizes");
   for (const bench::Table& table : bench::tables) app.add_flag(table.flag, table.help);
-  app.add_option("--only", arguments.only, "of these, problems, or solvers, with this text in their names")
+  app.add_option("--only", arguments.only, "of these, problems with this text in their names")
       ->check([&](const std::string&) {
-        for (const char* flag : {bench::of_chosen, bench::of_kept_aside, bench::of_accuracy, bench::of_peers})
+        for (const char* flag : {bench::of_chosen, bench::of_kept_aside, bench::of_accuracy})
           if (app.count(flag) > 0) return "";
-        return "needs --choice, --kept-aside, --accuracy or --accuracy-peers";
+        return "needs --choice, --kept-aside or --accuracy";
       });
   app.add_option("--pictures", arguments.pictures, "a folder for the pictures of --accuracy")
       ->check(CLI::ExistingDirectory);

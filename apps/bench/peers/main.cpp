@@ -5,6 +5,9 @@
 #include <map>
 #include <set>
 
+#include "apps/bench/peers/calculix.hpp"
+#include "apps/bench/peers/calculix_bodies.hpp"
+#include "apps/bench/peers/quadratic_ball.hpp"
 #include "apps/bench/peers/run.hpp"
 #include "apps/bench/peers/setup.hpp"
 #include "apps/bench/peers/solvers.hpp"
@@ -18,7 +21,7 @@ struct Arguments {
   std::vector<int> nodes;
   std::string only;
   Patience patience;
-  bool setup = false, quick = false;
+  bool setup = false, ball = false, calculix = false, calculix_bodies = false, quick = false;
   std::string matrix;
 };
 
@@ -86,6 +89,15 @@ bool run(const Arguments& arguments) {
   return good;
 }
 
+/// What flags ask for in place of the benchmark problems. False where there are none.
+bool print_other(const Arguments& arguments) {
+  if (arguments.setup) print_setup(arguments.quick, arguments.matrix);
+  if (arguments.ball) print_quadratic_ball(arguments.quick, arguments.only);
+  if (arguments.calculix) print_calculix(arguments.quick);
+  if (arguments.calculix_bodies) print_calculix_bodies(arguments.quick);
+  return arguments.setup || arguments.ball || arguments.calculix || arguments.calculix_bodies;
+}
+
 int run_program(int argc, char** argv) {
   Arguments arguments;
   CLI::App app(
@@ -107,8 +119,12 @@ int run_program(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--setup", arguments.setup, "only the set-up of algebraic hierarchies, without bounds");
-  app.add_flag("--quick", arguments.quick, "small sizes of that");
   app.add_option("--matrix", arguments.matrix, "only matrices of that with this text in their names");
+  app.add_flag("--ball", arguments.ball,
+               "only the ball of quadratic elements beside CalculiX and GetFEM, a table of docs/accuracy.md");
+  app.add_flag("--calculix", arguments.calculix, "only friction beside CalculiX");
+  app.add_flag("--calculix-bodies", arguments.calculix_bodies, "only two bodies beside CalculiX");
+  app.add_flag("--quick", arguments.quick, "small sizes of --setup, --ball, --calculix and --calculix-bodies");
   app.footer(
       "Set OMP_NUM_THREADS=1, as ./dev bench peers does: else the threads of OpenBLAS count as processor time of "
       "CHOLMOD "
@@ -116,7 +132,7 @@ int run_program(int argc, char** argv) {
       "Exit status: 0 all solvers that were in time were accurate, 1 wrong usage, 2 bad input, 3 otherwise");
   try {
     app.parse(argc, argv);
-    if (arguments.setup) return print_setup(arguments.quick, arguments.matrix), 0;
+    if (print_other(arguments)) return 0;
     return run(arguments) ? 0 : 3;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;

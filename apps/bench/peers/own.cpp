@@ -197,7 +197,7 @@ class Own {
   }
 
   std::pair<Attempt, Solution<B>> nested_solution(double tolerance) const {
-    const Progress quiet(true);
+    const Progress quiet;
     Scene::Solver options = problem_.scene.solver;
     options.tolerance = tolerance;
     Times wall;

@@ -1,4 +1,4 @@
-#include "apps/bench/calculix.hpp"
+#include "apps/bench/peers/calculix.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/bench/calculix_program.hpp"
 #include "apps/bench/friction_scenes.hpp"
+#include "apps/bench/peers/calculix_program.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "apps/bench/scratch_folder.hpp"
 #include "core/base/error.hpp"

@@ -1,4 +1,4 @@
-#include "apps/bench/accuracy/peers.hpp"
+#include "apps/bench/peers/quadratic_ball.hpp"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "apps/bench/accuracy/known_answers.hpp"
-#include "apps/bench/calculix_program.hpp"
-#include "apps/bench/child.hpp"
+#include "apps/bench/peers/calculix_program.hpp"
+#include "apps/bench/peers/child.hpp"
 #include "apps/bench/scratch_folder.hpp"
 #include "core/base/error.hpp"
 
@@ -165,7 +165,7 @@ class Comparison {
 
 }  // namespace
 
-void print_accuracy_peers(bool quick, const std::string& only) {
+void print_quadratic_ball(bool quick, const std::string& only) {
   const ScratchFolder scratch("peers");
   const auto wanted = [&](std::string_view name) { return name.find(only) != std::string_view::npos; };
   const bool with_getfem = wanted("GetFEM") && has_getfem(), with_calculix = wanted("CalculiX") && has_calculix();

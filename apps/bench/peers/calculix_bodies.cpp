@@ -8,8 +8,8 @@
 #include <string>
 #include <type_traits>
 
-#include "apps/bench/bodies.hpp"
-#include "apps/bench/calculix_program.hpp"
+#include "apps/bench/peers/calculix_bodies.hpp"
+#include "apps/bench/peers/calculix_program.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "apps/bench/scratch_folder.hpp"
 #include "apps/scenes/tables.hpp"

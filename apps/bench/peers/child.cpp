@@ -1,4 +1,4 @@
-#include "apps/bench/child.hpp"
+#include "apps/bench/peers/child.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,11 +1,11 @@
-#include "apps/bench/calculix_program.hpp"
+#include "apps/bench/peers/calculix_program.hpp"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "apps/bench/child.hpp"
+#include "apps/bench/peers/child.hpp"
 #include "core/base/error.hpp"
 
 namespace signorini::bench {

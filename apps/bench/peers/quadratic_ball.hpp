@@ -7,6 +7,6 @@ namespace signorini::bench {
 /// there: seconds, and errors of force and pressure.
 /// @param quick leaves out the mesh with 300 000 unknowns
 /// @param only peers whose name has this text; empty: all
-void print_accuracy_peers(bool quick, const std::string& only);
+void print_quadratic_ball(bool quick, const std::string& only);
 
 }  // namespace signorini::bench
