@@ -83,12 +83,14 @@ class NodeReader {
     return nodes;
   }
 
-  /// Friction at a slot with a functional, to be added to what is known of its vertex.
+  /// Friction at a slot with a functional, to be added to what is known of its vertex. Where there is none what is left
+  /// of a force along the surface is the solver's error.
   void add_friction(Index slot, const FrictionLaw& law, ContactNode<B>& node) const {
     const Index p = problem_.constraints.vector[slot];
     const double* Q = problem_.frames.at(p);
     node.friction = law.bound > 0 || (law.coefficient > 0 && node.contact);
     node.law = law;
+    if (!node.friction) return;
     bool sticks = true;
     double work = 0;
     const bool between_bodies = is_jump(p);
@@ -104,7 +106,7 @@ class NodeReader {
       work += force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
-    node.sticks = node.friction && sticks;
+    node.sticks = sticks;
     node.dissipated = std::max(-work, 0.0);  // what is left of the other sign is rounding
     if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];

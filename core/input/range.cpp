@@ -58,6 +58,11 @@ bool Range::contains(double number) const {
   return (closed_low_ ? number >= low_ : number > low_) && (closed_high_ ? number <= high_ : number < high_);
 }
 
+double Range::rounded(double number, double slack) const {
+  const double inside = std::clamp(number, low_, high_);
+  return std::abs(number - inside) <= slack && contains(inside) ? inside : number;
+}
+
 bool Range::contains(std::string_view text) const {
   return choices_.empty() || std::find(choices_.begin(), choices_.end(), text) != choices_.end();
 }

@@ -13,6 +13,8 @@ class Range {
   explicit Range(std::string_view text);
 
   bool contains(double number) const;
+  /// A closed end of the interval that is off the number, outside, by no more than `slack`; without one the number.
+  double rounded(double number, double slack) const;
   bool contains(std::string_view text) const;
   /// "a number in (0, inf)", "one of body | obstacle"; `kind` is "a number".
   std::string expected(std::string_view kind) const;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -23,17 +25,41 @@ std::optional<double> number_of(const RawValue& raw) {
   return std::nullopt;
 }
 
+constexpr double rounding = 1e-12;  // of places and t, and of values around 1
+
 double checked(double number, const RawValue& raw, std::string_view range) {
+  if (std::holds_alternative<std::string>(raw.value)) number = Range(range).rounded(number, rounding);  // expressions
   if (!Range(range).contains(number)) wrong_type(raw, Range(range).expected("a number"));
   return number;
 }
 
-// The same expression, whose values are checked against the range wherever it is evaluated.
+// How far an expression's value at a site may be off by rounding: as far as rounding of its place and of t takes it. Of
+// both directions the one that changes less counts, for across a jump there is no rounding.
+double slack(const Field& field, const Site& site) {
+  const double here = field(site);
+  const double size = std::max({std::abs(site.x[0]), std::abs(site.x[1]), std::abs(site.x[2])});
+  const auto change = [&](int k, double by) {
+    Site near = site;
+    (k < 3 ? near.x[k] : near.t) += by * (k < 3 ? size : 1);
+    try {
+      return std::abs(field(near) - here);
+    } catch (const Error&) {  // it has no value there
+      return 0.0;
+    }
+  };
+  double most = rounding;
+  for (int k = 0; k < 4; ++k) most = std::max(most, std::min(change(k, -rounding), change(k, rounding)));
+  return most;
+}
+
+// The same expression, whose values are checked against the range wherever it is evaluated. What is off it by rounding
+// alone is its end.
 Field restricted(Field field, std::string_view range) {
   const std::string text = field.text(), origin = field.origin();
   const bool uses_t = field.uses_t();
   auto value = [field = std::move(field), range = Range(range)](const Site& site) {
-    const double v = field(site);
+    double v = field(site);
+    if (!range.contains(v)) v = range.rounded(v, slack(field, site));
     if (!range.contains(v))
       input_error(field.origin(),
                   fmt::format("expression {} is {} at ({}, {}, {}), expected {}", in_quotes(field.text()), v, site.x[0],

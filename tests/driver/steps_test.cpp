@@ -191,6 +191,23 @@ double norm(const std::vector<double>& v) {
   return std::sqrt(sum);
 }
 
+// The first step slips, the second one takes the block off the plane to the side.
+TEST(ObstacleForces, AreZeroWhereNothingTouches) {
+  const std::string scene = tables::block("block", "[0, 0]", "[2, 1]", "[8, 4]") +
+                            tables::fix("block", "top", "['0.05 * t', 't < 0.7 ? -0.03 : 0.01']") +
+                            tables::plane("block", "bottom", "[0, 0]", "[0, 1]") +
+                            "[refine]\nuniform = 2\n[steps]\ncount = 2\n";
+  Driver driver(scene_of(scene, {"obstacle.0.type=coulomb", "obstacle.0.friction=0.3"}));
+  driver.solve();
+  const ContactReport &pressed = driver.report().steps[0].contact[0], &open = driver.report().steps[1].contact[0];
+  EXPECT_GT(pressed.slip_nodes, 0);
+  EXPECT_GT(pressed.dissipated, 0);
+  EXPECT_EQ(open.nodes, 0);
+  EXPECT_THAT(open.tangential_force, ElementsAre(0, 0));
+  EXPECT_THAT(open.force, ElementsAre(0, 0));
+  EXPECT_EQ(open.dissipated_in_step, 0);
+}
+
 // Loads, reactions and obstacles with friction, step by step.
 TEST(ObstacleForces, BalanceInEveryStepWithFriction) {
   const std::string steps = "[solver]\ntolerance = 1e-9\n[refine]\nuniform = 1\n[steps]\nat = [0.2, 0.3, 1]\n";
