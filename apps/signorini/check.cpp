@@ -15,7 +15,7 @@
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
-#include "driver/nested_solver.hpp"
+#include "driver/mesh_levels.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
 #include "driver/results.hpp"
