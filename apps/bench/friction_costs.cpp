@@ -10,6 +10,7 @@
 #include "apps/bench/friction_scenes.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "core/base/error.hpp"
+#include "core/base/types.hpp"
 #include "driver/driver.hpp"
 
 namespace signorini::bench {
@@ -166,6 +167,69 @@ void ways(const FrictionScene& scene, double friction, int count) {
   row(fmt::format("| {} | {:.0f} | {} |{}", scene.name, last[0].unknowns, friction, cells));
 }
 
+/// Ends a solve once it has used so many seconds of processor time, and the step of its method is over.
+class TimeLimit final : public Progress {
+ public:
+  explicit TimeLimit(double seconds) : seconds_(seconds) {}
+  bool interrupted() const override { return elapsed() > seconds_; }
+  double elapsed() const { return time_.elapsed(); }
+
+ private:
+  ProcessorTime time_;
+  double seconds_;
+};
+
+struct Solved {
+  Steps steps;
+  std::vector<double> u;
+  bool stopped = false;
+
+  double seconds() const { return steps.seconds[0]; }
+};
+
+/// A scene with one step.
+Solved solve_within(double seconds, const Scene& scene) {
+  Solved out;
+  const TimeLimit time(seconds);
+  Driver driver(scene, time);
+  try {
+    const Summary& summary = driver.solve().last().summary;
+    out.steps.seconds = {time.elapsed()};
+    out.steps.cycles = {summary.iterations};
+    out.steps.unknowns = summary.level_unknowns.back();
+    out.steps.solved = summary.converged();
+    out.u = driver.solution();
+  } catch (const Error& error) {
+    if (error.status() != Exit::interrupted) throw;
+    out.steps.seconds = {time.elapsed()};
+    out.stopped = true;
+  }
+  return out;
+}
+
+/// The largest difference over the largest entry.
+double difference(const std::vector<double>& u, const std::vector<double>& other) {
+  double largest = 0, apart = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    largest = std::max(largest, std::abs(u[i]));
+    apart = std::max(apart, std::abs(u[i] - other[i]));
+  }
+  return apart / largest;
+}
+
+/// Newton's method is not waited for longer than tells that it is far slower.
+void beside_newton(const FrictionScene& scene) {
+  constexpr double patience = 100;  // times the time of the cycles
+  const Solved cycles = solve_within(infinity, scene.with(0.3));
+  const Solved newton = solve_within(patience * cycles.seconds(), scene.with(0.3, {"solver.method=newton"}));
+  const double ratio = newton.seconds() / cycles.seconds();
+  const std::string start = fmt::format("| {} | {:.0f} | {}{} |", scene.name, cycles.steps.unknowns,
+                                        cycles.steps.cycles[0], cycles.steps.solved ? "" : " (not solved)");
+  if (newton.stopped) return row(fmt::format("{} stopped | more than {:.0f} | |", start, std::floor(ratio)));
+  row(fmt::format("{} {}{} | {:.1f} | {:.0e} |", start, newton.steps.cycles[0],
+                  newton.steps.solved ? "" : " (not solved)", ratio, difference(cycles.u, newton.u)));
+}
+
 }  // namespace
 
 void print_friction_costs(bool quick) {
@@ -204,40 +268,17 @@ void print_friction_direct(bool quick) {
   fmt::print(
       "## Cycles beside Newton's method with a direct solver\n\n| scene | unknowns | cycles | Newton steps | time of "
       "Newton over cycles | largest difference |\n| --- | --- | --- | --- | --- | --- |\n");
-  const auto compare = [](const FrictionScene& scene) {
-    std::vector<double> u[2];
-    Steps steps[2];
-    for (int way = 0; way < 2; ++way) {
-      const ProcessorTime time;
-      Driver driver(scene.with(0.3, way == 0 ? Overrides{} : Overrides{"solver.method=newton"}));
-      const Summary& summary = driver.solve().last().summary;
-      steps[way].seconds = {time.elapsed()};
-      steps[way].cycles = {summary.iterations};
-      steps[way].unknowns = summary.level_unknowns.back();
-      steps[way].solved = summary.converged();
-      u[way] = driver.solution();
-    }
-    double largest = 0, apart = 0;
-    for (std::size_t i = 0; i < u[0].size(); ++i) {
-      largest = std::max(largest, std::abs(u[0][i]));
-      apart = std::max(apart, std::abs(u[0][i] - u[1][i]));
-    }
-    row(fmt::format("| {} | {:.0f} | {} | {}{} | {:.1f} | {:.0e} |", scene.name, steps[0].unknowns, steps[0].cycles[0],
-                    steps[1].cycles[0], steps[0].solved && steps[1].solved ? "" : " (not solved)",
-                    steps[1].seconds[0] / steps[0].seconds[0], apart / largest));
-  };
-  compare(plane_steps(5, 1));
-  if (!quick) compare(plane_steps(7, 1));
-  compare(space_steps(2, 1));
-  compare(space_steps(3, 1));
-  FrictionScene wide = space_steps(3, 1);
-  wide.overrides.push_back("body.0.cells=[8, 3, 3]");
-  wide.name = "block 3D, 8 x 3 x 3 cells";
-  if (!quick) compare(wide);
-  FrictionScene large = space_steps(3, 1);
-  large.overrides.push_back("body.0.cells=[7, 4, 4]");
-  large.name = "block 3D, 7 x 4 x 4 cells";
-  if (!quick) compare(large);
+  beside_newton(plane_steps(5, 1));
+  if (!quick) beside_newton(plane_steps(7, 1));
+  beside_newton(space_steps(2, 1));
+  beside_newton(space_steps(3, 1));
+  if (quick) return;
+  for (const char* cells : {"8, 3, 3", "7, 4, 4"}) {
+    FrictionScene large = space_steps(3, 1);
+    large.overrides.push_back(fmt::format("body.0.cells=[{}]", cells));
+    large.name = fmt::format("block 3D, cells {}", cells);
+    beside_newton(large);
+  }
 }
 
 }  // namespace signorini::bench

@@ -10,7 +10,8 @@ void print_friction_costs(bool quick);
 /// Prints cycles and time with each value of the option `renew`.
 void print_friction_renewal(bool quick);
 
-/// Prints the time of method "newton", with its direct solver, over that of the default.
+/// Prints the time of method "newton", with its direct solver, over that of the default. It is stopped where it
+/// takes far longer.
 void print_friction_direct(bool quick);
 
 }  // namespace signorini::bench
