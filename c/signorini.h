@@ -63,8 +63,9 @@ typedef struct {
  * Levels are chosen by the matrix where no interpolations are given.
  */
 typedef struct {
-  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver] in docs/solver.md but `start`
-                                  and `algebraic`, ended by a null; signorini_solve() gives the tolerance */
+  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver] in docs/solver.md but those
+                                  of scenes: `start`, `algebraic`, `hierarchy` and `bodies`; ended by a null;
+                                  signorini_solve() gives the tolerance */
   const double* coordinates;   /* of elastic vectors, `block` for each: their rigid motions have little energy */
   int32_t modes;               /* in place of `coordinates`: how many directions of little energy, */
   const double* near_null;     /* and for each row of the matrix one value per direction */

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
+#include "core/algebra/random_vector.hpp"
 #include "core/solver/weights.hpp"
 
 namespace signorini {
@@ -27,13 +27,6 @@ Vector interpolated(const Prolongation& P, const Vector& coarse) {
       weights::interpolate<B>(P, weight, p, coarse.data(), fine.data() + Offset{p} * B);
   });
   return fine;
-}
-
-Vector random_vector(std::size_t size) {
-  std::mt19937_64 random;
-  Vector out(size);
-  for (double& value : out) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;
-  return out;
 }
 
 template <int B, class Visit>

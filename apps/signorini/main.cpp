@@ -26,8 +26,8 @@ constexpr const char* exit_status = R"(Exit status:
   0    solved to the tolerance, or as far as rounding allows, which the results then say
   1    wrong usage
   2    bad input (file, scene, matrix), or too little memory; nothing is written but the message, see below
-  3    the iteration limit was reached, rounding leaves an error above 1e-2, or obstacles that meet at a vertex in
-       dependent directions could not all be held; results are written, marked "converged": false
+  3    the iteration limit was reached, friction does not come to rest, or rounding leaves an error above 1e-2;
+       results are written, marked "converged": false
   4    no solution exists (infeasible bounds, unbounded energy)
   5    a plugin could not be loaded, or failed
   130  interrupted (Ctrl-C); nothing is written, see below
@@ -180,14 +180,6 @@ CLI::App* add_list(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
-/// Commands of the interface that a later version brings.
-void add_future(CLI::App& app, const std::string& name, const std::string& help) {
-  auto* command = app.add_subcommand(name, help + " (not available in this version)");
-  command->prefix_command();
-  command->callback(
-      [name] { throw Error(Exit::input, "the command '" + name + "' is not available in this version"); });
-}
-
 int report_error(const std::string& message, Exit status) {
   std::fprintf(stderr, "signorini: error: %s\n", message.c_str());
   return static_cast<int>(status);
@@ -231,8 +223,6 @@ int run(int argc, char** argv) {
   auto* check = add_check(app, arguments);
   auto* qp = add_qp(app, arguments);
   auto* list = add_list(app, arguments);
-  add_future(app, "chart", "solve a scene at many sizes and chart accuracy against time");
-  add_future(app, "plugin", "make a plugin project, or check a plugin");
   if (const std::string wrong = unknown_command(app, argc, argv); !wrong.empty())
     return report_error(wrong, Exit::usage);
   try {

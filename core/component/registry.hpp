@@ -16,7 +16,7 @@ namespace signorini {
 
 /// What is known about a registered component without creating it.
 struct Entry {
-  std::string kind;  ///< "obstacle", "smoother", "transfer", "coarse", "linear", "amg", "aggregates" or "estimator"
+  std::string kind;  ///< obstacle, smoother, transfer, coarse, linear, unsymmetric, amg, aggregates or estimator
   std::string id;
   std::string help;                 ///< one line
   std::vector<OptionSpec> options;  ///< with texts of static storage duration

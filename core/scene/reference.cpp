@@ -95,6 +95,7 @@ A scene is a TOML file that says what is solved: a body, what holds and loads it
 examples on this page, put together, are one. A shorter one stands in the [README](../README.md), a first walk through in
 the [tutorial](tutorial.md).
 
+- All bodies of a scene have the same dimension: all are in the plane, or all are in space.
 - Lengths, moduli and forces are in any one consistent system of units.
 - File names are relative to the scene's folder.
 - Unknown keys are errors.

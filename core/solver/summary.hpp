@@ -25,7 +25,7 @@ struct IterationRecord {
   int iteration;                    ///< number of the step, from 1, over all stages that were kept
   double residual;                  ///< natural residual over its value at the projected zero
   double algebraic_error;           ///< estimate of ||x - x*||_A / ||x*||_A
-  double energy;                    ///< 1/2 x'Ax - b'x
+  double energy;                    ///< 1/2 x'Ax - b'x, and what functionals add
   Index contact_nodes;              ///< vectors with a direction in contact
   Index changed;                    ///< vectors whose phase changed since the last cycle, on the finest level
   std::vector<LevelReport> levels;  ///< coarsest first; sums over the visits of the cycle, contact of the last one

@@ -19,7 +19,7 @@ class CommandLine : public Program {};
 TEST_F(CommandLine, HelpNamesAllCommandsAndEndsWell) {
   const Ended ended = signorini({"--help"});
   EXPECT_EQ(ended.status, 0);
-  for (const char* command : {"solve", "check", "qp", "list", "chart", "Exit status"})
+  for (const char* command : {"solve", "check", "qp", "list", "Exit status"})
     EXPECT_THAT(ended.out, HasSubstr(command));
   const Ended solve = signorini({"solve", "--help"});
   EXPECT_EQ(solve.status, 0);
@@ -81,15 +81,6 @@ TEST_F(CommandLine, AnUnknownPathOfSetIsBadInputAsAWrongValueIs) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.err, HasSubstr("tolerance"));
   EXPECT_THAT(written(), IsEmpty());
-}
-
-TEST_F(CommandLine, LaterCommandsSayThatTheyAreNotAvailable) {
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"chart", "a.toml"}, {"plugin", "new", "mine"}}) {
-    const Ended ended = signorini(arguments);
-    EXPECT_EQ(ended.status, 2);
-    EXPECT_THAT(ended.err, HasSubstr("'" + arguments[0] + "' is not available in this version"));
-  }
 }
 
 TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "core/base/dot.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
 namespace {
-
-double dot(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 class Creases {
  public:

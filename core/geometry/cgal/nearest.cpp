@@ -1,14 +1,9 @@
 #include "core/geometry/cgal/nearest.hpp"
 
+#include "core/base/dot.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
-
-namespace {
-
-double dot(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-}  // namespace
 
 std::array<double, 3> nearest_weights(const Point<3>& p, const std::array<Point<3>, 3>& corner) {
   const auto& [a, b, c] = corner;

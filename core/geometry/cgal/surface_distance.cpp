@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/geometry/cgal/nearest.hpp"
 #include "core/geometry/cgal/patch_foot.hpp"
@@ -18,12 +19,6 @@
 namespace signorini::geometry {
 
 namespace {
-
-double dot(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 void add(Point<3>& sum, double factor, const Point<3>& a) {
   for (std::size_t k = 0; k < 3; ++k) sum[k] += factor * a[k];
