@@ -105,29 +105,6 @@ void with_and_without(const char* levels, const FrictionScene& scene, double unk
                   static_cast<double>(pairs.first.most_cycles()) / pairs.second.most_cycles(), pairs.ratio));
 }
 
-/// What the table above was not made for, on meshes.
-void print_elsewhere(bool quick) {
-  fmt::print(
-      "\n## Other scenes\n\n| scene | levels | unknowns | cycles per step | without friction | cycles over | time over "
-      "|\n| --- | --- | --- | --- | --- | --- | --- |\n");
-  const auto rows = [](FrictionScene (*scene)(int), const char* name, std::initializer_list<int> refinements,
-                       const Overrides& more, double friction) {
-    for (const int k : refinements) {
-      FrictionScene named = scene(k);
-      named.name = name;
-      with_and_without("meshes", named, 1e5, joined(more, {"steps.count=3"}), friction);
-    }
-  };
-  const auto pushed = [](int k) { return block_2d("", "[\"0.1*t\", -0.03]", k); };
-  const auto pressed = [](int k) { return plane_steps(k, 3); };
-  const int less = quick ? 1 : 0;
-  rows(corner, "floor and wall", {5 - less, 7 - less, 9 - 2 * less}, {}, 0.3);
-  rows(pushed, "block, pushed three times as far as pressed, 0.7", {4 - less, 6 - less, 8 - less}, {}, 0.7);
-  rows(pressed, "block, order 2", {4 - less, 6 - less, 7 - less}, {"body.0.order=2"}, 0.3);
-  rows(pressed, "block, Poisson's ratio 0.4999", {4 - less, 6 - less}, {"body.0.poisson=0.4999"}, 0.3);
-  rows(ball, "ball", {1 - less, 2 - less}, {}, 0.3);
-}
-
 void print_without_friction(bool quick) {
   fmt::print(
       "\n## `friction = 0` over plain contact\n\n| scene | unknowns | cycles | of contact | time over contact |\n"
@@ -243,8 +220,30 @@ void print_friction_costs(bool quick) {
   for (int k = 2; k <= (quick ? 3 : 5); ++k) with_and_without("meshes", space_steps(k, 3), space(k), {});
   for (int k = 5; k <= (quick ? 6 : 8); ++k) with_and_without("matrix", plane_steps(k, 3), plane(k), matrix);
   for (int k = 2; k <= (quick ? 3 : 5); ++k) with_and_without("matrix", space_steps(k, 3), space(k), matrix);
-  print_elsewhere(quick);
   print_without_friction(quick);
+}
+
+void print_friction_scenes(bool quick) {
+  fmt::print(
+      "## Steps with friction over steps without, other scenes\n\n| scene | levels | unknowns | cycles per step | "
+      "without friction | cycles over | time over "
+      "|\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  const auto rows = [](FrictionScene (*scene)(int), const char* name, std::initializer_list<int> refinements,
+                       const Overrides& more, double friction) {
+    for (const int k : refinements) {
+      FrictionScene named = scene(k);
+      named.name = name;
+      with_and_without("meshes", named, 1e5, joined(more, {"steps.count=3"}), friction);
+    }
+  };
+  const auto pushed = [](int k) { return block_2d("", "[\"0.1*t\", -0.03]", k); };
+  const auto pressed = [](int k) { return plane_steps(k, 3); };
+  const int less = quick ? 1 : 0;
+  rows(corner, "floor and wall", {5 - less, 7 - less, 9 - 2 * less}, {}, 0.3);
+  rows(pushed, "block, pushed three times as far as pressed, 0.7", {4 - less, 6 - less, 8 - less}, {}, 0.7);
+  rows(pressed, "block, order 2", {4 - less, 6 - less, 7 - less}, {"body.0.order=2"}, 0.3);
+  rows(pressed, "block, Poisson's ratio 0.4999", {4 - less, 6 - less}, {"body.0.poisson=0.4999"}, 0.3);
+  rows(ball, "ball", {1 - less, 2 - less}, {}, 0.3);
 }
 
 void print_friction_renewal(bool quick) {

@@ -7,6 +7,10 @@ namespace signorini::bench {
 /// @param quick without the largest sizes
 void print_friction_costs(bool quick);
 
+/// The same cycles and time on nested meshes for scenes of other kinds: a corner, large steps, quadratic elements,
+/// nearly incompressible material, a ball.
+void print_friction_scenes(bool quick);
+
 /// Prints cycles and time with each value of the option `renew`.
 void print_friction_renewal(bool quick);
 
