@@ -297,7 +297,7 @@ class BlackBox::BlockSolver final : public Solver {
     if (fall_.certain && result.summary.outcome == Outcome::unbounded)
       go_on_without_motions(levels, result, monitor);
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
-      recognise_unbounded(levels, result);
+      recognise_unbounded(levels, result, monitor);
     refine<B>(problem_, held_, b, options_, *motions_, result.x, result.summary);
     add_multiplier(result);
     return result;
@@ -347,7 +347,8 @@ class BlackBox::BlockSolver final : public Solver {
     }
   }
 
-  /// No motion falls: on a coarse level, rounding was taken for one. Sweeps there take nothing for one.
+  /// No motion is known to fall: on a coarse level, rounding may have been taken for one. Sweeps there take nothing for
+  /// one.
   void go_on_without_motions(const AlgebraicLevels<B>& levels, Result& result, const Monitor& monitor) {
     SolverOptions sweeps = options_;
     sweeps.coarse = "pgs";
@@ -359,8 +360,17 @@ class BlackBox::BlockSolver final : public Solver {
 
   /// Where not all motions are known, iterates that run away show one. Those of methods without a coarse correction
   /// within bounds are slow to: cycles go on from them.
-  void recognise_unbounded(const AlgebraicLevels<B>& levels, Result& result) const {
+  void recognise_unbounded(const AlgebraicLevels<B>& levels, Result& result, const Monitor& monitor) {
     if (names_a_fall(result.x, result.summary) || result.summary.converged()) return;
+    if (result.summary.outcome == Outcome::unbounded) {
+      const std::string reason = result.summary.reason;
+      go_on_without_motions(levels, result, monitor);
+      if (names_a_fall(result.x, result.summary) || result.summary.converged()) return;
+      if (result.summary.outcome == Outcome::interrupted) return;
+      result.summary.outcome = Outcome::unbounded;
+      result.summary.reason = reason;
+      return;
+    }
     if (options_.method == "auto" || options_.method == "monotone") return;
     SolverOptions cycles = options_;
     cycles.method = "monotone";

@@ -342,17 +342,24 @@ Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
   return stacked(kept, free_.cols());
 }
 
+// What a bound says of these motions, which are known to `decided`; zero where that hides it.
+template <int D, int B>
+Eigen::RowVectorXd LooseBody<D, B>::along(const Room& room, const Eigen::MatrixXd& costless) {
+  const Eigen::RowVectorXd row = room.row * costless;
+  if (row.norm() <= decided * room.row.norm()) return Eigen::RowVectorXd::Zero(row.size());
+  return row;
+}
+
 // Motions that bounds end at once in every direction are decided: what is left of the others spans them.
 template <int D, int B>
 Eigen::MatrixXd LooseBody<D, B>::undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless,
                                            double size) const {
   std::vector<Eigen::RowVectorXd> ends;
-  const auto end = [&](const Eigen::RowVectorXd& row) {
-    if (row.norm() > negligible) ends.push_back(row.normalized());
-  };
   for (const Room& room : rooms) {
-    if (room.lower >= -negligible * size) end(room.row * costless);
-    if (room.upper <= negligible * size) end(-room.row * costless);
+    const Eigen::RowVectorXd row = along(room, costless);
+    if (row.norm() == 0) continue;
+    if (room.lower >= -negligible * size) ends.push_back(row.normalized());
+    if (room.upper <= negligible * size) ends.push_back(-row.normalized());
   }
   const Eigen::MatrixXd G = stacked(ends, costless.cols());
   Eigen::MatrixXd found(costless.cols(), 2 * costless.cols());
@@ -384,8 +391,8 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
   const Eigen::VectorXd best = -cholesky.solve(basis.transpose() * h);
   std::vector<Slab> slabs;  // on c in coordinates in which the norm is the Euclidean one
   for (const Room& room : rooms) {
-    const Eigen::VectorXd row = (room.row * costless).transpose();
-    if (row.norm() > negligible) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
+    const Eigen::VectorXd row = along(room, costless).transpose();
+    if (row.norm() > 0) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
   }
   const Eigen::VectorXd moved = exactly_within(cholesky.matrixU() * best, slabs);
   return cholesky.matrixU().solve(moved);

@@ -62,6 +62,7 @@ class LooseBody {
   void add_pressed(Index slot, const std::vector<double>& x, std::vector<double>& forces,
                    std::vector<Eigen::RowVectorXd>& rows) const;
   Eigen::MatrixXd pressed(const std::vector<double>& x) const;
+  static Eigen::RowVectorXd along(const Room& room, const Eigen::MatrixXd& costless);
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
   Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                const Eigen::MatrixXd& costless) const;

@@ -117,6 +117,8 @@ class ExtendedSets {
 
   /// Whether the matrix has no motion, but a direction of so little energy that rounding hides it.
   bool hidden() const { return hidden_; }
+  /// About the relative error of the start, by the first correction; zero where there was none.
+  double first_error() const { return first_error_; }
   int sets() const { return sets_; }
   int solves() const { return solves_; }
 
@@ -190,6 +192,7 @@ class ExtendedSets {
     for (int step = 0; step < most_steps; ++step) {
       const Real move = correct();
       residual();
+      if (solves_ == 1 && move > 0) first_error_ = static_cast<double>(move / std::max(move, size()));
       if (move <= negligible * tolerance_ * size()) return true;
       if (!(move <= slowest * last)) return false;
       last = move;
@@ -219,6 +222,7 @@ class ExtendedSets {
   const bool regular_;
   const Real no_pivot_;
   bool hidden_ = false;
+  double first_error_ = 0;
   std::vector<TwoDoubles> x_;
   Vector r_;
   Set active_;
@@ -334,7 +338,7 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
   const double begin = seconds();
   ExtendedSets<B> sets(problem, held, b, options.tolerance, most, motions.regular());
   if (!sets.solve(x)) {
-    if (sets.hidden()) doubt(summary, 1, options.tolerance);
+    if (motions.regular()) doubt(summary, sets.hidden() ? 1 : sets.first_error(), options.tolerance);
     return;
   }
   const auto size = static_cast<double>(sets.size());
@@ -353,11 +357,15 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
     return;
   }
   const std::vector<double> nearest = sets.rounded();
-  if (summary.converged() && relative(sets.error(nearest)) > std::max(options.tolerance, summary.algebraic_error))
+  const double after = relative(sets.error(nearest));
+  if (summary.converged() && after > std::max(options.tolerance, summary.algebraic_error) &&
+      (after >= before || !motions.regular())) {
+    if (motions.regular()) doubt(summary, before, options.tolerance);
     return;
+  }
   x = nearest;
   Summary more;
-  more.algebraic_error = more.rounding_error = relative(sets.error(x));
+  more.algebraic_error = more.rounding_error = after;
   more.energy = energy(problem, x);
   std::vector<double> zero(x.size(), 0.0);
   make_admissible(problem, zero);

@@ -317,6 +317,40 @@ TEST(Stability, UnderdeterminedLeastSquares) {
   }
 }
 
+// The same in integers, with bounds and a solution in integers: the energy is bounded, and a coarse level may take what
+// rounding leaves of a motion for one that falls for ever.
+TEST(Stability, LeastSquaresInIntegersAreBounded) {
+  for (int seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(1000 + seed);
+    const Index n = 400 + random.below(500), equations = n / 10 + random.below(n / 2), terms = 2 + random.below(4);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Index i = 0; i < equations; ++i) {
+      const Index count = random.chance(0.5) ? terms : 2 + random.below(4);
+      for (Index k = 0; k < count; ++k) entries.emplace_back(i, random.below(n), random.below(7) - 3);
+    }
+    Matrix A = normal_equations(equations, n, entries);
+    A.prune(0.0);
+    Eigen::VectorXd x(n), force = Eigen::VectorXd::Zero(n);
+    std::vector<double> lower(n, -infinity), upper(n, infinity);
+    const double part = random.between(0.2, 0.5);
+    for (Index i = 0; i < n; ++i) {
+      x[i] = random.below(9) - 4;
+      if (!random.chance(part)) continue;
+      const bool below = random.chance(0.5), touches = random.chance(0.5);
+      (below ? lower : upper)[i] = x[i] + (touches ? 0 : (below ? -1 : 1) * (1 + random.below(3)));
+      if (touches && random.chance(0.8)) force[i] = (below ? 1 : -1) * (1 + random.below(3));
+    }
+    const Eigen::VectorXd b = A * x - force;
+    const BlackBox::Result result = BlackBox(A, 1).solve(b, lower, upper);
+    EXPECT_NE(result.summary.outcome, Outcome::unbounded) << result.summary.reason;
+    const bool runs_along_the_kernel = vector(result.x).cwiseAbs().maxCoeff() > 1e3;  // which hides d'Ad in doubles
+    if (!result.summary.converged() || runs_along_the_kernel) continue;
+    const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(result.x.data(), n) - x;
+    EXPECT_LE(d.dot(A * d), 1e-10 * x.dot(A * x));
+  }
+}
+
 // A third of the second differences along a line: semidefinite, in a box that holds what they do not.
 TEST(Stability, SecondDifferencesInABox) {
   Random random(77);

@@ -9,6 +9,7 @@
 #include "mesh_file.hpp"
 #include "run.hpp"
 #include "tests/support/pdas.hpp"
+#include "tests/support/random.hpp"
 
 namespace signorini::test {
 namespace {
@@ -479,6 +480,39 @@ TEST(LooseBody, MovesLeastAlongWhatNothingDetermines) {
     if (wall.mesh().points[p][0] == 0) least = std::min(least, wall.u()[2 * p]);
   EXPECT_NEAR(least, 0.1, 1e-9);
   EXPECT_NEAR(wall.contact(1).force[0], 0, 1e-9 * pressure);
+}
+
+// A beam guided at one end, and pressed on a wall by a force that is small beside its own weight: nothing determines
+// how far it is along the wall, whichever way the scene is turned.
+TEST(LooseBody, MovesLeastWhicheverWayTheSceneIsTurned) {
+  const TemporaryFolder folder;
+  const auto solved = [&](const Motion<3>& motion) {
+    const std::string file =
+        folder.write("beam.msh", msh<3>(box({-0.3, -0.27, -0.85}, {0.3, 0.27, 0.85}, {3, 2, 2}), motion));
+    const auto r =
+        run<3, 3>("[[body]]\nname = \"b\"\nmesh = \"" + file +
+                  "\"\nyoung = 1\npoisson = 0.22\n"
+                  "[[fix]]\nbody = \"b\"\non = \"top\"\nframe = \"normal\"\nvalue = [0, \"free\", \"free\"]\n"
+                  "[[load]]\nbody = \"b\"\nvalue = " +
+                  text(motion.turned({2e-9, 0, 2e-3})) +
+                  "\n[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\nshape = \"sphere\"\ninside = true\n"
+                  "on = \"front\"\nradius = 1.2\ncenter = " +
+                  text(motion.turned({0, 0.1, 0})) +
+                  "\n[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\nshape = \"plane\"\non = \"boundary\"\npoint = " +
+                  text(motion.turned({0.301, 0, 0})) + "\nnormal = " + text(motion.turned({-1, 0, 0})) + "\n");
+    EXPECT_EQ(r.solution.undetermined.size(), 1u);
+    return r.u();
+  };
+  const std::vector<double> expected = solved({});
+  Random random(36);
+  for (int turn = 0; turn < 24; ++turn) {
+    const Motion<3> motion = rotation3(random.between(-3, 3), random.between(-1.5, 1.5), random.between(-3, 3));
+    const std::vector<double> u = solved(motion);
+    for (std::size_t p = 0; p < u.size(); p += 3) {
+      const Point<3> turned = motion.turned({expected[p], expected[p + 1], expected[p + 2]});
+      for (int i = 0; i < 3; ++i) ASSERT_NEAR(u[p + i], turned[i], 1e-9) << turn;
+    }
+  }
 }
 
 }  // namespace

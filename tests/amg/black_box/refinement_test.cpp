@@ -179,6 +179,71 @@ TEST(Refinement, IllConditionedTreesAreSolvedToTheTolerance) {
         for (int trial = 0; trial < 3; ++trial) expect_honest(random, n, kind, {}, true);
 }
 
+/// A chain of springs whose stiffnesses are powers of two, at rest at integers and partly pressed on bounds there: all
+/// numbers of the problem are exact.
+struct IntegerChain {
+  std::vector<double> spring, x, b, support, lower, upper;
+  Matrix A;
+
+  IntegerChain(Random& random, int n, int decades)
+      : spring(static_cast<std::size_t>(n)),
+        x(spring.size()),
+        b(spring.size()),
+        support(spring.size()),
+        lower(spring.size(), -infinity),
+        upper(spring.size(), infinity),
+        A(n, n) {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](int i, int j, double value) {
+      entries.emplace_back(i, j, value);
+      b[i] += value * x[j];
+    };
+    for (double& value : x) value = random.below(9) - 4;
+    for (int i = 1; i < n; ++i) {
+      const double k = spring[i] = std::ldexp(1.0, random.below(decades + 1));
+      add(i, i, k), add(i - 1, i - 1, k), add(i, i - 1, -k), add(i - 1, i, -k);
+    }
+    const int at = random.below(n);
+    add(at, at, support[at] = 1);
+    const double part = random.between(0, 0.5);
+    for (int i = 0; i < n; ++i) {
+      if (!random.chance(part)) continue;
+      const bool below = random.chance(0.5), touches = random.chance(0.5);
+      const int sign = below ? 1 : -1;
+      (below ? lower : upper)[i] = x[i] - (touches ? 0 : sign * (1 + random.below(3)));
+      if (touches) b[i] -= sign * (1 + random.below(3));
+    }
+    A.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  /// ||other - x||_A / ||x||_A
+  double error(const std::vector<double>& other) const {
+    std::vector<double> d(x);
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = other[i] - x[i];
+    return std::sqrt(energy(d) / energy(x));
+  }
+
+ private:
+  double energy(const std::vector<double>& v) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < v.size(); ++i)
+      sum += support[i] * v[i] * v[i] + (i > 0 ? spring[i] * (v[i] - v[i - 1]) * (v[i] - v[i - 1]) : 0);
+    return sum;
+  }
+};
+
+// Numbers of the machine next to the solution may be further from it than the tolerance. Which then is said.
+TEST(Refinement, StiffChainsAreNotClaimedToBeSolvedBeyondTheMachinesNumbers) {
+  for (const int seed : {0, 1, 2, 3, 604, 711, 946, 1273, 1645}) {  // the last five were claimed
+    Random random(seed);
+    const IntegerChain chain(random, 100 + random.below(200), 44 + random.below(3));
+    const BlackBox::Result result = BlackBox(chain.A, 1).solve(chain.b, chain.lower, chain.upper);
+    const Summary& s = result.summary;
+    if (!s.converged()) continue;
+    EXPECT_LE(chain.error(result.x), 2 * std::max(s.algebraic_error, 1e-8)) << seed << ": " << s.reason;
+  }
+}
+
 // Beyond that, rounding in matrices D A D hides what they are.
 TEST(Refinement, WorseConditionedTreesAreNoFalseClaim) {
   Random random(114);
