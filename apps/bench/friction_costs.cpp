@@ -137,8 +137,8 @@ void ways(const FrictionScene& scene, double friction, int count) {
       seconds[way].push_back(last[way].whole());
     }
   for (int way = 0; way < 3; ++way) {
-    std::vector<double> ratios;
-    for (int k = 0; k < count; ++k) ratios.push_back(seconds[way][k] / seconds[0][k]);
+    std::vector<double> ratios(seconds[way]);
+    for (int k = 0; k < count; ++k) ratios[k] /= seconds[0][k];
     cells += last[way].solved ? fmt::format(" {} ({:.2f}) |", list(last[way].cycles), median(ratios)) : " none |";
   }
   row(fmt::format("| {} | {:.0f} | {} |{}", scene.name, last[0].unknowns, friction, cells));

@@ -231,7 +231,7 @@ TEST_F(CommandLine, StepsThatAreFinishedOutliveAnInterrupt) {
   const auto r = report("o");
   EXPECT_EQ(r.at("interrupted"), true);
   EXPECT_EQ(r.at("converged"), false);
-  const auto steps = r.at("steps");
+  const auto& steps = r.at("steps");
   ASSERT_GE(steps.size(), 2u);
   EXPECT_EQ(steps.back().at("converged"), true);
   std::size_t solutions = 0;

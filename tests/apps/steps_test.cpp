@@ -151,7 +151,7 @@ TEST_F(Steps, WhatFailsAsAWholeIsSolvedInParts) {
   EXPECT_THAT(ended.out, HasSubstr("more failed and were cut in two"));
   const auto r = report("o");
   EXPECT_EQ(r.at("converged"), true);
-  const auto steps = r.at("steps");
+  const auto& steps = r.at("steps");
   ASSERT_GE(steps.size(), 3u);
   EXPECT_EQ(steps.size(), r.at("failed_steps").size() + 2) << "each makes two of one";
   EXPECT_EQ(table("o/steps.csv").size(), steps.size());
