@@ -69,7 +69,11 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Model<B>& model, const
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
       if (!term.other || !term.renew) continue;
-      const Slip<D> slip = slip_past(nodes_.back(), model, k, *all_.back(), *chosen_.back(), u);
+      Slip<D> slip = slip_past(nodes_.back(), model, k, *all_.back(), *chosen_.back(), u);
+      if (slip.length == 0) {  // they are past each other's ends: how far is known from where they began
+        const Pairs first = pair_bodies<D>(nodes_.back(), model, collect_fixes(nodes_.back(), model));
+        slip = slip_past(nodes_.back(), model, k, *first, *first, u);
+      }
       if (!(length<D>(difference<D>(slip.mean, shift[k])) > far * slip.length)) continue;
       shift[k] = slip.mean;
       moved = true;

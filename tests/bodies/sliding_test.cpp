@@ -89,6 +89,21 @@ TEST(Sliding, OverTheEndLosesArea) {
   EXPECT_GT(area("renew = false\n"), 0.7);
 }
 
+// A block that is drawn off the end of the lower one stays off, and feels it again once it is drawn back.
+TEST(Sliding, OffTheEndThereIsNoForce) {
+  Driver driver(scene_of(lower() + upper(4.5, "4 * min(t, 1 - t)") + slides("", "elastic") + steps(20)));
+  const Report& report = solved(driver);
+  for (std::size_t step = 1; step < report.steps.size(); ++step) {
+    const double t = 0.05 * static_cast<double>(step + 1), way = 4 * std::min(t, 1 - t);
+    const double force = report.steps[step].contact[0].force[1];
+    if (way > 1.51) {
+      EXPECT_EQ(force, 0) << t;
+    } else if (way < 1.3) {
+      EXPECT_GT(force, 1e-4) << t;
+    }
+  }
+}
+
 /// A half disk that is pressed on the block, and then moved along it by two thirds of its diameter.
 TEST(Sliding, DiskKeepsItsPressure) {
   Driver driver(scene_of(
