@@ -70,7 +70,7 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Model<B>& model, const
       const ObstacleTerm<B>& term = model.obstacles[k];
       if (!term.other || !term.renew) continue;
       Slip<D> slip = slip_past(nodes_.back(), model, k, *all_.back(), *chosen_.back(), u);
-      if (slip.length == 0) {  // they are past each other's ends: how far is known from where they began
+      if (slip.length == 0 && shift[k] != Point<B>{}) {  // past each other's ends: how far tells where they began
         const Pairs first = pair_bodies<D>(nodes_.back(), model, collect_fixes(nodes_.back(), model));
         slip = slip_past(nodes_.back(), model, k, *first, *first, u);
       }
