@@ -21,7 +21,7 @@ std::vector<double> list(const Array& array) {
 template <int B>
 ContactReport totals(const ContactSummary<B>& contact, const std::optional<DeformedContact>& deformed) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, unknown});
+  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, 0, unknown});
   ContactReport report;
   report.nodes = contact.nodes;
   report.area = contact.area;
@@ -38,6 +38,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.largest_penetration = at.penetration;
   report.largest_opening = at.opening;
   report.largest_displacement = at.displacement;
+  report.beyond_nodes = at.beyond;
   return report;
 }
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
 constexpr double rounding = 1e-12;   // of displacements
+constexpr double many = 0.1;         // of the nodes in contact
 constexpr double edged =
     1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
@@ -21,6 +22,11 @@ constexpr double edged =
 double off(const ContactReport& contact) {
   const double by = std::max(contact.largest_penetration, contact.largest_opening);
   return contact.largest_displacement > 0 ? by / contact.largest_displacement : 0;
+}
+
+/// Part of the nodes in contact.
+double beyond(const ContactReport& contact) {
+  return contact.nodes > 0 ? double(contact.beyond_nodes) / contact.nodes : 0;
 }
 
 double undetermined(const ContactReport& contact) {
@@ -86,11 +92,18 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
       warnings.push_back(fmt::format(
           "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: "
           "contact is linearised about the undeformed body, and for these displacements the "
-          "obstacle or the boundary is too curved",
+          "obstacle or the boundary is too curved{}",
           origin, std::fmax(contact.largest_penetration, contact.largest_opening),
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
                                                                  : "off the obstacle though contact is claimed",
-          contact.largest_displacement, at_step(report, farthest)));
+          contact.largest_displacement, at_step(report, farthest),
+          contact.pair ? ", or the mesh too coarse: between bodies conditions are means over faces" : ""));
+    const StepReport& past = worst(report, k, beyond);
+    if (const ContactReport& c = past.contact[k]; beyond(c) > many)
+      warnings.push_back(fmt::format(
+          "{}: {} of {} nodes in contact have come to where the other body is no longer in front of them{}: pairs are "
+          "those of the start of a step; expected smaller steps ([steps])",
+          origin, c.beyond_nodes, c.nodes, at_step(report, past)));
     const StepReport& held = worst(report, k, undetermined);
     if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)
       warnings.push_back(fmt::format(

@@ -27,6 +27,7 @@ constexpr double weak = 1e-6;             // part of the largest force from whic
 constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
 constexpr double near = 0.1;              // of prescribed values: a motion that takes most of them away
 constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
+constexpr double stays = 1e-6;            // of a motion: a bound that is left by less is not left
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Index columns) {
   Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), columns);
@@ -511,6 +512,22 @@ void LooseBody<D, B>::move(const Eigen::VectorXd& motion, std::vector<double>& x
   for (Index slot = 0; slot < c.size(); ++slot) c.project(slot, x.data() + Offset{c.vector[slot]} * B);
 }
 
+// The same by a motion that is along the bounds as far as it is known: what is on a bound that the motion leaves by
+// less than that stays there, for its force would be nobody's else.
+template <int D, int B>
+void LooseBody<D, B>::move_and_stay(const Eigen::VectorXd& motion, std::vector<double>& x) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const Constraints<B>& c = problem.constraints;
+  const std::vector<double> before = x;
+  move(motion, x);
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Offset at = Offset{c.vector[slot]} * B + k;
+      const bool touches = before[at] <= c.lower[Offset{slot} * B + k] || before[at] >= c.upper[Offset{slot} * B + k];
+      if (touches && std::abs(x[at] - before[at]) <= stays * motion.norm()) x[at] = before[at];
+    }
+}
+
 template <int D, int B>
 std::vector<std::string> LooseBody<D, B>::settle(std::vector<double>& x) const {
   if (free_.cols() == 0) return {};
@@ -520,7 +537,7 @@ std::vector<std::string> LooseBody<D, B>::settle(std::vector<double>& x) const {
   const double size = std::abs(*std::ranges::max_element(x, {}, [](double value) { return std::abs(value); }));
   const Eigen::MatrixXd open = undecided(room, costless, size);
   if (open.cols() == 0) return {};
-  move(free_ * costless * least_motion(x, room, costless), x);
+  move_and_stay(free_ * costless * least_motion(x, room, costless), x);
   std::vector<std::string> names;
   for (const auto& motion : motions_.simple_basis(open)) names.push_back(motions_.describe(motion));
   return names;

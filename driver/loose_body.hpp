@@ -68,6 +68,7 @@ class LooseBody {
                                const Eigen::MatrixXd& costless) const;
   void add(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
+  void move_and_stay(const Eigen::VectorXd& motion, std::vector<double>& x) const;
 
   const Nodes<D>& nodes_;
   const Model<B>& model_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "core/fem/element.hpp"
@@ -13,6 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr double rounding = 1e-12;  // of the body's extent
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.
 template <int D>
@@ -88,15 +90,16 @@ std::vector<Gap<D>> gaps(const Nodes<D>& nodes, const Surface<D>& at, const Obst
   return gaps(vertices, at.nodes, term);
 }
 
-/// To the other body, where displacements take both, by ascending node.
+/// To the other body, where displacements take both, by ascending node: means, but none beyond what they are means of.
 template <int D>
 std::vector<Gap<D>> pair_gaps(const Nodes<D>& nodes, const MortarCoupling<D>& coupling, const ObstacleTerm<D>& term) {
   std::vector<SurfaceVertex> vertices(coupling.node.size());
   std::vector<Index> at;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     at.push_back(nodes.of_vertex(coupling.node[k]));
-    vertices[k] =
-        pair_vertex<D>(nodes.at(at.back()), coupling.gap[k] / coupling.part(static_cast<Index>(k)), coupling.normal[k]);
+    const double mean = coupling.gap[k] / coupling.part(static_cast<Index>(k));
+    vertices[k] = pair_vertex<D>(nodes.at(at.back()), std::clamp(mean, coupling.nearest[k], coupling.farthest[k]),
+                                 coupling.normal[k]);
   }
   std::vector<Gap<D>> out = gaps(vertices, at, term);
   std::ranges::sort(out, {}, &Gap<D>::node);
@@ -118,6 +121,15 @@ DeformedContact violation(const ContactState<B>& state, Index obstacle) {
   return out;
 }
 
+/// Of the nodes in contact those that are not among the ones that see the other body.
+template <int D>
+Index beyond(const ContactState<D>& state, Index obstacle, const std::vector<Gap<D>>& seen) {
+  return static_cast<Index>(std::ranges::count_if(state.nodes, [&](const ContactNode<D>& node) {
+    return node.obstacle == obstacle && node.contact &&
+           !std::ranges::binary_search(seen, node.vertex, {}, &Gap<D>::node);
+  }));
+}
+
 template <int D>
 std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,
                                             const ContactState<D>& state, const std::vector<double>& u) {
@@ -126,7 +138,7 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   const Nodes<D> moved = nodes.on(there);
   const auto all = term.other ? pair_gaps(nodes, couple_displaced(nodes, model, obstacle, u), term)
                               : gaps(moved, faces_of(nodes, model, obstacle, false), term);
-  if (all.empty()) return {};
+  if (all.empty() && !term.other) return {};
   const auto* faceted = dynamic_cast<const geometry::FacetedDistance*>(term.shape.get());
   DeformedContact out;
   auto node = state.nodes.begin();
@@ -141,6 +153,8 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
     out.penetration = std::max(out.penetration, -gap.distance);
     if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.node));
   }
+  if (term.other) out.beyond = beyond(state, obstacle, all);
+  if (all.empty()) out.penetration = out.opening = out.displacement = unknown;
   return out;
 }
 

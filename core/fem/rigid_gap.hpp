@@ -10,12 +10,14 @@ struct DeformedContact {
   double penetration = 0;   ///< of the deformed boundary's vertices, the largest
   double opening = 0;       ///< the largest distance of vertices where contact is claimed
   double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle
+  Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
   double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
 };
 
 /// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between
-/// rigid shapes and the boundary where it has come to. Nothing where the obstacle cannot tell them there. Obstacles
-/// without a shape have no other conditions than those that were solved: of these what is left is their violation.
+/// rigid shapes and the boundary where it has come to. Nothing where the obstacle cannot tell them there; NaN where
+/// nothing of the other body is in front. Obstacles without a shape have no other conditions than those that were
+/// solved: of these what is left is their violation.
 /// @param u global coordinates, B per vertex
 template <int D, int B>
 std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,

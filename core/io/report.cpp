@@ -63,6 +63,7 @@ Json contact(const ContactReport& contact) {
             {"largest_opening", contact.largest_opening},
             {"pair", pair(contact.pair)}};
   if (!contact.pair) return json;
+  json["beyond_nodes"] = contact.beyond_nodes;
   json["other_force"] = contact.pair->force;
   json["other_moment"] = contact.pair->moment;
   return json;

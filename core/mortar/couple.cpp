@@ -22,6 +22,9 @@ constexpr double cancel = 1e-6;
 constexpr double least_common = 0.5;
 // Where what faces share in a node is of both signs, no less than this part of it is left.
 constexpr double left_of_parts = 0.01;
+// Of the area of a quadratic element's node the master covers no less: what is divided by less has weights far above
+// one, and takes many cycles.
+constexpr double least_quadratic_cover = 0.1;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double rounding = 1e-14;
 
@@ -124,6 +127,7 @@ class Gathering {
   Node sum(Index p, const CoupleOptions& options) const {
     Node out;
     if (one_numbering_ && master_.number[slave_.node[p]] >= 0) return out;
+    const double least = std::max(options.least_cover, P > 1 ? least_quadratic_cover : 0);
     double size = 0;
     for (const Seat& s : seats(p)) {
       const double share = s.record->share[s.corner];
@@ -131,7 +135,7 @@ class Gathering {
       size += std::abs(share);
       for (int k = 0; k < D; ++k) out.normal[k] += share * s.record->normal[s.corner][k];
     }
-    if (!(out.weight > options.least_cover * whole_[p] && out.weight > left_of_parts * size)) {
+    if (!(out.weight > least * whole_[p] && out.weight > left_of_parts * size)) {
       out.place = P > 1 && size > 0 ? Place::orphan : Place::alone;
       return out;
     }
@@ -147,8 +151,10 @@ class Gathering {
     const Node& node = nodes_[p];
     row_.clear();
     own_.clear();
-    double gap = 0;
+    double gap = 0, nearest = infinity, farthest = -infinity;
     for (const Seat& s : seats(p)) {
+      nearest = std::min(nearest, s.record->nearest);
+      farthest = std::max(farthest, s.record->farthest);
       gap += add(s, s.corner, s.record->share[s.corner]);
       if constexpr (P > 1) gap += add_orphans(s, part_of_orphans(*s.record, s.corner));
     }
@@ -156,6 +162,8 @@ class Gathering {
     out.weight.push_back(node.weight);
     out.normal.push_back(node.normal);
     out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
+    out.nearest.push_back(nearest);
+    out.farthest.push_back(farthest);
     take_row(node.weight, out);
   }
 

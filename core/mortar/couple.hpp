@@ -25,7 +25,8 @@ struct CoupleOptions {
   Pairing pairing = Pairing::normal;
   double reach = 0;               ///< faces farther apart do not see each other; the user's unit of length
   std::optional<double> depth{};  ///< how deep an overlap is looked for; none: `reach`
-  /// A node that the master covers less than this part of its area of is left alone.
+  /// A node that the master covers less than this part of its area of is left alone; with quadratic elements at least
+  /// less than a tenth.
   double least_cover = 1e-10;
   bool axisymmetric = false;  ///< the first coordinate is the radius of bodies of revolution (D = 2)
 };
@@ -48,14 +49,17 @@ struct DeepestOverlap {
 ///
 /// With quadratic elements u are coefficients, whose basis functions have positive means (midpoint_weight), and so are
 /// gaps. Where the master covers less than about half of a quadratic face the mean of a corner's function over that is
-/// negative. A node whose D_p is not positive is left alone, and what it is a part of goes to the face's other nodes:
-/// it is among their q then, with a weight of the other sign, and gap_p is that of all of them: no mean any more.
+/// negative. A node whose D_p is not a tenth of what it is where all of it is covered is left alone, and what it is a
+/// part of goes to the face's other nodes: it is among their q then, with a weight of the other sign, and gap_p is that
+/// of all of them: no mean any more.
 template <int D>
 struct MortarCoupling {
   std::vector<Index> node;       ///< slave nodes with a partner, ascending; what follows is per entry of it
   std::vector<double> weight;    ///< D_p = ∫ ψ_p = ∫ φ_p over what is covered; positive
   std::vector<Point<D>> normal;  ///< outer one of the slave, the mean over the node's faces as covered; of length 1
   std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
+  std::vector<double> nearest;   ///< least distance that faces of the node see
+  std::vector<double> farthest;  ///< and the largest: gap may be beyond both where the master covers less than a face
   std::vector<Offset> row{0};    ///< node.size() + 1: positions of the rows of M̂
   std::vector<Index> column;     ///< q, ascending in a row
   std::vector<double> value;

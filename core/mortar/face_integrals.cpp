@@ -1,5 +1,7 @@
 #include "core/mortar/face_integrals.hpp"
 
+#include <algorithm>
+
 #include "core/mesh/quadrature.hpp"
 
 namespace signorini::mortar {
@@ -43,6 +45,8 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   for (Index& p : record.node) p = slave_.number[p];
   record.share = dual.share();
   record.gap = {}, record.normal = {};
+  const auto [nearest, farthest] = std::ranges::minmax(seen_, {}, &Seen::gap);
+  record.nearest = nearest.gap, record.farthest = farthest.gap;
   record.first = to.entries.size();
   for (const Run& run : runs_) {
     const auto point = run.master.points(master_);

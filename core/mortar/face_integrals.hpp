@@ -15,7 +15,8 @@ struct FaceRecord {
   std::array<Index, nodes> node;       ///< among those of the slave
   std::array<double, nodes> share;     ///< ∫ ψ_p over the slave
   std::array<double, nodes> gap;       ///< ∫ ψ_p (distance) over ∫ ψ_p
-  std::array<Point<D>, nodes> normal;  ///< likewise, of what the distance is measured along
+  double nearest, farthest;            ///< of the distances themselves
+  std::array<Point<D>, nodes> normal;  ///< as gap, of what the distance is measured along
   std::size_t first = 0, last = 0;     ///< its entries
 };
 

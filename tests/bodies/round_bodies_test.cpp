@@ -278,5 +278,35 @@ TEST_F(InAHole, APinTouchesAsPerssonSays) {
   }
 }
 
+class RoundBodies : public Folder {};
+
+// A disk may turn in a ring, or both together: chords and arcs of the surfaces hinder that by next to nothing, and what
+// presses keeps its contact where the solution is moved along such motions.
+TEST_F(RoundBodies, KeepTheirContactWhereTheyMayTurn) {
+  const std::string ring =
+      sector(folder_, "ring", {.inner = 1, .outer = 2, .along_radius = 4, .around = 24}, material(3, 0.25)) +
+      "order = 2\n";
+  const auto disk = [](double radius) {
+    return fmt::format(
+               "[[body]]\nname = \"disk\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = {}\nsize = 0.2\norder = 2\n",
+               radius) +
+           material(1);
+  };
+  const auto report = [](const std::string& text) {
+    Driver driver(scene_of(text + "[refine]\nuniform = 2\n"));
+    driver.solve();
+    return driver.report();
+  };
+  const Report loaded =
+      report(ring + disk(0.99) + "[[fix]]\nbody = \"ring\"\non = \"outer\"\nvalue = [0, 0]\n" +
+             "[[load]]\nbody = \"disk\"\nvalue = [0, -0.001]\n" + pair("disk", "boundary", "ring", "inner"));
+  EXPECT_FALSE(loaded.last().undetermined.empty());
+  expect_balance(loaded.last(), 1e-9);
+  const Report pressed =
+      report(ring + disk(1) + pair("disk", "boundary", "ring", "inner", "gap = -0.002\nslave = \"body\""));
+  EXPECT_EQ(pressed.last().contact[0].open_nodes, 0);
+  expect_balance(pressed.last(), 1e-9);
+}
+
 }  // namespace
 }  // namespace signorini::test

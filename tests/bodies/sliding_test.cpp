@@ -147,6 +147,28 @@ TEST(Sliding, InOneStepIsSeenInTheReport) {
   EXPECT_GT(inside(1), 4 * inside(8));
 }
 
+// In one step that ends beyond the other body forces are those of the pairs before it, which the report does not hide.
+TEST(Sliding, PastTheEndInOneStepIsSeenInTheReport) {
+  const auto report = [](double way) {
+    Driver driver(scene_of(block("lower", "[0, 0]", "[2, 1]", "[16, 8]", material(1)) +
+                           block("upper", "[1, 1]", "[1.8, 1.6]", "[10, 8]", material(3)) +
+                           fix("lower", "bottom", "[0, 0]") + fix("upper", "top", fmt::format("[{}, -0.01]", way)) +
+                           pair("upper", "bottom", "lower", "top", "friction = 0.3", "elastic_coulomb")));
+    return solved(driver);
+  };
+  const Report past = report(1.5), before = report(0.1);
+  ASSERT_GT(past.last().contact[0].nodes, 0);
+  EXPECT_EQ(past.last().contact[0].beyond_nodes, past.last().contact[0].nodes);
+  const auto told = [](const Report& of) {
+    return std::ranges::any_of(of.warnings, [](const std::string& warning) {
+      return warning.find("no longer in front of them") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(past));
+  EXPECT_FALSE(told(before));
+  EXPECT_LE(before.last().contact[0].beyond_nodes, 1);
+}
+
 // A slender column that is pushed up beside the lowest point of a round body bends out of the way: each pairing lets it
 // slide on to the next one.
 TEST(Sliding, StepsThatAreTooLongSaySo) {
