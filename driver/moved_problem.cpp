@@ -25,7 +25,7 @@ double largest(const std::vector<double>& values) {
 class Rest {
  public:
   explicit Rest(const std::vector<double>& way)
-      : rounding_(8 * std::numeric_limits<double>::epsilon() * largest(way)) {}
+      : rounding_(256 * std::numeric_limits<double>::epsilon() * largest(way)) {}  // the way is a least-squares fit
   double operator()(double value, double way) const { return std::abs(value - way) <= rounding_ ? 0 : value - way; }
 
  private:
