@@ -114,11 +114,15 @@ Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::ve
   Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, halved_shape(scene, given));
   for (const Mirror& mirror : scene.symmetry.planes)
     add_mirror(mesh, mirror, scene.symmetry.source.of(axis_name(mirror.axis)));
-  if constexpr (D == 2)
-    if (given.plane == Plane::axisymmetric) read_as_meridian(mesh, given.source.of("plane"));
-  if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))
-    geometry::give_geometry(mesh, file->reading.surfaces, file->reading.crease);
   remove_faces_on_mirrors(mesh);
+  std::vector<Mirror> beyond = mesh.mirrors;
+  if constexpr (D == 2)
+    if (given.plane == Plane::axisymmetric) {
+      read_as_meridian(mesh, given.source.of("plane"));
+      beyond.push_back({.axis = 0, .at = 0});
+    }
+  if (const auto* file = std::get_if<Scene::MeshFile>(&given.shape))
+    geometry::give_geometry(mesh, file->reading.surfaces, file->reading.crease, beyond);
   return mesh;
 }
 

@@ -27,6 +27,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.area = contact.area;
   report.force = list(contact.force);
   report.max_pressure = contact.max_pressure;
+  report.resolved = contact.resolved;
   report.slip_nodes = contact.slip_nodes;
   report.stick_nodes = contact.stick_nodes;
   report.normal_force = report.force;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/fem/paired_sides.hpp"
+#include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
 
 namespace signorini {
@@ -97,7 +99,14 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
                                                                  : "off the obstacle though contact is claimed",
           contact.largest_displacement, at_step(report, farthest),
-          contact.pair ? ", or the mesh too coarse: between bodies conditions are means over faces" : ""));
+          contact.pair ? ", or the mesh too coarse: between bodies conditions are means over faces"
+                       : ", or quadratic elements are too coarse"));
+    if (const ContactReport& c = report.steps.back().contact[k]; !c.resolved)
+      warnings.push_back(fmt::format(
+          "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of "
+          "the contact may be off by a third, or depend on the mesh where an edge or a corner touches; "
+          "expected smaller elements there",
+          origin, c.nodes == 1 ? "1 node" : fmt::format("{} nodes", c.nodes)));
     const StepReport& past = worst(report, k, beyond);
     if (const ContactReport& c = past.contact[k]; beyond(c) > many)
       warnings.push_back(fmt::format(
@@ -143,24 +152,29 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
     const double depth = flattened(results, static_cast<Index>(k));
     const double displacement = results.deformed[k]->displacement;
     const double most = depth > 0 ? edged * depth : noticeable * displacement;
-    const auto add = [&](const char* whose, double sagitta) {
+    const auto add = [&](const char* whose, double sagitta, double angle) {
       if (!(sagitta > most)) return;
       warnings.push_back(fmt::format(
           "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
           "where {}displacements are up to {:.3g}: the gap is off by up to {:.2g} % of what closes it, refinement "
           "brings "
-          "out the edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {} "
+          "out the edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {}{} "
           "puts a smooth surface through the vertices",
           model.obstacles[k].origin, whose, sagitta,
           depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement,
-          100 * sagitta / (depth > 0 ? depth : displacement), whose));
+          100 * sagitta / (depth > 0 ? depth : displacement), whose,
+          angle > geometry::default_crease
+              ? fmt::format(", with a crease of more than the {:.0f} degrees between them,",
+                            angle * 180 / std::numbers::pi)
+              : ""));
     };
     std::vector<bool> touching(nodes.size()), at_vertex;
     for (const ContactNode<B>& node : results.contact.nodes)
       if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
     for (Index v = 0; v < nodes.mesh().vertices(); ++v) at_vertex.push_back(touching[nodes.of_vertex(v)]);
-    add("body", chord_sagitta(hierarchy, std::move(at_vertex)));
-    add("obstacle", results.deformed[k]->sagitta);
+    const Chords chords = chord_sagitta(hierarchy, std::move(at_vertex));
+    add("body", chords.sagitta, chords.angle);
+    add("obstacle", results.deformed[k]->sagitta, 0);
   }
   return warnings;
 }

@@ -17,8 +17,8 @@ template <int D, int B>
 std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model);
 
 /// Where the deformed body is inside an obstacle, or off it where contact is claimed, by more than a hundredth of the
-/// displacements there; and forces that held vertices share with the obstacle. One sentence per obstacle and kind, for
-/// the worst step.
+/// displacements there; contacts of too few nodes; and forces that held vertices share with the obstacle. One sentence
+/// per obstacle and kind, for the worst step.
 std::vector<std::string> contact_warnings(const Scene& scene, const Report& report);
 
 /// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined

@@ -402,6 +402,27 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
 // A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
 // are its solutions, and a step that is long enough ends in one.
 template <int D, int B>
+std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
+  constexpr double little = 0.1;  // of the largest part
+  const std::vector<double> u = to_global(discretization_.problem, x);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(free_.cols(), free_.cols());
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(free_.cols());
+  for (Index p = 0; p < nodes_.size(); ++p)
+    for (int k = 0; k < B; ++k) {
+      double d[B] = {};
+      d[k] = 1;
+      const Eigen::RowVectorXd row = motions_.along(p, d) * free_;
+      normal += row.transpose() * row;
+      right += row.transpose() * u[Offset{p} * B + k];
+    }
+  Eigen::VectorXd motion = free_ * normal.ldlt().solve(right);
+  const double largest = motion.cwiseAbs().maxCoeff();
+  for (double& part : motion)
+    if (std::abs(part) < little * largest) part = 0;
+  return motions_.describe(motion);
+}
+
+template <int D, int B>
 std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
   std::vector<double> way = as_prescribed();
   if (free_.cols() == 0) return way;

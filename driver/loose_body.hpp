@@ -31,6 +31,10 @@ class LooseBody {
   /// @return the way of the undeformed body there (local coordinates); empty: it stays where it is
   std::vector<double> fall(std::vector<double>& x) const;
 
+  /// Names the motion that takes the undeformed body nearest to x (local coordinates), of those that the prescribed
+  /// values leave.
+  std::string way(const std::vector<double>& x) const;
+
   /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
   /// least mean square. What the obstacles press on keeps its contact.
   /// @return names of motions that span those which nothing decides

@@ -22,7 +22,7 @@ double largest(const std::vector<double>& values) {
 template <int B>
 typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>& x_before,
                                                        const std::vector<double>& r_before, std::vector<double>& x,
-                                                       std::vector<double>& r, bool accelerated, bool resting) {
+                                                       std::vector<double>& r, bool accelerated) {
   load_.correct(x, change_, S_change_);
   if (accelerated)
     acceleration_.add_step(x_before, x, r_before, r, change_, S_change_);
@@ -30,25 +30,25 @@ typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>
     acceleration_.reset();
   load_.add(change_, r);
   Renewed out;
-  out.combined = accelerated && combine(x, r);
+  out.combined = accelerated && combine(x);
   out.squared = dot(change_, S_change_);
   const double moved = largest(change_), size = largest(load_.values());
   out.change = size > 0 ? moved / size : moved > 0 ? infinity : 0;
-  watch(x, resting);
+  watch(x, accelerated);
   return out;
 }
 
 template <int B>
-bool LoadRenewal<B>::combine(std::vector<double>& x, std::vector<double>& r) {
+bool LoadRenewal<B>::combine(std::vector<double>& x) {
   std::vector<double> p = load_.values();
-  if (!acceleration_.combine(x, p, r)) return false;
+  if (!acceleration_.combine(x, p)) return false;
   for (std::size_t k = 0; k < p.size(); ++k) p[k] -= load_.values()[k];
-  unused_.resize(r.size());
-  load_.add(p, unused_);  // the residual is combined, too
+  unused_.resize(x.size());
+  load_.add(p, unused_);
   return true;
 }
 
-// What is found holds until the phases change.
+// What is found holds until many phases change.
 template <int B>
 void LoadRenewal<B>::watch(const std::vector<double>& x, bool resting) {
   for (std::size_t e = 0; e < watched_.size(); ++e) {

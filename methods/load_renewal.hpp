@@ -21,16 +21,15 @@ class LoadRenewal {
 
   /// What a renewal has done.
   struct Renewed {
-    bool combined = false;  ///< the iterate is no longer the cycle's own, its residual no longer computed from it
+    bool combined = false;  ///< x is no longer the cycle's own, and r is not its residual
     double squared = 0;     ///< of the change, measured by S
     double change = 0;      ///< the largest one over the largest of what changes
   };
-  /// After a cycle from x_before, with the residual r_before, to x with r, both for the load of now. x may be
-  /// accelerated, r becomes its residual for the new load.
-  /// @param accelerated whether to accelerate: where few phases changed
-  /// @param resting whether none did
+  /// After a cycle from x_before, with the residual r_before, to x with r, both for the load of now. r becomes the
+  /// residual of x for the new load, but where x is accelerated.
+  /// @param accelerated whether to accelerate, and to keep what is known of resistances: where few phases changed
   Renewed renew(const std::vector<double>& x_before, const std::vector<double>& r_before, std::vector<double>& x,
-                std::vector<double>& r, bool accelerated, bool resting);
+                std::vector<double>& r, bool accelerated);
 
  private:
   /// Along a direction of the load: the force after the last cycle, how many cycles hardly changed it, and whether its
@@ -43,7 +42,7 @@ class LoadRenewal {
 
   void watch(const std::vector<double>& x, bool resting);
   void find_resistance(std::size_t e, const std::vector<double>& x);
-  bool combine(std::vector<double>& x, std::vector<double>& r);
+  bool combine(std::vector<double>& x);
 
   FollowingLoad<B>& load_;
   MonotoneMultigrid<B>& multigrid_;

@@ -41,7 +41,8 @@ std::vector<Prolongation> linear_level(const DiscreteProblem<B>& problem, std::s
 
 bool rests(const LevelReport& finest) { return 100 * finest.changed <= automatic::resting_percent * finest.critical; }
 
-// For acceleration beside functionals, whose phases come to rest layer by layer, a few in each cycle.
+// For acceleration beside functionals and loads that follow, with which phases come to rest layer by layer, a few in
+// each cycle.
 bool mostly_rests(const LevelReport& finest) { return 2 * finest.changed <= finest.critical; }
 
 }  // namespace
@@ -50,9 +51,10 @@ template <int B>
 MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
                                           std::span<const Prolongation> prolongations, std::vector<double>& x,
                                           const SolverOptions& options, Components<B> components,
-                                          const automatic::Patience& patience)
+                                          const automatic::Situation& situation, const automatic::Patience& patience)
     : Iteration<B>(problem, x, options),
       method_(check_options(options)),
+      situation_(situation),
       patience_(patience),
       own_(linear_level<B>(problem, prolongations, method_)),
       multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
@@ -98,8 +100,8 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
       });
   const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
   if (nonlinear_ && this->options_.krylov && !load_) renew_forces();
-  const bool combined = load_ ? renew_load(cycle.finest())
-                              : this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
+  if (load_) renew_load(cycle.finest());
+  const bool combined = !load_ && this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
@@ -114,9 +116,12 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     renewal_.add(sums.natural_residual);
     step.stuck = renewal_.stuck();
   }
-  if (nonlinear_ || load_) return step;  // nothing else can treat these
-  if (method_ == Method::automatic && loses_patience()) step.stuck = "the cycles converge too slowly";
-  if (method_ == Method::automatic && idle) step.stuck = "the cycles change nothing, but forces are left";
+  if (method_ != Method::automatic) return step;
+  if (step.stuck.empty() && loses_patience()) {
+    lost_patience_ = true;
+    step.stuck = "the cycles converge too slowly";
+  }
+  if (idle && !nonlinear_ && !load_) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 
@@ -137,8 +142,10 @@ bool MultigridIteration<B>::loses_patience() const {
   const int left = std::min(patience_.most, this->options_.max_iterations) - cycles_;
   if (cycles_ < patience_.first || cycles_ % patience_.every != 0 || cycles_ >= this->options_.max_iterations)
     return false;
-  const Offset unknowns = this->free_unknowns(finest()), coarsest = this->free_unknowns(multigrid_.levels().front());
-  if (automatic::solvers_for_active_sets(B, unknowns, coarsest).empty()) return false;
+  automatic::Situation situation = situation_;
+  situation.unknowns = this->free_unknowns(finest());
+  situation.coarsest = this->free_unknowns(multigrid_.levels().front());
+  if (!automatic::others_suit(situation)) return false;
   return !(this->excess() * std::pow(estimate_.rate(), std::max(left, 0)) <= 1);
 }
 
@@ -198,20 +205,22 @@ bool MultigridIteration<B>::accelerate(const CycleReport& cycle, bool gaining) {
 }
 
 // After a cycle a load follows its iterate, which is judged with the load renewed. The energy was lowered for the load
-// of before, which the sums of gains tell. Returns whether the iterate is no longer the cycle's own.
+// of before, which the sums of gains tell.
 template <int B>
-bool MultigridIteration<B>::renew_load(const LevelReport& finest) {
-  const bool accelerated = this->options_.krylov && method_ != Method::pgs && rests(finest);
-  const auto renewed =
-      load_->renew(this->x_before_, this->r_before_, this->x_, this->r_, accelerated, finest.changed == 0);
+void MultigridIteration<B>::renew_load(const LevelReport& finest) {
+  const bool accelerated = this->options_.krylov && method_ != Method::pgs && mostly_rests(finest);
+  const auto renewed = load_->renew(this->x_before_, this->r_before_, this->x_, this->r_, accelerated);
   const Sums of_cycle = std::exchange(this->sums_, {});
-  in_pieces<B>(0, multigrid_.finest().vectors,
-               [&](Index first, Index last) { this->add_sums(this->x_, this->r_, first, last, this->sums_); });
+  in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
+    if (renewed.combined)
+      this->evaluate(this->x_, this->r_, first, last, this->sums_);
+    else
+      this->add_sums(this->x_, this->r_, first, last, this->sums_);
+  });
   this->sums_.gain = of_cycle.gain;
   this->sums_.size = of_cycle.size;
   this->sums_.correction = of_cycle.correction + renewed.squared;
   this->residual_of_load_ = renewed.change;
-  return renewed.combined;
 }
 
 // The negative gradient of the energy with the functionals, where these are smooth.

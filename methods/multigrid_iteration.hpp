@@ -10,13 +10,18 @@
 namespace signorini {
 
 /// Cycles of multigrid as steps, accelerated while the phases rest. With method "auto" they end with Outcome::stuck
-/// where their patience ends, if there is a linear solver for the problem.
+/// where their patience ends, if another method suits the problem.
 template <int B>
 class MultigridIteration final : public Iteration<B> {
  public:
+  /// @param situation of method "auto", before any cycle
   MultigridIteration(const DiscreteProblem<B>& problem, std::span<const Prolongation> prolongations,
                      std::vector<double>& x, const SolverOptions& options, Components<B> components,
+                     const automatic::Situation& situation = {},
                      const automatic::Patience& patience = automatic::patience_with_cycles);
+
+  /// Whether that is how it ended.
+  bool lost_patience() const { return lost_patience_; }
 
  private:
   using typename Iteration<B>::Step;
@@ -31,7 +36,7 @@ class MultigridIteration final : public Iteration<B> {
   void compare_gains(bool free, bool cut_off);
   bool loses_patience() const;
   bool accelerate(const CycleReport& cycle, bool gaining);
-  bool renew_load(const LevelReport& finest);
+  void renew_load(const LevelReport& finest);
   bool take_combination(const CycleReport& cycle);
   void set_forces();
   void renew_forces();
@@ -40,7 +45,9 @@ class MultigridIteration final : public Iteration<B> {
   double rounding_of_gain() const;
 
   Method method_;
+  automatic::Situation situation_;
   automatic::Patience patience_;
+  bool lost_patience_ = false;
   std::vector<Prolongation> own_;  // empty unless a single level has functionals
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;

@@ -17,6 +17,11 @@ namespace {
 constexpr double slip_stiffness = 1e-3;  // of that of the vector
 constexpr double least_step = 1.0 / 32;
 
+template <int B>
+bool treats_not(const Segment<B>& s) {
+  return s.obstacle->functional() && !s.obstacle->friction();
+}
+
 }  // namespace
 
 template <int B>
@@ -31,6 +36,13 @@ NewtonIteration<B>::NewtonIteration(const DiscreteProblem<B>& problem, std::vect
 }
 
 template <int B>
+bool NewtonIteration<B>::suits(const DiscreteProblem<B>& problem) {
+  const auto functional = [](const Segment<B>& s) { return s.obstacle->functional() != nullptr; };
+  return problem.constraints.facet.empty() && !problem.following && std::ranges::any_of(problem.segments, functional) &&
+         std::ranges::none_of(problem.segments, treats_not<B>);
+}
+
+template <int B>
 void NewtonIteration<B>::check(const DiscreteProblem<B>& problem) {
   const Constraints<B>& c = problem.constraints;
   if (!c.facet.empty())
@@ -38,7 +50,7 @@ void NewtonIteration<B>::check(const DiscreteProblem<B>& problem) {
                 "'newton' treats one direction of contact at a vertex, and obstacles hold some along "
                 "several; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");
   for (const Segment<B>& s : problem.segments)
-    if (s.obstacle->functional() && !s.obstacle->friction())
+    if (treats_not(s))
       input_error("solver.method",
                   "'newton' treats bounds and friction, and an obstacle adds something else to the "
                   "energy; expected 'auto', 'monotone', 'tnnmg' or 'pgs'");

@@ -17,6 +17,8 @@ namespace signorini {
 template <int B>
 class NewtonIteration final : public Iteration<B> {
  public:
+  /// Whether there is friction, and nothing else that it does not treat.
+  static bool suits(const DiscreteProblem<B>& problem);
   /// Error(Exit::input) where an obstacle adds anything but friction to the energy, or there are facets.
   static void check(const DiscreteProblem<B>& problem);
   /// Errors as of check().

@@ -34,31 +34,27 @@ void PairedAcceleration<B>::add_step(const std::vector<double>& x_before, const 
 }
 
 template <int B>
-void PairedAcceleration<B>::difference(const Step& before, const Step& now, Step& out) const {
-  subtract(now.step.x, before.step.x, out.step.x);
-  subtract(now.step.p, before.step.p, out.step.p);
-  subtract(now.image.x, before.image.x, out.image.x);
-  subtract(now.image.p, before.image.p, out.image.p);
-  subtract(now.result.x, before.result.x, out.result.x);
-  subtract(now.result.p, before.result.p, out.result.p);
-  subtract(now.residual, before.residual, out.residual);
+void PairedAcceleration<B>::find_difference(Direction& out) {
+  subtract(now_.step.x, before_.step.x, out.step.x);
+  subtract(now_.step.p, before_.step.p, out.step.p);
+  subtract(now_.image.x, before_.image.x, image_.x);
+  subtract(now_.image.p, before_.image.p, image_.p);
+  subtract(now_.result.x, before_.result.x, out.result.x);
+  subtract(now_.result.p, before_.result.p, out.result.p);
 }
 
 template <int B>
-void PairedAcceleration<B>::make_orthogonal(Step& newest) const {
+void PairedAcceleration<B>::make_orthogonal(Direction& newest) {
   for (int k = 0; k < known_; ++k) {
-    const Step& other = directions_[k];
+    const Direction& other = directions_[k];
     if (&other == &newest) continue;
-    const double part = -(dot(other.image.x, newest.step.x) + dot(other.image.p, newest.step.p)) / other.squared;
+    const double part = -(dot(image_.x, other.step.x) + dot(image_.p, other.step.p)) / other.squared;
     add_times(part, other.step.x, newest.step.x);
     add_times(part, other.step.p, newest.step.p);
-    add_times(part, other.image.x, newest.image.x);
-    add_times(part, other.image.p, newest.image.p);
     add_times(part, other.result.x, newest.result.x);
     add_times(part, other.result.p, newest.result.p);
-    add_times(part, other.residual, newest.residual);
   }
-  newest.squared = dot(newest.image.x, newest.step.x) + dot(newest.image.p, newest.step.p);
+  newest.squared = dot(image_.x, newest.step.x) + dot(image_.p, newest.step.p);
 }
 
 template <int B>
@@ -69,17 +65,16 @@ bool PairedAcceleration<B>::admissible(const std::vector<double>& x) const {
 }
 
 template <int B>
-bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>& p, std::vector<double>& r) {
+bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>& p) {
   now_.result.x = x;
   now_.result.p = p;
-  now_.residual = r;
   const double squared = dot(now_.image.x, now_.step.x) + dot(now_.image.p, now_.step.p);
   const bool grows = squared > grown * now_.squared;
   now_.squared = squared;
   if (grows) reset();
   if (steps_++ == 0) return false;
-  Step& newest = directions_[next_];
-  difference(before_, now_, newest);
+  Direction& newest = directions_[next_];
+  find_difference(newest);
   make_orthogonal(newest);
   if (!(newest.squared > 0)) {
     reset();
@@ -88,14 +83,12 @@ bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>&
   next_ = (next_ + 1) % depth;
   known_ = std::min(known_ + 1, depth);
   x_ = x;
-  r_ = r;
   for (int k = 0; k < known_; ++k) {
-    const Step& direction = directions_[k];
+    const Direction& direction = directions_[k];
     const double part =
-        -(dot(direction.image.x, now_.step.x) + dot(direction.image.p, now_.step.p)) / direction.squared;
+        -(dot(now_.image.x, direction.step.x) + dot(now_.image.p, direction.step.p)) / direction.squared;
     add_times(part, direction.result.x, x_);
     add_times(part, direction.result.p, p);
-    add_times(part, direction.residual, r_);
   }
   if (!admissible(x_)) {
     reset();
@@ -103,7 +96,6 @@ bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>&
     return false;
   }
   x.swap(x_);
-  r.swap(r_);
   return true;
 }
 

@@ -10,7 +10,8 @@ namespace signorini {
 /// rest: among the combinations of the last steps the one whose next step is the shortest, were the iteration linear
 /// (Anderson, J. ACM 12, 1965; Walker and Ni, SIAM J. Numer. Anal. 49, 2011). The length is measured by A for the
 /// displacements and by S for what the load depends on. A times a step of the displacements is the difference of
-/// residuals, so that no product is needed.
+/// residuals, so that no product is needed. Thin bodies that are held along their length have many slow pressures, and
+/// so the memory is long: two vectors for each step, as far as there are steps.
 template <int B>
 class PairedAcceleration {
  public:
@@ -21,33 +22,39 @@ class PairedAcceleration {
   /// A step has led from x_before to x, with residuals of one load, and to a change of p, S times which is given.
   void add_step(const std::vector<double>& x_before, const std::vector<double>& x, const std::vector<double>& r_before,
                 const std::vector<double>& r, const std::vector<double>& change, const std::vector<double>& S_change);
-  /// Combines what that step leads to, with its residual for the load of then, with what the ones before led to.
-  /// @param x, p, r where the step leads to; become the combination where there is one within the bounds
+  /// Combines what that step leads to with what the ones before led to.
+  /// @param x, p where the step leads to; become the combination where there is one within the bounds
   /// @return whether there is
-  bool combine(std::vector<double>& x, std::vector<double>& p, std::vector<double>& r);
+  bool combine(std::vector<double>& x, std::vector<double>& p);
 
  private:
-  static constexpr int depth = 3;
+  static constexpr int depth = 60;
   /// Of x and p.
   struct Pair {
     std::vector<double> x, p;
   };
-  /// A step with its image under A and S, and where it led to; of directions the differences of these.
+  /// A step with its image under A and S, and where it led to.
   struct Step {
     Pair step, image, result;
-    std::vector<double> residual;
+    double squared = 0;
+  };
+  /// The difference of two steps, orthogonal to the others, and that of where they led to.
+  struct Direction {
+    Pair step, result;
     double squared = 0;
   };
 
-  void difference(const Step& before, const Step& now, Step& out) const;
-  void make_orthogonal(Step& newest) const;
+  /// That to the step before.
+  void find_difference(Direction& out);
+  void make_orthogonal(Direction& newest);
   bool admissible(const std::vector<double>& x) const;
 
   const Constraints<B>& constraints_;
   Step now_, before_;
-  std::array<Step, depth> directions_;  // a ring
+  std::array<Direction, depth> directions_;  // a ring
   int steps_ = 0, known_ = 0, next_ = 0;
-  std::vector<double> x_, r_;
+  Pair image_;             // of the newest difference
+  std::vector<double> x_;  // the combination
 };
 
 }  // namespace signorini

@@ -43,13 +43,14 @@ class Automatic {
     situation_.coarsest = Offset{situation_.coarsest_vectors} * B;
     situation_.levels = !prolongations.empty();
     situation_.functional = has_functional(problem.segments) || problem.following;
+    situation_.friction = NewtonIteration<B>::suits(problem);
     situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !situation_.functional;
     from_zero_ = std::ranges::all_of(x, [](double v) { return v == 0; });
   }
 
   Summary run() {
     for (const automatic::StageRule& rule : automatic::stages())
-      if (unsolved() && rule.suits(situation_)) run(rule);
+      if (unsolved_for(rule) && rule.suits(situation_)) run(rule);
     if (went_on_ && done_.outcome == Outcome::stuck) {
       done_.outcome = Outcome::iteration_limit;
       done_.reason = fmt::format("iteration limit {}: {}", options_.max_iterations, done_.reason);
@@ -59,38 +60,43 @@ class Automatic {
   }
 
  private:
-  bool unsolved() const {
+  bool unsolved_for(const automatic::StageRule& rule) const {
     if (!situation_.begun) return true;
-    if (situation_.functional) return done_.outcome == Outcome::stuck && !from_zero_;
+    if (situation_.functional)
+      return done_.outcome == Outcome::stuck && !(rule.kind == automatic::Kind::cycles_from_zero && from_zero_);
     if (steps_ >= options_.max_iterations) return false;
     return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
   }
 
   void run(const automatic::StageRule& rule) {
     if (!situation_.begun) return begin(rule);
-    went_on_ = rule.kind != automatic::Kind::cycles_from_zero;
+    went_on_ = !situation_.functional;
+    if (problem_.following) problem_.following->withdraw();
     switch (rule.kind) {
       case automatic::Kind::cycles_from_zero:
         return begin_from_zero(rule);
+      case automatic::Kind::newton:
+        return attempt<NewtonIteration<B>>(rule);
       case automatic::Kind::cycles:
         return cycle(rule, prolongations_);
       case automatic::Kind::single_level:
         return cycle(rule, {});
       case automatic::Kind::active_sets:
-        return attempt<ActiveSetIteration<B>>(rule, automatic::shift_if_singular);
+        return attempt<ActiveSetIteration<B>>(rule, rule.solver, automatic::shift_if_singular);
       case automatic::Kind::interior_points:
-        return attempt<InteriorPointIteration<B>>(rule);
+        return attempt<InteriorPointIteration<B>>(rule, rule.solver);
     }
   }
 
   void begin(const automatic::StageRule& rule) {
     const double begin = seconds();
-    MultigridIteration<B> loop(problem_, prolongations_, x_, options_, components(rule), rule.patience);
+    MultigridIteration<B> loop(problem_, prolongations_, x_, options_, components(rule), situation_, rule.patience);
     const double ready = seconds();
     done_ = loop.run(monitor_);
     setup_seconds_ = ready - begin;
     steps_ = done_.iterations;
     situation_.begun = true;
+    situation_.slow = loop.lost_patience();
     situation_.unknowns = done_.level_unknowns.back();
     situation_.coarsest = done_.level_unknowns.front();
   }
@@ -138,7 +144,7 @@ class Automatic {
     stage.method = rule.method;
     stage.linear = rule.solver;
     try {
-      Summary found = Method(problem_, x_, own, registry_, rule.solver, more...).run(counted(), steps_);
+      Summary found = Method(problem_, x_, own, registry_, more...).run(counted(), steps_);
       found.iterations = found.stages.front().iterations = 0;  // no cycles
       stage = found.stages.front();
       ended = found.converged() || found.outcome == Outcome::interrupted;

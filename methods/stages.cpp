@@ -20,9 +20,14 @@ constexpr int interior_points = 60;
 // took eight minutes.)
 constexpr Offset most_for_newton = 12'000;
 constexpr int newton_steps = 40;
+// With friction its matrices have no symmetry, and each step is a factorisation.
+constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'000;
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
 bool coarsens(const Situation& s) { return !s.functional && s.block == 1 && 2 * s.coarsest <= s.unknowns; }
+bool newton_suits(const Situation& s) {
+  return s.friction && s.unknowns <= (s.block == 3 ? most_for_friction_in_space : most_for_friction);
+}
 bool factorisable(const Situation& s) { return !s.functional && s.unknowns <= most_for_direct; }
 
 // The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
@@ -35,7 +40,7 @@ bool dear_below(const Situation& s) {
 std::string patience(const Patience& p) {
   return fmt::format(
       "after {} cycles, or any {}later one, where the rate of the last ones leads to more than {} (or "
-      "`max_iterations`), and active sets suit",
+      "`max_iterations`), and active sets or Newton's method suit",
       p.first, p.every == 1 ? "" : fmt::format("{}th ", p.every), p.most);
 }
 
@@ -74,9 +79,19 @@ const std::vector<StageRule>& stages() {
        .method = "auto",
        .solver = "",
        .suits = [](const Situation& s) { return s.functional && s.begun; },
-       .begins = "where friction did not come to rest, and the start was another one",
+       .begins = "with friction, where the start was another one",
        .ends = "where friction does not come to rest, or at `max_iterations`",
        .purpose = "a body that friction hardly holds, and that slid off on a coarse mesh"},
+      {.name = "Newton's method with friction",
+       .kind = Kind::newton,
+       .method = "newton",
+       .solver = "umfpack",
+       .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
+       .begins = fmt::format("for at most {} unknowns, in space {}", number(most_for_friction),
+                             number(most_for_friction_in_space)),
+       .ends = fmt::format("after {} steps, or where its matrix is singular", newton_steps),
+       .purpose = "bodies that little but friction holds",
+       .most_steps = newton_steps},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,
        .method = "pdas",
@@ -121,8 +136,8 @@ const std::vector<StageRule>& stages() {
        .kind = Kind::cycles,
        .method = "monotone",
        .solver = "",
-       .suits = [](const Situation& s) { return !s.functional && s.begun; },
-       .begins = "where nothing else has solved the problem",
+       .suits = [](const Situation& s) { return s.begun && (!s.functional || s.slow); },
+       .begins = "where nothing else has solved the problem, but for friction that did not come to rest",
        .ends = "at `max_iterations`",
        .purpose = "slow cycles are better than none"}};
   return list;
@@ -135,6 +150,8 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
       out.emplace_back(rule.solver);
   return out;
 }
+
+bool others_suit(const Situation& s) { return newton_suits(s) || coarsens(s) || factorisable(s); }
 
 std::string table_of_stages() {
   std::string out = "| stage | begins | ends unsolved | is for |\n| --- | --- | --- | --- |\n";

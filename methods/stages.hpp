@@ -26,11 +26,13 @@ struct Situation {
   bool levels = false;                      ///< there are several
   bool newton = false;                      ///< the coarse solver makes Newton steps, which may be dear
   bool begun = false;                       ///< a stage has been run
-  bool functional = false;                  ///< an obstacle adds to the energy, or a load follows: cycles alone do
+  bool functional = false;                  ///< an obstacle adds to the energy, or a load follows: no active sets
+  bool friction = false;                    ///< it is friction alone, along one direction of contact at each vertex
+  bool slow = false;                        ///< cycles came to the end of their patience
 };
 
 /// What makes the steps of a stage.
-enum class Kind { cycles, cycles_from_zero, single_level, active_sets, interior_points };
+enum class Kind { cycles, cycles_from_zero, newton, single_level, active_sets, interior_points };
 
 inline constexpr int unlimited = std::numeric_limits<int>::max();
 
@@ -48,6 +50,9 @@ struct StageRule {
 };
 
 const std::vector<StageRule>& stages();
+
+/// Whether cycles that have begun need not go on to their end: some other method suits.
+bool others_suit(const Situation& situation);
 
 /// The registered linear solvers for active sets, those to be tried first in front; none: cycles have to do.
 /// @param block unknowns per vector

@@ -403,7 +403,9 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, Index obstacle, doubl
     totals.add(node);
   }
   if (!in_body) {
-    summary.area = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
+    const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
+    summary.area = recovered.area;
+    summary.resolved = recovered.resolved;
     for (const ContactNode<B>& node : state.nodes)
       if (node.obstacle == obstacle) totals.add(node);
   }

@@ -34,7 +34,7 @@ std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& 
     if (found == jumps.vector.end() || *found != node.vertex) continue;
     const auto s = found - jumps.vector.begin();
     double back[B];
-    block::product<B>(jumps.project.data() + s * B * B, node.force.data(), back);
+    block::transposed_product<B>(jumps.project.data() + s * B * B, node.force.data(), back);
     for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k) {
       const Index q = jumps.column[k];
       NodalForce<B>& force =

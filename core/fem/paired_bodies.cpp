@@ -96,11 +96,13 @@ class Coupler {
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
     take_side(slave_of_, master_of_, p, obstacle);
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
-    for (int i = 0; i < D; ++i) node.away[i] = -free->direction[i];
+    // Bounds are reduced to what is free later on, but for friction, whose coordinates are to be free.
+    for (int i = 0; i < D; ++i) node.away[i] = with_friction ? -free->direction[i] : -normal[i];
     const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
     node.part = found.part(k);
-    node.gap = (found.gap[k] / node.part + before - free->prescribed) / free->part;
-    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : onto(free->direction)});
+    node.gap = found.gap[k] / node.part + before;
+    if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
+    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
       row.column.push_back(nodes_.of_vertex(found.column[j]));
       row.weight.push_back(found.value[j]);
@@ -136,11 +138,12 @@ class Coupler {
     return out;
   }
 
-  /// Along the surfaces only friction holds the bodies together.
-  static std::array<double, D * D> onto(const Point<D>& normal) {
+  /// Along the surfaces only friction holds the bodies together. What the master moves along the normal the slave's
+  /// node makes up for along what is free of it: oblique where these differ.
+  static std::array<double, D * D> along(const FreeNormal<D>& free, const Point<D>& normal) {
     std::array<double, D * D> out;
     for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j) out[i * D + j] = normal[i] * normal[j];
+      for (int j = 0; j < D; ++j) out[i * D + j] = free.direction[i] * normal[j] / free.part;
     return out;
   }
 

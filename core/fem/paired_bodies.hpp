@@ -13,7 +13,7 @@ template <int B>
 struct PairedNode {
   Index node;
   Index obstacle;              ///< number in Model::obstacles
-  std::array<double, B> away;  ///< unit normal from the master to the slave, see free_normal()
+  std::array<double, B> away;  ///< unit normal from the master to the slave; with friction see free_normal()
   double gap;                  ///< mean distance along it, weighted by the node's dual basis function: a coefficient
   double part = 1;             ///< of the distance in the node's bound, see MortarCoupling::part()
 };

@@ -140,6 +140,13 @@ void PressureLoad<D>::apply() {
 }
 
 template <int D>
+void PressureLoad<D>::withdraw() {
+  std::vector<double> load = load_of(p_);
+  for (double& f : load) f = -f;
+  subtract(load);
+}
+
+template <int D>
 void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>& change,
                               std::vector<double>& residual) {
   residual.resize(p_.size());

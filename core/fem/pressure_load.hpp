@@ -16,6 +16,7 @@ class PressureLoad final : public FollowingLoad<D> {
 
   const std::vector<double>& values() const override { return p_; }
   void apply() override;
+  void withdraw() override;
   void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) override;
   void add(const std::vector<double>& change, std::vector<double>& r) override;
   double squared() const override;

@@ -16,7 +16,9 @@ constexpr int rings = 3;         // of neighbours that a fit looks at
 constexpr int rings_beyond = 5;  // the same at the edge, where it goes on from further inside
 constexpr int most_rings = 6;    // where there are few samples
 constexpr double excess = 1.25;  // over the means around a node: a linear pressure at a corner has less
-constexpr double falls = 0.5;    // from a node in contact to the next one: more is left under a punch
+constexpr double at_edge =
+    0.3;                       // of the next pressure inside is what a mean at the edge may have without any of its own
+constexpr double falls = 0.5;  // from a node in contact to the next one: more is left under a punch
 // Samples that a fit looks for, and without which it does not go on to the edge.
 template <int D>
 constexpr std::size_t enough = D == 2 ? 4 : 12;
@@ -44,9 +46,20 @@ class Recovery {
       ContactNode<B>& node = faces_.node(k);
       square_[k] = fitted(k).value_or(node.pressure * node.pressure);
       node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)));
+      if (const double least = at_least(k); least > 0) square_[k] = std::max(square_[k], least * least);
     }
     for (Index k = 0; k < faces_.size(); ++k)
       if (!faces_.pressed(k) && !faces_.around(k).empty()) square_[k] = beyond(k);
+  }
+
+  bool resolved() const {
+    bool all_inside = true;
+    for (Index k = 0; k < faces_.size(); ++k) {
+      if (!faces_.pressed(k)) continue;
+      if (inside_[k] && samples(k).size() >= enough<D>) return true;
+      all_inside = all_inside && inside_[k];
+    }
+    return all_inside;
   }
 
   double area() const {
@@ -135,7 +148,16 @@ class Recovery {
       least = std::min(least, mean);
       largest = std::max(largest, mean);
     }
-    return std::clamp(pressure, least, excess * largest);
+    return std::clamp(pressure, std::max(least, at_least(k)), excess * largest);
+  }
+
+  /// At the edge of a smooth contact a hat function that reaches into it by its whole width has a mean of 4/15 of the
+  /// pressure at its other end. What more there is at a node is pressure of its own, however the fit goes on there.
+  double at_least(Index k) const {
+    double largest = 0;
+    for (const Index other : faces_.around(k))
+      if (faces_.pressed(other)) largest = std::max(largest, faces_.node(other).pressure);
+    return faces_.node(k).pressure - at_edge * largest;
   }
 
   /// At a node without contact.
@@ -162,8 +184,7 @@ class Recovery {
     }
     for (int c = 0; c < D; ++c)
       if (faces_.corners(f)[c] == unreachable) value[c] = -std::abs(sum) / pressed;
-    const Point<D> normal = area_normal(nodes_.mesh(), face);
-    return std::sqrt(dot(normal, normal)) * part(face, value);
+    return face_measure(nodes_, faces_.faces()[f]) * part(face, value);
   }
 
   double part(const Face<D>& face, const std::array<double, D>& value) const {
@@ -198,18 +219,18 @@ class Recovery {
 }  // namespace
 
 template <int D, int B>
-double recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
-                        std::vector<ContactNode<B>>& contact) {
+RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
+                                   double least_force, std::vector<ContactNode<B>>& contact) {
   const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, contact);
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
   recover_traction(nodes, surface, faces);
-  return recovery.area();
+  return {recovery.area(), recovery.resolved()};
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                             \
-  template double recover_pressure(const Nodes<D>&, const ContactSurface<D, B>&, Index, double, \
-                                   std::vector<ContactNode<B>>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                        \
+  template RecoveredPressure recover_pressure(const Nodes<D>&, const ContactSurface<D, B>&, Index, double, \
+                                              std::vector<ContactNode<B>>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -15,13 +15,19 @@ namespace signorini {
 ///
 /// Sets ContactNode::recovered of an obstacle's nodes, and ContactNode::traction from it
 /// (core/fem/traction_recovery.hpp). The pressure lies between the least and 1.25 times the largest of the means at the
-/// node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it. Where too few
-/// nodes are around, or it rises towards the edge as under a punch, it is the mean.
+/// node and its neighbours, so that neither singular pressures nor contacts of a few nodes spoil it; and at the edge of
+/// coarse contacts not below what of a node's mean the pressure farther inside does not explain. Where too few nodes
+/// are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
-/// @return measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where it does not
-/// fall towards the edge, as under a punch, contact goes on half way to the next node.
+/// @return `area`, the measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where
+/// it does not fall towards the edge, as under a punch, contact goes on half way to the next node. `resolved`:
+/// somewhere there are nodes enough inside the contact for a fit, or none is at its edge.
+struct RecoveredPressure {
+  double area;
+  bool resolved;
+};
 template <int D, int B>
-double recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
-                        std::vector<ContactNode<B>>& contact);
+RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
+                                   double least_force, std::vector<ContactNode<B>>& contact);
 
 }  // namespace signorini

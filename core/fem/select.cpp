@@ -125,23 +125,49 @@ std::size_t place_on_element(const Nodes<D>& nodes, Index face, std::size_t at) 
   return static_cast<std::size_t>(RedRefinement<D - 1>::children[static_cast<std::size_t>(face) % per_element][at]);
 }
 
+/// The integral of the k-th quadratic basis function over a face of an element.
+template <int D>
+double quadratic_share(const Mesh<D>& mesh, const std::array<Index, element_nodes<D - 1, 2>>& vertices, std::size_t k,
+                       Plane plane) {
+  if (plane == Plane::axisymmetric)
+    return ring_measure<2, D, D - 1>(mesh, vertices) * circumference_share<2, D, D - 1>(mesh, vertices, k);
+  const ElementMap<D, D - 1, 2> map(mesh, vertices);
+  const auto measure = [&](const auto& barycentric) { return length<D>(area_normal(map.flat(barycentric))); };
+  if (!map.curved()) return measure(barycentre<D - 1>()) * basis_mean<2, D - 1>(k);
+  double sum = 0;
+  for (const auto& [barycentric, weight] : quadrature5<D - 1>())
+    sum += weight * basis<2>(barycentric)[k] * measure(barycentric);
+  return sum;
+}
+
+template <int D>
+double face_measure(const Nodes<D>& nodes, Index face) {
+  const Mesh<D>& mesh = nodes.mesh();
+  const auto flat = [&](Index f) { return length<D>(area_normal(mesh, mesh.boundary[f])); };
+  if (nodes.order() == 1) return flat(face);
+  const Index first = face - face % nodes.faces_per_element();
+  const ElementMap<D, D - 1, 2> map(mesh, nodes.template element_face<2>(first));
+  if (!map.curved()) return flat(face);
+  double curved = 0, facets = 0;
+  for (const auto& [barycentric, weight] : quadrature5<D - 1>())
+    curved += weight * length<D>(area_normal(map.flat(barycentric)));
+  for (Index f = first; f < first + nodes.faces_per_element(); ++f) facets += flat(f);
+  return flat(face) * curved / facets;
+}
+
 template <int D>
 double face_share(const Nodes<D>& nodes, Index face, Index node, Plane plane) {
   const Mesh<D>& mesh = nodes.mesh();
-  const Point<D> n = area_normal(mesh, mesh.boundary[face]);
   const auto all = nodes.of_face(face);
   const auto at = static_cast<std::size_t>(std::find(all.begin(), all.end(), node) - all.begin());
-  const double measure = std::sqrt(dot(n, n));
-  if (nodes.order() == 1) return measure * basis_integral<D>(plane, mesh, mesh.boundary[face].vertices, at);
-  // Each corner of an element's face lies on one face of the mesh, each midpoint on as many as the face has corners.
-  const auto per_element = static_cast<std::size_t>(nodes.faces_per_element());
-  const std::size_t k = place_on_element(nodes, face, at);
-  if (plane == Plane::axisymmetric) {
-    const auto vertices = nodes.template element_face<2>(face - face % nodes.faces_per_element());
-    return ring_measure<2, D, D - 1>(mesh, vertices) * circumference_share<2, D, D - 1>(mesh, vertices, k) /
-           (k < D ? 1 : D);
+  if (nodes.order() == 1) {
+    const Point<D> n = area_normal(mesh, mesh.boundary[face]);
+    return std::sqrt(dot(n, n)) * basis_integral<D>(plane, mesh, mesh.boundary[face].vertices, at);
   }
-  return measure * static_cast<double>(per_element) * basis_mean<2, D - 1>(k) / (k < D ? 1 : D);
+  // Each corner of an element's face lies on one face of the mesh, each midpoint on as many as the face has corners.
+  const std::size_t k = place_on_element(nodes, face, at);
+  const auto vertices = nodes.template element_face<2>(face - face % nodes.faces_per_element());
+  return quadratic_share(mesh, vertices, k, plane) / (k < D ? 1 : D);
 }
 
 template <int D, int P>
@@ -213,6 +239,7 @@ std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
   template Surface<D> surface(const Nodes<D>&, std::vector<Index>);                          \
   template Surface<D> surface(const Nodes<D>&);                                              \
   template std::vector<Point<D>> node_normals<D>(const Nodes<D>&, const Surface<D>&);        \
+  template double face_measure(const Nodes<D>&, Index);                                      \
   template double face_share(const Nodes<D>&, Index, Index, Plane);                          \
   template std::vector<SharePoint<D>> share_points<D>(const Nodes<D>&, Index, Index, Plane); \
   template std::vector<double> node_areas(const Nodes<D>&, const Surface<D>&, Plane);        \

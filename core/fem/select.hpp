@@ -35,10 +35,13 @@ template <int D>
 std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surface);
 
 /// Integrals of the basis functions over a surface, one per node of it: they are positive and sum to its measure.
-/// (Faces of quadratic elements count as if they were flat, but of axisymmetric bodies.) Of such a body over what the
-/// surface stands for, here and below.
+/// Of an axisymmetric body over what the surface stands for, here and below.
 template <int D>
 std::vector<double> node_areas(const Nodes<D>& nodes, const Surface<D>& surface, Plane plane = Plane::strain);
+
+/// The measure of a face of the mesh. Those of a curved quadratic element divide that of its own face as flat ones do.
+template <int D>
+double face_measure(const Nodes<D>& nodes, Index face);
 
 /// The part of a node in the measure of a face of the mesh that it lies on: what adds up to that integral.
 template <int D>

@@ -1,6 +1,7 @@
 #include "core/geometry/body_geometry.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <set>
@@ -10,6 +11,7 @@
 #include "core/geometry/recognise.hpp"
 #include "core/mesh/bends.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -65,10 +67,34 @@ Point<D> curved_normal(const Mesh<D>& mesh, std::size_t f, int tip) {
   return n;
 }
 
+/// The boundary of a body together with its images beyond planes: the faces of the body come first.
+template <int D>
+struct Continued {
+  std::vector<Point<D>> points;
+  std::vector<std::array<Index, D>> faces;
+
+  void mirror_at(const Mirror& mirror) {
+    std::vector<Index> image(points.size());
+    for (std::size_t v = 0; v < image.size(); ++v) {
+      const bool on = lies_on<D>(mirror, points[v]);
+      image[v] = static_cast<Index>(on ? v : points.size());
+      if (!on) points.push_back(reflected<D>(mirror, points[v]));
+    }
+    const std::size_t count = faces.size();
+    for (std::size_t f = 0; f < count; ++f) {
+      std::array<Index, D> face = faces[f];
+      for (Index& v : face) v = image[v];
+      std::swap(face[0], face[1]);  // turned by the reflection
+      faces.push_back(face);
+    }
+  }
+};
+
 template <int D>
 class Chooser {
  public:
-  Chooser(Mesh<D>& mesh, Surfaces surfaces, double crease) : mesh_(mesh), surfaces_(surfaces), crease_(crease) {
+  Chooser(Mesh<D>& mesh, Surfaces surfaces, double crease, std::span<const Mirror> beyond)
+      : mesh_(mesh), surfaces_(surfaces), crease_(crease), beyond_(beyond) {
     for (const Face<D>& face : mesh.boundary) faces_.push_back(face.vertices);
   }
 
@@ -77,7 +103,7 @@ class Chooser {
     mesh_.bends = {};
     mesh_.curves.clear();
     for (Face<D>& face : mesh_.boundary) face.curve = -1;
-    smooth_ = smooth_boundary<D>(mesh_.points, faces_, crease_);
+    smooth_ = smooth({});
     for (const std::vector<Index>& piece : pieces()) choose(piece);
     move_onto_shapes();
     if (patches_) mesh_.patches = std::make_shared<const std::vector<CubicPatch<D>>>(std::move(smooth_.patches));
@@ -85,11 +111,30 @@ class Chooser {
   }
 
  private:
+  SmoothBoundary<D> smooth(const JointNormal<D>& joint_normal) const {
+    Continued<D> whole{mesh_.points, faces_};
+    for (const Mirror& mirror : beyond_) whole.mirror_at(mirror);
+    SmoothBoundary<D> out = smooth_boundary<D>(whole.points, whole.faces, crease_, joint_normal);
+    out.patches.resize(faces_.size());
+    out.piece.resize(faces_.size());
+    out.pieces = faces_.empty() ? 0 : std::ranges::max(out.piece) + 1;
+    return out;
+  }
+
+  /// Of a curved face of the body, or of its image: images of images have more planes between.
+  Point<D> joint_normal(std::size_t face, int tip) const {
+    const std::size_t image = face / faces_.size();
+    if (image > 0 && tip < 2) tip = std::popcount(image) % 2 == 1 ? 1 - tip : tip;
+    Point<D> n = curved_normal(mesh_, face % faces_.size(), tip);
+    for (std::size_t m = 0; m < beyond_.size(); ++m)
+      if (image >> m & 1u) n[beyond_[m].axis] *= -1;
+    return n;
+  }
+
   /// Curved faces that meet at an edge of the body are on different curves. Where all nodes are on a shape, that is
   /// what they were put on.
   void keep_elements() {
-    smooth_ = smooth_boundary<D>(mesh_.points, faces_, crease_,
-                                 [&](std::size_t face, int tip) { return curved_normal(mesh_, face, tip); });
+    smooth_ = smooth([&](std::size_t face, int tip) { return joint_normal(face, tip); });
     mesh_.curves = {{.kind = CurveKind::elements}};  // what is not renumbered below
     for (const std::vector<Index>& piece : pieces()) {
       const auto curved = [&](Index f) { return mesh_.boundary[f].curve >= 0; };
@@ -342,6 +387,12 @@ class Chooser {
         }
       }
       if (shapes.empty()) continue;
+      for (const Mirror& mirror : beyond_)
+        if (lies_on<D>(mirror, mesh_.points[v])) {
+          Point<D> across{};
+          across[mirror.axis] = 1;
+          planes.push_back({mesh_.points[v], across});
+        }
       const Point<D> target = project<D>(shapes, planes, mesh_.points[v], near_by);
       if (length<D>(difference<D>(target, mesh_.points[v])) > 1e-13 * near_by) moves.push_back({v, target});
     }
@@ -351,6 +402,7 @@ class Chooser {
   Mesh<D>& mesh_;
   Surfaces surfaces_;
   double crease_;
+  std::span<const Mirror> beyond_;
   std::vector<std::array<Index, D>> faces_;
   SmoothBoundary<D> smooth_;
   std::vector<std::vector<Index>> parts_of_;
@@ -360,11 +412,11 @@ class Chooser {
 }  // namespace
 
 template <int D>
-void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease) {
-  Chooser<D>(mesh, surfaces, crease).run();
+void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease, std::span<const Mirror> beyond) {
+  Chooser<D>(mesh, surfaces, crease, beyond).run();
 }
 
-template void give_geometry(Mesh<2>&, Surfaces, double);
-template void give_geometry(Mesh<3>&, Surfaces, double);
+template void give_geometry(Mesh<2>&, Surfaces, double, std::span<const Mirror>);
+template void give_geometry(Mesh<3>&, Surfaces, double, std::span<const Mirror>);
 
 }  // namespace signorini::geometry

@@ -23,7 +23,9 @@ struct Reading {
 /// `pieces` what each smooth piece is taken for. Vertices are moved onto shapes that are fitted to them, as far as no
 /// element is turned inside out. Elements with several faces on one curve are divided.
 /// @param crease angle in radians at which faces meet at an edge of the body
+/// @param beyond planes that the body goes on beyond, mirrored, and has no faces on: its surface is smooth across them
 template <int D>
-void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease = default_crease);
+void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease = default_crease,
+                   std::span<const Mirror> beyond = {});
 
 }  // namespace signorini::geometry

@@ -46,6 +46,7 @@ Json contact(const ContactReport& contact) {
             {"radius", contact.radius},
             {"force", contact.force},
             {"max_pressure", contact.max_pressure},
+            {"resolved", contact.resolved},
             {"slip_nodes", contact.slip_nodes},
             {"stick_nodes", contact.stick_nodes},
             {"normal_force", contact.normal_force},

@@ -57,7 +57,12 @@ std::vector<Bends<D>> find_bends(const RawMesh<D>& raw, std::string_view place) 
       if (!std::isfinite(far))
         input_error(place, fmt::format("the edge from ({}) to ({}) goes through ({}), which is too far away",
                                        fmt::join(a, ", "), fmt::join(b, ", "), fmt::join(raw.points[m], ", ")));
-      if (far <= straight * length<D>(difference<D>(a, b))) continue;
+      const double size = length<D>(difference<D>(a, b));
+      if (far > size)  // half of it is half a circle
+        input_error(place, fmt::format("the edge from ({}) to ({}) goes through ({}), which is farther from its middle "
+                                       "than the edge is long; expected a node near the middle",
+                                       fmt::join(a, ", "), fmt::join(b, ", "), fmt::join(raw.points[m], ", ")));
+      if (far <= straight * size) continue;
       bend[edge] = off;
       curved = true;
     }

@@ -6,12 +6,15 @@
 #include <numbers>
 
 #include "core/base/dot.hpp"
+#include "core/mesh/element_map.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6, edge = std::numbers::pi / 6;  // angles
+constexpr double rounding = 1e-6, edge = std::numbers::pi / 6, widest = 1.01 * std::numbers::pi / 3;  // angles
+constexpr double same = 0.05, same_direction = 1e-3;
+constexpr std::size_t round = 5;  // directions of faces
 
 /// From what is opposite to a corner of a face to that corner, the shortest way.
 Point<2> across(const Mesh<2>& mesh, const Face<2>& face, int tip) {
@@ -47,13 +50,54 @@ double turn(const Point<D>& a, const Point<D>& b) {
   return 2 * std::atan2(length<D>(apart), length<D>(sum));
 }
 
-}  // namespace
-
-double sagitta(double angle, double across) { return angle > rounding && angle < edge ? angle * across / 8 : 0; }
+/// Faces on both sides of an edge of the body.
+template <int D>
+struct WideJoint {
+  double angle, across;
+  std::array<Point<D>, 2> normal;
+};
 
 template <int D>
-double chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked) {
-  if (hierarchy.refinements.empty()) return 0;
+Point<D> direction(const Mesh<D>& mesh, const Face<D>& face) {
+  std::array<Point<D>, D> corner;
+  for (int k = 0; k < D; ++k) corner[k] = mesh.points[face.vertices[k]];
+  Point<D> n = area_normal(corner);
+  const double size = length<D>(n);
+  for (double& x : n) x /= size;
+  return n;
+}
+
+/// The largest sagitta of those that look like a round.
+template <int D>
+Chords widest_chords(const std::vector<WideJoint<D>>& joints) {
+  std::map<double, std::vector<const WideJoint<D>*>> alike;  // by the logarithm of the angle
+  for (const WideJoint<D>& joint : joints) alike[std::round(std::log(joint.angle) / same)].push_back(&joint);
+  Chords out;
+  for (const auto& [angle, group] : alike) {
+    std::vector<Point<D>> directions;
+    Chords here;
+    for (const WideJoint<D>* joint : group) {
+      for (const Point<D>& n : joint->normal) {
+        const auto is_near = [&](const Point<D>& m) { return length<D>(difference<D>(m, n)) < same_direction; };
+        if (directions.size() < round && std::ranges::none_of(directions, is_near)) directions.push_back(n);
+      }
+      if (const double off = joint->angle * joint->across / 8; off > here.sagitta) here = {off, joint->angle};
+    }
+    if (directions.size() >= round && here.sagitta > out.sagitta) out = here;
+  }
+  return out;
+}
+
+/// A face at an edge, and its corner opposite to that.
+struct Side {
+  Index face;
+  int tip;
+};
+
+/// Calls use(mesh, side, other side) for what faces of the coarsest mesh have in common, all of it marked.
+template <int D, class Use>
+void each_marked_joint(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked, const Use& use) {
+  if (hierarchy.refinements.empty()) return;
   for (std::size_t k = hierarchy.refinements.size(); k-- > 0;) {
     std::vector<bool> coarser(hierarchy.levels[k].points.size());
     const auto& parents = hierarchy.refinements[k].parents;
@@ -63,22 +107,37 @@ double chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked
     marked = std::move(coarser);
   }
   const Mesh<D>& mesh = hierarchy.levels.front();
-  std::map<std::array<Index, D - 1>, Point<D>> open;
-  double largest = 0;
-  for (const Face<D>& face : mesh.boundary)
-    for (int tip = 0; tip < D && face.curve < 0; ++tip) {
-      const auto common = joint(face, tip);
+  std::map<std::array<Index, D - 1>, Side> open;
+  for (Index f = 0; f < static_cast<Index>(mesh.boundary.size()); ++f)
+    for (int tip = 0; tip < D; ++tip) {
+      const auto common = joint(mesh.boundary[f], tip);
       if (!std::ranges::all_of(common, [&](Index p) { return marked[p]; })) continue;
-      const Point<D> here = across(mesh, face, tip);
-      const auto [other, first] = open.try_emplace(common, here);
-      if (first) continue;
-      const double size = std::min(length<D>(here), length<D>(other->second));  // the other may be no chord
-      largest = std::max(largest, sagitta(turn<D>(here, other->second), size));
+      const auto [found, first] = open.try_emplace(common, Side{f, tip});
+      if (!first) use(mesh, Side{f, tip}, found->second);
     }
-  return largest;
 }
 
-template double chord_sagitta(const MeshHierarchy<2>&, std::vector<bool>);
-template double chord_sagitta(const MeshHierarchy<3>&, std::vector<bool>);
+}  // namespace
+
+double sagitta(double angle, double across) { return angle > rounding && angle < edge ? angle * across / 8 : 0; }
+
+template <int D>
+Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked) {
+  std::vector<WideJoint<D>> wide;
+  Chords largest;
+  each_marked_joint(hierarchy, std::move(marked), [&](const Mesh<D>& mesh, const Side& a, const Side& b) {
+    const Face<D>&one = mesh.boundary[a.face], &other = mesh.boundary[b.face];
+    if (one.curve >= 0 || other.curve >= 0) return;
+    const Point<D> here = across(mesh, one, a.tip), there = across(mesh, other, b.tip);
+    const double size = std::min(length<D>(here), length<D>(there)), angle = turn<D>(here, there);
+    if (const double off = sagitta(angle, size); off > largest.sagitta) largest = {off, angle};
+    if (angle >= edge && angle <= widest) wide.push_back({angle, size, {direction(mesh, one), direction(mesh, other)}});
+  });
+  const Chords wider = widest_chords(wide);
+  return wider.sagitta > largest.sagitta ? wider : largest;
+}
+
+template Chords chord_sagitta(const MeshHierarchy<2>&, std::vector<bool>);
+template Chords chord_sagitta(const MeshHierarchy<3>&, std::vector<bool>);
 
 }  // namespace signorini

@@ -10,10 +10,16 @@ namespace signorini {
 /// @param across extent of the smaller face across what both have in common
 double sagitta(double angle, double across);
 
+struct Chords {
+  double sagitta = 0;  ///< the largest one
+  double angle = 0;    ///< between the faces there, in radians
+};
+
 /// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a
-/// vertex) in common and are not on a curve that the mesh knows. 0 where there is no finer mesh.
+/// vertex) in common and are not on a curve that the mesh knows. 0 where there is no finer mesh. Faces at more than 30
+/// and up to 60 degrees count where they look like a round: five and more directions, one angle between them.
 /// @param marked vertices of the finest mesh; on coarser ones those are that they were made from
 template <int D>
-double chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked);
+Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked);
 
 }  // namespace signorini

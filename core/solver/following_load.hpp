@@ -19,6 +19,8 @@ class FollowingLoad {
   virtual const std::vector<double>& values() const = 0;
   /// The load of the p of now becomes part of the problem's b, once.
   virtual void apply() = 0;
+  /// It is part of b no more: what begins next will apply it again.
+  virtual void withdraw() = 0;
   /// From x the correction of p, and S times it.
   virtual void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) = 0;
   /// Changes p, the problem's b with it, and the residual b - A x.

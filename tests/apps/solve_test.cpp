@@ -277,6 +277,20 @@ TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
   EXPECT_THAT(report("r").at("warnings").dump(), HasSubstr("contact is linearised about the undeformed body"));
 }
 
+TEST_F(Solve, SaysWhereTooFewNodesTouch) {
+  std::string text = block_on_plane;
+  text.replace(text.find("shape = \"plane\""), std::string::npos,
+               "shape = \"sphere\"\ncenter = [0.5, 0.5, -0.1]\nradius = 0.1\n");
+  write("ball.toml", text);
+  ASSERT_EQ(signorini({"solve", "ball.toml", "--out", "o"}).status, 0);
+  EXPECT_EQ(report("o").at("contact").at(0).at("resolved"), false);
+  EXPECT_THAT(report("o").at("warnings").dump(), HasSubstr("too few inside it to find its pressures"));
+  write("block.toml", block_on_plane);
+  ASSERT_EQ(signorini({"solve", "block.toml", "--out", "q"}).status, 0);
+  EXPECT_EQ(report("q").at("contact").at(0).at("resolved"), true);
+  EXPECT_EQ(report("q").at("warnings").dump(), "[]");
+}
+
 TEST_F(Solve, WarnsWhereLinearElementsLock) {
   write("punch.toml", punch);
   ASSERT_EQ(signorini({"solve", "punch.toml", "--out", "o", "--set", "body.0.poisson=0.49", "--set", "body.0.order=1"})

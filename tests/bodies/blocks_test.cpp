@@ -129,6 +129,46 @@ TEST(Wedge, ThatIsMovedClimbs) {
 }
 
 // The slave's nodes are moved along the other body: friction acts on neither, which the report does not hide.
+/// Two blocks that an inclined interface divides, under a pressure of 0.01 on all sides but those that may slide along
+/// a wall: two left or right ones, as told, and the bottom. The walls may have moved.
+std::string divided(bool left_below, bool left_above, double moved, const std::string& keys) {
+  const auto body = [&](const char* name, const char* points, double size) {
+    return fmt::format("[[body]]\nname = \"{}\"\nshape = \"polygon\"\npoints = {}\nsize = {}\n", name, points, size) +
+           material(1);
+  };
+  const auto push = [&](const std::string& name, const char* side, const char* value) {
+    return fmt::format("[[load]]\nbody = \"{}\"\non = \"{}\"\nvalue = {}\n", name, side, value);
+  };
+  const auto sides = [&](const std::string& name, bool left, double wall) {
+    return fix(name, left ? "edge3" : "edge1", fmt::format("[{}, \"free\"]", wall)) +
+           push(name, left ? "edge1" : "edge3", left ? "[-0.01, 0]" : "[0.01, 0]");
+  };
+  return body("below", "[[0, 0], [1, 0], [1, 0.7], [0, 0.3]]", 0.2) +
+         body("above", "[[0, 0.3], [1, 0.7], [1, 1.5], [0, 1.5]]", 0.13) + sides("below", left_below, 0) +
+         sides("above", left_above, moved) + fix("below", "edge0", "[\"free\", 0]") +
+         push("above", "edge2", "[0, -0.01]") + pair("above", "edge0", "below", "edge2", keys);
+}
+
+// What the master moves along what is prescribed at the slave's node counts, too.
+TEST(Inclined, PatchTestBesideWalls) {
+  for (const bool left_below : {true, false})
+    for (const double moved : {0.0, 0.002})
+      for (const char* slave : {"body", "other"}) {
+        const std::string keys = fmt::format("slave = \"{}\"\n", slave);
+        SCOPED_TRACE(keys + fmt::format("{} {}", left_below, moved));
+        Driver driver(scene_of(divided(left_below, true, moved, keys) + "[refine]\nuniform = 1\n"));
+        const Report& report = driver.solve();
+        ASSERT_TRUE(report.converged()) << report.reason();
+        const ContactReport& contact = report.last().contact[0];
+        expect_opposite(contact);
+        EXPECT_NEAR(contact.force[0], -0.004, 1e-9);
+        EXPECT_NEAR(contact.force[1], 0.01, 1e-9);
+        driver.visit(0, [&](const auto& run) {
+          for (const auto& node : run.results().contact.nodes) EXPECT_NEAR(node.pressure, 0.01, 1e-9);
+        });
+      }
+}
+
 TEST(Slave, HasNoFrictionAlongWhatIsPrescribed) {
   Driver driver(
       scene_of(block("lower", "[0, 0]", "[2, 1]", "[8, 4]") + block("upper", "[0.5, 1]", "[1.5, 1.5]", "[4, 2]") +

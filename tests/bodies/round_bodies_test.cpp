@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <numbers>
 #include <vector>
 
@@ -306,6 +308,34 @@ TEST_F(RoundBodies, KeepTheirContactWhereTheyMayTurn) {
       report(ring + disk(1) + pair("disk", "boundary", "ring", "inner", "gap = -0.002\nslave = \"body\""));
   EXPECT_EQ(pressed.last().contact[0].open_nodes, 0);
   expect_balance(pressed.last(), 1e-9);
+}
+
+// What friction alone keeps from turning. A start from a coarser mesh may lead nowhere; others follow.
+TEST_F(RoundBodies, AreHeldByFrictionAlone) {
+  const std::string bodies =
+      sector(folder_, "ring", {.inner = 1, .outer = 3, .along_radius = 3, .around = 32}, material(1)) +
+      "[[body]]\nname = \"disk\"\nshape = \"disk\"\ncenter = [0, -0.01]\nradius = 0.99\nsize = 0.2\n" + material(1) +
+      "[[fix]]\nbody = \"ring\"\non = \"outer\"\nvalue = [0, 0]\n[refine]\nuniform = 1\n";
+  const auto report = [&](const std::string& load, const std::string& keys) {
+    Driver driver(scene_of(bodies + "[[load]]\nbody = \"disk\"\nvalue = " + load + "\n" +
+                           pair("disk", "boundary", "ring", "inner", keys, "elastic_coulomb")));
+    driver.solve();
+    return driver.report();
+  };
+  for (const char* slave : {"body", "other"})
+    for (const char* pairing : {"normal", "closest"})
+      for (const double friction : {0.1, 0.6}) {
+        const std::string keys =
+            fmt::format("slave = \"{}\"\npairing = \"{}\"\nfriction = {}\n", slave, pairing, friction);
+        const Report held = report("[0.0003, -0.001]", keys);
+        EXPECT_TRUE(held.converged()) << keys << held.reason();
+        expect_balance(held.last(), 1e-6);
+        show("{} cycles, {} stages\n", held.last().summary.iterations, held.last().summary.stages.size());
+      }
+  // A twentieth of what it would take; far away linearised contact is wedged, which is no solution.
+  const Report slides = report("['0.001 * (y - x)', -0.001]", "friction = 0.03\npairing = \"closest\"\n");
+  EXPECT_FALSE(slides.converged());
+  EXPECT_THAT(slides.reason(), testing::HasSubstr("friction"));
 }
 
 }  // namespace

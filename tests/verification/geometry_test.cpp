@@ -181,5 +181,77 @@ TEST(Geometry, ATriangulatedSphereIsASphere) {
   EXPECT_GT(std::abs(facets.contact().force[2] - force), 0.02 * force);
 }
 
+/// An eighth of a shell, radii 0.6 and 1, with n cells along each edge and two across.
+Mesh<3> shell(Index n) {
+  constexpr Index layers = 2;
+  constexpr double inner = 0.6;
+  RawMesh<3> raw;
+  raw.groups = {{"outer", {}}};
+  std::map<std::array<Index, 3>, Index> number;
+  const auto at = [&](std::array<Index, 2> ij, Index layer) {
+    const auto [found, fresh] = number.try_emplace({ij[0], ij[1], layer}, static_cast<Index>(raw.points.size()));
+    if (fresh) {
+      const Point<3> way{double(ij[0]), double(ij[1]), double(n - ij[0] - ij[1])};
+      const double factor = (inner + (1 - inner) * layer / layers) / norm<3>(way);
+      raw.points.push_back({factor * way[0], factor * way[1], factor * way[2]});
+    }
+    return found->second;
+  };
+  const auto add_prisms = [&](const std::array<std::array<Index, 2>, 3>& p) {  // in ascending order
+    for (Index k = 0; k < layers; ++k) {
+      raw.elements.push_back({at(p[0], k), at(p[1], k), at(p[2], k), at(p[2], k + 1)});
+      raw.elements.push_back({at(p[0], k), at(p[1], k), at(p[1], k + 1), at(p[2], k + 1)});
+      raw.elements.push_back({at(p[0], k), at(p[0], k + 1), at(p[1], k + 1), at(p[2], k + 1)});
+    }
+    raw.groups[0].faces.push_back({at(p[0], layers), at(p[1], layers), at(p[2], layers)});
+  };
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; i + j < n; ++j) {
+      add_prisms({{{i, j}, {i, j + 1}, {i + 1, j}}});
+      if (i + j + 1 < n) add_prisms({{{i, j + 1}, {i + 1, j}, {i + 1, j + 1}}});
+    }
+  return build_mesh<3>(std::move(raw), "test");
+}
+
+std::string with_octant(const SceneText& scene) { return std::string(scene) + "[symmetry]\nx = 0\ny = 0\nz = 0\n"; }
+
+// Lame's: u = A r + B / r^2 = -0.01 at r = 1, and no stress at r = 0.6.
+TEST(Geometry, AShellThatTouchesItsBoreAllOverWantsTheTrueSphere) {
+  constexpr double ratio = 0.216 * 1.3 / 0.8, A = -0.01 / (1 + ratio), exact = -A / 0.4 + 2 * A * ratio / 1.3;
+  const TemporaryFolder folder;
+  const auto off = [&](Index cells, const std::string& geometry, int refinements) {
+    const std::string file = folder.write("shell.msh", msh(shell(cells)));
+    const auto r = run<3, 3>(with_octant(
+        {.body = fmt::format("mesh = \"{}\"\ngeometry = \"{}\"\nyoung = 1\npoisson = 0.3", file, geometry),
+         .obstacle = "type = \"contact\"\non = \"outer\"\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.99\n"
+                     "inside = true",
+         .refinements = refinements}));
+    const double out = r.contact().max_pressure / exact - 1;
+    show("{} cells, {}, {} refinements: {:+.2e}\n", cells, geometry, refinements, out);
+    return std::abs(out);
+  };
+  for (const int refinements : {1, 2}) {
+    EXPECT_LT(off(3, "auto", refinements), 0.02);
+    EXPECT_LT(off(6, "auto", refinements), 0.03);
+    EXPECT_LT(off(6, "smooth", refinements), 0.15);
+    EXPECT_GT(off(3, "smooth", refinements), 0.3);
+  }
+}
+
+TEST(Geometry, PressureAndAreaOfCurvedElementsAreThoseOfTheirFaces) {
+  for (const int refinements : {0, 1}) {
+    const auto r = run<3, 3>(with_octant(
+        {.body = "shape = \"ball\"\ncenter = [0, 0, 0]\nradius = 1\nsize = 0.5\norder = 2\nyoung = 1\npoisson = 0.3",
+         .obstacle = "type = \"contact\"\non = \"boundary\"\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.99\n"
+                     "inside = true",
+         .refinements = refinements}));
+    constexpr double exact = 0.01 / 0.4;
+    show("pressure {:+.2e}, area {:+.2e}\n", r.contact().max_pressure / exact - 1, r.contact().area / (pi / 2) - 1);
+    EXPECT_NEAR(r.contact().max_pressure, exact, (refinements == 0 ? 5e-3 : 1e-3) * exact);
+    EXPECT_NEAR(r.contact().area, pi / 2, (refinements == 0 ? 5e-4 : 5e-5) * pi / 2);
+    EXPECT_TRUE(r.contact().resolved) << "all nodes are inside";
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -174,6 +174,42 @@ TEST(Incompressible, BodiesHeldAllAroundTakeFewCycles) {
 
 /// Layers that are shortened between smooth walls: the stress is the same in all of them, and uniform pressures are
 /// exact whatever the mesh. Contact shuts the rubber in.
+/// A pad between plates that its faces are bonded to, or the lower one rough: pressed by a twentieth of its height.
+SceneText pad(int length, double poisson, const std::string& below) {
+  return {.body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{0}, 1]\ncells = [{0}, 2]\norder = 2\n"
+                              "young = 1\npoisson = {1}",
+                              length, poisson),
+          .fixes = below.empty()
+                       ? std::vector<std::string>{"on = \"top\"\nvalue = [0, -0.05]", "on = \"bottom\"\nvalue = [0, 0]"}
+                       : std::vector<std::string>{"on = \"top\"\nvalue = [0, -0.05]"},
+          .obstacle = below.empty() ? fmt::format("type = \"contact\"\non = \"right\"\nshape = \"plane\"\n"
+                                                  "point = [{}, 0]\nnormal = [-1, 0]",
+                                                  length + 0.05)
+                                    : below + "\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]",
+          .refinements = 2};
+}
+
+// A pressure that varies along a thin layer moves little out of it: many such pressures are slow.
+TEST(Incompressible, ThinLayersTakeMoreCycles) {
+  for (const auto& [length, most] : {std::pair{10, 35}, {20, 50}, {40, 75}}) {
+    const auto rubber = run<2, 2>(pad(length, 0.4999, "")), other = run<2, 2>(pad(length, 0.3, ""));
+    const auto rough = run<2, 2>(pad(length, 0.4999, "type = \"coulomb\"\nfriction = 0.3"));
+    show("{} : 1: {} cycles, with poisson = 0.3 {}, with friction below {}\n", length, rubber.summary().iterations,
+         other.summary().iterations, rough.summary().iterations);
+    EXPECT_LE(rubber.summary().iterations, most);
+    EXPECT_LE(rough.summary().iterations, 1.3 * most);
+  }
+}
+
+// The stages of a solve are about one problem, wherever they begin.
+TEST(Incompressible, WhateverTheStartTheSolutionIsTheSame) {
+  SceneText scene = pad(20, 0.4999, "type = \"coulomb\"\nfriction = 0.6");
+  scene.refinements = 1;
+  const auto nested = run<2, 2>(scene), zero = run<2, 2>(scene, {"solver.start=zero"});
+  EXPECT_GT(zero.summary().stages.size(), 1u) << "else this tests nothing";
+  EXPECT_NEAR(zero.contact().force[1], nested.contact().force[1], 1e-5 * nested.contact().force[1]);
+}
+
 TEST(Incompressible, LayersInSeriesAreExact) {
   const auto modulus = [](double poisson) { return (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)); };
   const double stress = 0.003 / (1 / modulus(0.4999) + 1 / modulus(0.3) + 1 / modulus(0.49));

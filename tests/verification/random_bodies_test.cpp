@@ -478,6 +478,8 @@ TEST(RandomBodies, FarAwayFromWhereTheyBegin) {
   for (const int seed : {625, 1637}) judge_one<2>(static_cast<std::uint64_t>(seed), Bodies::soft, tally);
   for (const int seed : {432, 1345, 2088, 3210, 4285, 4941})
     judge_one<3>(static_cast<std::uint64_t>(seed), Bodies::soft, tally);
+  show("{} solved, {} refused, {} too near to tell, {} too stiff\n", tally.solved, tally.refused, tally.near,
+       tally.inaccurate);
   EXPECT_EQ(tally.solved, 8);
 }
 

@@ -1,8 +1,12 @@
 // Bodies that nothing holds against their loads are refused, with the motion that nothing stops.
+#include <gmock/gmock.h>
+
 #include <functional>
 
 #include "core/base/error.hpp"
+#include "driver/driver.hpp"
 #include "run.hpp"
+#include "scene_text.hpp"
 
 namespace signorini::test {
 namespace {
@@ -130,6 +134,27 @@ inside = true
 )");
   });
   EXPECT_NE(r.find("rotation about (0.5, 0.5)"), std::string::npos) << r;
+}
+
+// Friction is too weak for the one, and the other one tips over before it slides.
+TEST(UnheldBody, SaysWhereItGoesWhereFrictionDoesNotHoldIt) {
+  const auto reason = [](double width, double friction) {
+    const SceneText scene{
+        .body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = [4, 4]\nyoung = 1\npoisson = "
+                            "0.3",
+                            width),
+        .loads = {"value = [0.01, -0.02]"},
+        .obstacle = fmt::format("type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, "
+                                "1]\nfriction = {}",
+                                friction),
+        .refinements = 2};
+    Driver driver(parse_scene(std::string(scene), "test.toml", "."));
+    driver.solve();
+    EXPECT_FALSE(driver.report().converged());
+    return driver.report().reason();
+  };
+  EXPECT_THAT(reason(1, 0.3), testing::HasSubstr("translation along (1, 0)"));
+  EXPECT_THAT(reason(0.3, 0.9), testing::HasSubstr("rotation about (0.3, 0)"));
 }
 
 }  // namespace

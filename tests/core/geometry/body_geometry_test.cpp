@@ -3,6 +3,7 @@
 
 #include "core/mesh/build.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/mesh/separate.hpp"
 #include "geometry_checks.hpp"
@@ -83,6 +84,71 @@ TEST(BodyGeometry, SmoothSurfacesAreFarNearerThanFacets) {
   EXPECT_EQ(kinds(mesh), std::multiset<std::string>{"smooth"});
   EXPECT_LT(off_unit_sphere(mesh), facets / 20);
   test::expect_consistent(hierarchy(mesh, 2).finest());
+}
+
+/// What no shape fits: an ellipse or ellipsoid of a round body.
+template <int D>
+Mesh<D> stretched(Mesh<D> mesh) {
+  mesh = without_geometry(std::move(mesh));
+  for (Point<D>& x : mesh.points) {
+    x[0] *= 1.5;
+    x[1] *= 1.2;
+  }
+  return mesh;
+}
+
+template <int D>
+Mesh<D> with_image(const Mesh<D>& mesh, const Mirror& mirror) {
+  RawMesh<D> raw{.points = mesh.points, .elements = {mesh.elements.begin(), mesh.elements.end()}};
+  std::vector<Index> image;
+  for (const Point<D>& x : mesh.points) {
+    image.push_back(static_cast<Index>(lies_on<D>(mirror, x) ? image.size() : raw.points.size()));
+    if (!lies_on<D>(mirror, x)) raw.points.push_back(reflected<D>(mirror, x));
+  }
+  for (const auto& element : mesh.elements) {
+    auto& there = raw.elements.emplace_back(element);
+    for (Index& v : there) v = image[v];
+  }
+  return build_mesh<D>(std::move(raw), "test");
+}
+
+/// The part with the larger coordinates becomes what it is of the whole.
+template <int D>
+void expect_part_of_the_whole(Mesh<D> part, const std::vector<int>& axes) {
+  part = stretched(std::move(part));
+  Mesh<D> whole = part;
+  for (const int axis : axes) whole = with_image(whole, {.axis = axis, .at = 0});
+  give_geometry(whole, Surfaces::automatic);
+  EXPECT_EQ(kinds(whole), std::multiset<std::string>{"smooth"});
+
+  for (const int axis : axes) add_mirror(part, {.axis = axis, .at = 0}, "test");
+  remove_faces_on_mirrors(part);
+  give_geometry(part, Surfaces::automatic, geometry::default_crease, part.mirrors);
+  EXPECT_EQ(kinds(part), kinds(whole));
+  const Mesh<D> fine_part = hierarchy(part, 2).finest(), fine_whole = hierarchy(whole, 2).finest();
+  for (const Face<D>& face : fine_part.boundary)
+    for (const Index v : face.vertices) {
+      double nearest = infinity;
+      for (const Point<D>& x : fine_whole.points)
+        nearest = std::min(nearest, length<D>(difference<D>(x, fine_part.points[v])));
+      EXPECT_LT(nearest, 1e-12);
+    }
+}
+
+TEST(BodyGeometry, SmoothSurfacesGoOnBeyondPlanesOfSymmetry) {
+  const geometry::Shape2 quarter =
+      geometry::Disk{.center = {0, 0}, .radius = 1, .right_half = true, .upper_half = true};
+  expect_part_of_the_whole<2>(meshed<2>(quarter, 0.25), {0, 1});
+  for (const int planes : {1, 2, 3}) {
+    geometry::Halved halved{};
+    std::vector<int> axes;
+    for (int axis = 0; axis < planes; ++axis) {
+      halved[axis] = true;
+      axes.push_back(axis);
+    }
+    const geometry::Shape3 part = geometry::Ball{.center = {0, 0, 0}, .radius = 1, .halved = halved};
+    expect_part_of_the_whole<3>(meshed<3>(part, 0.35), axes);
+  }
 }
 
 TEST(BodyGeometry, RoundedDigitsAreFittedAutomaticallyRoughOnesOnRequest) {

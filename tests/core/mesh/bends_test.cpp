@@ -106,6 +106,10 @@ TEST(Bends, NodesTooFarAwayToCountAreRefused) {
                 build_mesh<2>(triangle({1.7e308, -1.7e308}), "file.msh");
               }),
               testing::HasSubstr("too far away"));
+  EXPECT_THAT(test::input_error_of([] {
+                build_mesh<2>(triangle({3, 3}), "file.msh");
+              }),
+              testing::HasSubstr("goes through (3, 3), which is farther from its middle than the edge is long"));
 }
 
 TEST(Bends, ElementsThatDoNotAgreeOnAnEdgeAreRefused) {

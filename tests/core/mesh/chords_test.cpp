@@ -17,19 +17,25 @@ using std::numbers::pi;
 template <int D>
 double sagitta_everywhere(const Mesh<D>& mesh, int refinements) {
   MeshHierarchy<D> meshes = hierarchy(mesh, refinements);
-  return chord_sagitta(meshes, std::vector<bool>(meshes.finest().points.size(), true));
+  return chord_sagitta(meshes, std::vector<bool>(meshes.finest().points.size(), true)).sagitta;
 }
 
-/// The strip 1 <= r <= 2 over a quarter of a circle, its arcs of n chords; in 3D times a height.
-Mesh<2> arch(Index n) {
+/// The strip 1 <= r <= 2 over a quarter of a circle or more, its arcs of n chords; in 3D times a height.
+Mesh<2> arch(Index n, int quarters = 1) {
   Mesh<2> mesh = rectangle({0, 1}, {1, 2}, {n, 1});
-  for (Point<2>& x : mesh.points) x = {-x[1] * std::cos(x[0] * pi / 2), x[1] * std::sin(x[0] * pi / 2)};
+  for (Point<2>& x : mesh.points) {
+    const double angle = x[0] * quarters * pi / 2;
+    x = {-x[1] * std::cos(angle), x[1] * std::sin(angle)};
+  }
   return mesh;
 }
 
-Mesh<3> arch_3d(Index n) {
+Mesh<3> arch_3d(Index n, int quarters = 1) {
   Mesh<3> mesh = box({0, 1, 0}, {1, 2, 1}, {n, 1, 2});
-  for (Point<3>& x : mesh.points) x = {-x[1] * std::cos(x[0] * pi / 2), x[1] * std::sin(x[0] * pi / 2), x[2]};
+  for (Point<3>& x : mesh.points) {
+    const double angle = x[0] * quarters * pi / 2;
+    x = {-x[1] * std::cos(angle), x[1] * std::sin(angle), x[2]};
+  }
   return mesh;
 }
 
@@ -49,14 +55,24 @@ TEST(Chords, PolyhedraAndMeshesThatAreNotRefinedHaveNone) {
   EXPECT_EQ(sagitta_everywhere(arch(8), 0), 0);
 }
 
+// An octagonal hole may be a round one. Hexagons may, too, and squares may not.
+TEST(Chords, OfWideAnglesCountWhereTheyGoAround) {
+  for (const Index n : {6, 8}) {
+    const double exact = 2 * (1 - std::cos(pi / static_cast<double>(n)));
+    EXPECT_NEAR(sagitta_everywhere(arch(n, 4), 1), exact, 0.03 * exact);
+    EXPECT_NEAR(sagitta_everywhere(arch_3d(n, 4), 1), exact, 0.03 * exact);
+  }
+  EXPECT_EQ(sagitta_everywhere(arch(4, 4), 1), 0);
+}
+
 TEST(Chords, CountWhereVerticesAreMarked) {
   const MeshHierarchy<2> meshes = hierarchy(arch(16), 2);
   std::vector<bool> inner(meshes.finest().points.size());
   for (std::size_t p = 0; p < inner.size(); ++p)
     inner[p] = std::hypot(meshes.finest().points[p][0], meshes.finest().points[p][1]) < 1.0 + 1e-9;
   const double exact = 1 - std::cos(pi / 64);
-  EXPECT_NEAR(chord_sagitta(meshes, inner), exact, 0.01 * exact);
-  EXPECT_EQ(chord_sagitta(meshes, std::vector<bool>(inner.size())), 0);
+  EXPECT_NEAR(chord_sagitta(meshes, inner).sagitta, exact, 0.01 * exact);
+  EXPECT_EQ(chord_sagitta(meshes, std::vector<bool>(inner.size())).sagitta, 0);
 }
 
 }  // namespace
