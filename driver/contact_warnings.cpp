@@ -15,7 +15,7 @@ namespace {
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
-constexpr double rounding = 1e-12;   // of displacements
+constexpr double rounding = 1e-6;    // of displacements, with what tolerances leave
 constexpr double many = 0.1;         // of the nodes in contact
 constexpr double edged =
     1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
@@ -172,7 +172,8 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
     for (const ContactNode<B>& node : results.contact.nodes)
       if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
     for (Index v = 0; v < nodes.mesh().vertices(); ++v) at_vertex.push_back(touching[nodes.of_vertex(v)]);
-    const Chords chords = chord_sagitta(hierarchy, std::move(at_vertex));
+    const bool by_shape = D == 2 && hierarchy.levels.front().pieces.empty();  // a polygon's edges are straight
+    const Chords chords = by_shape ? Chords{} : chord_sagitta(hierarchy, std::move(at_vertex));
     add("body", chords.sagitta, chords.angle);
     add("obstacle", results.deformed[k]->sagitta, 0);
   }

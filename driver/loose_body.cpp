@@ -402,8 +402,7 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
 // A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
 // are its solutions, and a step that is long enough ends in one.
 template <int D, int B>
-std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
-  constexpr double little = 0.1;  // of the largest part
+Eigen::VectorXd LooseBody<D, B>::nearest_motion(const std::vector<double>& x) const {
   const std::vector<double> u = to_global(discretization_.problem, x);
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(free_.cols(), free_.cols());
   Eigen::VectorXd right = Eigen::VectorXd::Zero(free_.cols());
@@ -415,7 +414,23 @@ std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
       normal += row.transpose() * row;
       right += row.transpose() * u[Offset{p} * B + k];
     }
-  Eigen::VectorXd motion = free_ * normal.ldlt().solve(right);
+  return free_ * normal.ldlt().solve(right);
+}
+
+template <int D, int B>
+bool LooseBody<D, B>::is_far_away(const std::vector<double>& x) const {
+  constexpr double far = 100;  // times the size
+  if constexpr (B == 1) return false;
+  const Eigen::VectorXd motion = nearest_motion(x);
+  const Eigen::Index ways = motion.size() / Motions::modes * Motions::translations;
+  const Eigen::VectorXd way = motion.head(ways), turn = motion.tail(motion.size() - ways);
+  return way.cwiseAbs().maxCoeff() > far * motions_.size() || turn.cwiseAbs().maxCoeff() > motions_.size();
+}
+
+template <int D, int B>
+std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
+  constexpr double little = 0.1;  // of the largest part
+  Eigen::VectorXd motion = nearest_motion(x);
   const double largest = motion.cwiseAbs().maxCoeff();
   for (double& part : motion)
     if (std::abs(part) < little * largest) part = 0;

@@ -34,6 +34,9 @@ class LooseBody {
   /// Names the motion that takes the undeformed body nearest to x (local coordinates), of those that the prescribed
   /// values leave.
   std::string way(const std::vector<double>& x) const;
+  /// Whether that motion is beyond linearised contact: more than a turn by one radian, or than a way of a hundred times
+  /// the size of the body.
+  bool is_far_away(const std::vector<double>& x) const;
 
   /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
   /// least mean square. What the obstacles press on keeps its contact.
@@ -51,6 +54,7 @@ class LooseBody {
   };
 
   void add_work();
+  Eigen::VectorXd nearest_motion(const std::vector<double>& x) const;
   double resistance(const Eigen::VectorXd& motion) const;
   double coefficient_of_friction(Index slot) const;
   bool slides_along(const std::vector<double>& step, double least) const;

@@ -46,16 +46,6 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
     for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
 }
 
-/// Newton's method goes on to where a body that friction does not hold has slid so far, by the digits that are left,
-/// that it is wedged in what contact was linearised to.
-void refuse_far_away(Summary& summary) {
-  if (summary.outcome != Outcome::rounding || summary.stages.back().method != "newton") return;
-  summary.outcome = summary.stages.back().outcome = Outcome::stuck;
-  summary.reason =
-      "friction does not hold the body against the loads, but for places that are so far away that linearised contact "
-      "means nothing there";
-}
-
 template <int D, int B>
 using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
 
@@ -522,7 +512,6 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   check_functionals(nodes_[level], model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
-  if (options.method == "auto" && !solution.discretization.functional.empty()) refuse_far_away(solution.summary);
   if constexpr (D == B) {
     if (pressure) {
       if (moved.moves()) pressure->apply();
@@ -556,6 +545,12 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
     solution.summary.put_in_front(std::move(before));
   }
   if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+  if (!moves && !body.held() && solution.summary.converged() && body.is_far_away(solution.x)) {
+    solution.summary.outcome = Outcome::stuck;
+    solution.summary.reason =
+        "friction does not hold the body against the loads, but for places that are so far away that linearised "
+        "contact means nothing there";
+  }
   if (!moves && !body.held() && solution.summary.outcome == Outcome::stuck)
     solution.summary.reason += fmt::format("; the way of the body until then is mostly a {}", body.way(solution.x));
 }

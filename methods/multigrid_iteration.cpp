@@ -63,7 +63,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear),
       renewal_(options) {
-  if (problem.following) load_.emplace(*problem.following, multigrid_);
+  if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints);
   multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
 }
 
@@ -108,7 +108,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const double error = idle ? infinity : remaining_error();
   // Where the linear model has no minimum, the functional may well have one.
   Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, false, {}};
-  rests_ = rests(cycle.finest());
+  rests_ = rests(cycle.finest()) && (!this->follows() || cycle.finest().critical > 0);
   compare_gains(free, cycle.cut_off);
   bounded_cycles_ += !free;
   if (free && !cycle.bounded) may_turn_ = false;  // what only the obstacle holds has no correction without bounds

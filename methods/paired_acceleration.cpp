@@ -1,6 +1,7 @@
 #include "methods/paired_acceleration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/dot.hpp"
@@ -8,7 +9,11 @@
 namespace signorini {
 namespace {
 
-constexpr double grown = 4;  // square of a step over that before: the iteration is not what the directions knew
+// What it leads to is no more than so many times as far away as last time, or as the step: contact that shuts rubber in
+// opens where its pressure is too low, which is to show in time.
+constexpr double farther = 2;
+constexpr double rounding = 1e-10;  // of the largest displacement
+constexpr double grown = 4;         // square of a step over that before: the iteration is not what the directions knew
 
 void subtract(const std::vector<double>& from, const std::vector<double>& what, std::vector<double>& out) {
   out.resize(from.size());
@@ -57,11 +62,21 @@ void PairedAcceleration<B>::make_orthogonal(Direction& newest) {
   newest.squared = dot(image_.x, newest.step.x) + dot(image_.p, newest.step.p);
 }
 
+// What the step has put onto a bound is there but for rounding, if the steps before have done so, too.
 template <int B>
-bool PairedAcceleration<B>::admissible(const std::vector<double>& x) const {
-  for (Index slot = 0; slot < constraints_.size(); ++slot)
-    if (!constraints_.admits(slot, x.data() + Offset{constraints_.vector[slot]} * B)) return false;
-  return true;
+void PairedAcceleration<B>::project(std::vector<double>& x) const {
+  double largest = 0;
+  for (const double v : x) largest = std::max(largest, std::abs(v));
+  for (Index slot = 0; slot < constraints_.size(); ++slot) {
+    const Offset first = Offset{constraints_.vector[slot]} * B;
+    for (int k = 0; k < B; ++k) {
+      const double own = now_.result.x[first + k], lower = constraints_.lower[Offset{slot} * B + k],
+                   upper = constraints_.upper[Offset{slot} * B + k];
+      const bool on_bound = own == lower || own == upper;
+      if (on_bound && std::abs(x[first + k] - own) <= rounding * largest) x[first + k] = own;
+    }
+    if (!constraints_.admits(slot, x.data() + first)) constraints_.project(slot, x.data() + first);
+  }
 }
 
 template <int B>
@@ -82,20 +97,22 @@ bool PairedAcceleration<B>::combine(std::vector<double>& x, std::vector<double>&
   }
   next_ = (next_ + 1) % depth;
   known_ = std::min(known_ + 1, depth);
-  x_ = x;
+  way_.x.assign(x.size(), 0);
+  way_.p.assign(p.size(), 0);
   for (int k = 0; k < known_; ++k) {
     const Direction& direction = directions_[k];
     const double part =
         -(dot(now_.image.x, direction.step.x) + dot(now_.image.p, direction.step.p)) / direction.squared;
-    add_times(part, direction.result.x, x_);
-    add_times(part, direction.result.p, p);
+    add_times(part, direction.result.x, way_.x);
+    add_times(part, direction.result.p, way_.p);
   }
-  if (!admissible(x_)) {
-    reset();
-    p = now_.result.p;
-    return false;
-  }
-  x.swap(x_);
+  const double length = std::sqrt(dot(way_.p, way_.p)), own = std::sqrt(dot(now_.step.p, now_.step.p));
+  const double allowed = farther * std::max(last_way_, own);
+  const double part = length > allowed ? allowed / length : 1;
+  last_way_ = part * length;
+  add_times(part, way_.x, x);
+  add_times(part, way_.p, p);
+  project(x);
   return true;
 }
 

@@ -18,12 +18,15 @@ class PairedAcceleration {
   explicit PairedAcceleration(const Constraints<B>& constraints) : constraints_(constraints) {}
 
   /// Forgets all steps: the phases have changed.
-  void reset() { steps_ = known_ = next_ = 0; }
+  void reset() {
+    steps_ = known_ = next_ = 0;
+    last_way_ = 0;
+  }
   /// A step has led from x_before to x, with residuals of one load, and to a change of p, S times which is given.
   void add_step(const std::vector<double>& x_before, const std::vector<double>& x, const std::vector<double>& r_before,
                 const std::vector<double>& r, const std::vector<double>& change, const std::vector<double>& S_change);
   /// Combines what that step leads to with what the ones before led to.
-  /// @param x, p where the step leads to; become the combination where there is one within the bounds
+  /// @param x, p where the step leads to; become the combination, next to it within the bounds, where there is one
   /// @return whether there is
   bool combine(std::vector<double>& x, std::vector<double>& p);
 
@@ -47,14 +50,15 @@ class PairedAcceleration {
   /// That to the step before.
   void find_difference(Direction& out);
   void make_orthogonal(Direction& newest);
-  bool admissible(const std::vector<double>& x) const;
+  void project(std::vector<double>& x) const;
 
   const Constraints<B>& constraints_;
   Step now_, before_;
   std::array<Direction, depth> directions_;  // a ring
   int steps_ = 0, known_ = 0, next_ = 0;
-  Pair image_;             // of the newest difference
-  std::vector<double> x_;  // the combination
+  Pair image_;  // of the newest difference
+  Pair way_;    // from where the step leads to to the combination
+  double last_way_ = 0;
 };
 
 }  // namespace signorini

@@ -44,8 +44,10 @@ class Automatic {
     situation_.levels = !prolongations.empty();
     situation_.functional = has_functional(problem.segments) || problem.following;
     situation_.friction = NewtonIteration<B>::suits(problem);
+    situation_.following = problem.following != nullptr;
     situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !situation_.functional;
     from_zero_ = std::ranges::all_of(x, [](double v) { return v == 0; });
+    if (situation_.functional) start_ = x;
   }
 
   Summary run() {
@@ -73,10 +75,13 @@ class Automatic {
     went_on_ = !situation_.functional;
     if (problem_.following) problem_.following->withdraw();
     switch (rule.kind) {
+      case automatic::Kind::cycles_again:
+        return begin_again(rule, start_);
       case automatic::Kind::cycles_from_zero:
-        return begin_from_zero(rule);
+        from_zero_ = true;
+        return begin_again(rule, std::vector<double>(x_.size(), 0.0));
       case automatic::Kind::newton:
-        return attempt<NewtonIteration<B>>(rule);
+        return newton_with_friction(rule);
       case automatic::Kind::cycles:
         return cycle(rule, prolongations_);
       case automatic::Kind::single_level:
@@ -90,25 +95,43 @@ class Automatic {
 
   void begin(const automatic::StageRule& rule) {
     const double begin = seconds();
-    MultigridIteration<B> loop(problem_, prolongations_, x_, options_, components(rule), situation_, rule.patience);
+    SolverOptions own = options_;
+    own.method = rule.method;
+    if (rule.kind == automatic::Kind::cycles_again && situation_.following) own.method = "auto", own.krylov = false;
+    own.max_iterations = std::min(own.max_iterations, rule.most_steps);
+    const bool longer = situation_.following && rule.patience.first < automatic::patience_with_loads.first;
+    MultigridIteration<B> loop(problem_, prolongations_, x_, own, components(rule), situation_,
+                               longer ? automatic::patience_with_loads : rule.patience);
     const double ready = seconds();
     done_ = loop.run(monitor_);
     setup_seconds_ = ready - begin;
     steps_ = done_.iterations;
     situation_.begun = true;
+    if (done_.outcome == Outcome::iteration_limit && steps_ < options_.max_iterations) done_.outcome = Outcome::stuck;
     situation_.slow = loop.lost_patience();
     situation_.unknowns = done_.level_unknowns.back();
     situation_.coarsest = done_.level_unknowns.front();
   }
 
   /// What was done until now is dropped.
-  void begin_from_zero(const automatic::StageRule& rule) {
+  void begin_again(const automatic::StageRule& rule, const std::vector<double>& start) {
     std::vector<Stage> left = std::move(done_.stages);
     for (Stage& stage : left) stage.kept = false;
-    std::ranges::fill(x_, 0.0);
-    from_zero_ = true;
+    x_ = start;
     begin(rule);
     done_.put_in_front(std::move(left));
+  }
+
+  /// From the first start, then from zero: cycles may have slid far away.
+  void newton_with_friction(const automatic::StageRule& rule) {
+    const std::vector<double> last = x_;
+    for (const bool zero : {false, true}) {
+      if (done_.outcome != Outcome::stuck) return;
+      if (!zero && std::ranges::all_of(start_, [](double v) { return v == 0; })) continue;
+      x_ = zero ? std::vector<double>(x_.size(), 0.0) : start_;
+      attempt<NewtonIteration<B>>(rule);
+    }
+    if (done_.outcome == Outcome::stuck) x_ = last;
   }
 
   /// The user's options for up to `most` further steps.
@@ -190,8 +213,9 @@ class Automatic {
   const Registry& registry_;
   const Monitor& monitor_;
   automatic::Situation situation_;
-  bool went_on_ = false;    // beyond the first cycles
-  bool from_zero_ = false;  // the cycles began there
+  bool went_on_ = false;       // beyond the first cycles
+  bool from_zero_ = false;     // the cycles began there
+  std::vector<double> start_;  // where the first ones began, if others may
   Summary done_;
   double setup_seconds_ = 0;
   int steps_ = 0;  // of all that is kept

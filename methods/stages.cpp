@@ -19,7 +19,7 @@ constexpr int interior_points = 60;
 // Each step may need a dozen factorisations. (Slender bodies of 40 000 unknowns, of which rounding leaves no solution,
 // took eight minutes.)
 constexpr Offset most_for_newton = 12'000;
-constexpr int newton_steps = 40;
+constexpr int newton_steps = 40, friction_steps = 20, bounded_cycles = 120;
 // With friction its matrices have no symmetry, and each step is a factorisation.
 constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'000;
 
@@ -39,9 +39,13 @@ bool dear_below(const Situation& s) {
 
 std::string patience(const Patience& p) {
   return fmt::format(
-      "after {} cycles, or any {}later one, where the rate of the last ones leads to more than {} (or "
-      "`max_iterations`), and active sets or Newton's method suit",
-      p.first, p.every == 1 ? "" : fmt::format("{}th ", p.every), p.most);
+      "after {} cycles{}, or any {}later one, where the rate of the last ones leads to more than {} (or "
+      "`max_iterations`), and something else suits",
+      p.first,
+      p.first == patience_with_cycles.first
+          ? fmt::format(" ({} of nearly incompressible material)", patience_with_loads.first)
+          : "",
+      p.every == 1 ? "" : fmt::format("{}th ", p.every), p.most);
 }
 
 // Thousands apart.
@@ -74,6 +78,18 @@ const std::vector<StageRule>& stages() {
        .begins = "at once, elsewhere",
        .ends = patience(patience_with_cycles),
        .purpose = "most problems are solved here"},
+      {.name = "cycles with bounds",
+       .kind = Kind::cycles_again,
+       .method = "monotone",
+       .solver = "",
+       .suits = [](const Situation& s) { return s.functional && s.begun && (s.slow || s.following); },
+       .begins =
+           "with friction where those before were slow, and of nearly incompressible material, from where these began",
+       .ends = fmt::format("where friction does not come to rest, or after {} cycles", bounded_cycles),
+       .purpose = "stacks that friction alone holds, and that corrections without bounds throw down; rubber in narrow "
+                  "grooves, without acceleration (and with corrections without bounds)",
+       .most_steps = bounded_cycles,
+       .patience = endless},
       {.name = "cycles from zero",
        .kind = Kind::cycles_from_zero,
        .method = "auto",
@@ -89,9 +105,10 @@ const std::vector<StageRule>& stages() {
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
        .begins = fmt::format("for at most {} unknowns, in space {}", number(most_for_friction),
                              number(most_for_friction_in_space)),
-       .ends = fmt::format("after {} steps, or where its matrix is singular", newton_steps),
+       .ends = fmt::format("after {} steps from the first start, and from zero, or where its matrix is singular",
+                           friction_steps),
        .purpose = "bodies that little but friction holds",
-       .most_steps = newton_steps},
+       .most_steps = friction_steps},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,
        .method = "pdas",
@@ -151,7 +168,7 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
   return out;
 }
 
-bool others_suit(const Situation& s) { return newton_suits(s) || coarsens(s) || factorisable(s); }
+bool others_suit(const Situation& s) { return s.functional || coarsens(s) || factorisable(s); }
 
 std::string table_of_stages() {
   std::string out = "| stage | begins | ends unsolved | is for |\n| --- | --- | --- | --- |\n";

@@ -14,6 +14,9 @@ struct Patience {
   int first, every, most;
 };
 inline constexpr Patience patience_with_cycles{60, 10, 200};
+/// Where a load follows the solution: thin layers of rubber are slow, and are solved.
+inline constexpr Patience patience_with_loads{120, 10, 200};
+inline constexpr Patience endless{std::numeric_limits<int>::max(), 1, std::numeric_limits<int>::max()};
 /// Where the coarsest level is left to sweeps.
 inline constexpr Patience patience_with_sweeps{3, 1, 20};
 
@@ -28,11 +31,12 @@ struct Situation {
   bool begun = false;                       ///< a stage has been run
   bool functional = false;                  ///< an obstacle adds to the energy, or a load follows: no active sets
   bool friction = false;                    ///< it is friction alone, along one direction of contact at each vertex
+  bool following = false;                   ///< a load follows the solution, as the pressure of rubber does
   bool slow = false;                        ///< cycles came to the end of their patience
 };
 
 /// What makes the steps of a stage.
-enum class Kind { cycles, cycles_from_zero, newton, single_level, active_sets, interior_points };
+enum class Kind { cycles, cycles_again, cycles_from_zero, newton, single_level, active_sets, interior_points };
 
 inline constexpr int unlimited = std::numeric_limits<int>::max();
 

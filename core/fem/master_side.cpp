@@ -56,11 +56,27 @@ class Master {
       for (Offset j = found.row[k]; j < found.row[k + 1]; ++j)
         for (int i = 0; i < D; ++i)
           jump[i] -= found.value[j] * u[static_cast<std::size_t>(Offset{nodes_.of_vertex(found.column[j])} * D + i)];
-      node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k);
+      node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) + offset(node.vertex, found.normal[k]);
       for (int i = 0; i < D; ++i) node.direction[i] = -found.normal[k][i];
       out_.push_back(node);
     }
     std::ranges::sort(out_, {}, &ContactNode<D>::vertex);
+  }
+
+  /// What the obstacle adds to the distance of bodies, as it would at a node of a slave: its bound where these touch.
+  double offset(Index p, const Point<D>& normal) const {
+    SurfaceVertex v{};
+    v.measure = 1;
+    v.vertex = nodes_.vertex(p);
+    std::copy_n(nodes_.at(p).data(), D, v.position);
+    for (int i = 0; i < D; ++i) {
+      v.normal[i] = normal[i];
+      v.away[i] = -normal[i];
+    }
+    LocalConstraint<D> constraint{};
+    Status status;
+    model_.obstacles[obstacle_].obstacle->assemble(&v, 1, &constraint, status);
+    return status.ok() && constraint.directions == 1 && std::isfinite(constraint.lower[0]) ? -constraint.lower[0] : 0;
   }
 
   ContactNode<D>* at(Index node) {

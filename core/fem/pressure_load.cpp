@@ -28,11 +28,7 @@ double product(const PressureSpace<D>& space, const std::vector<double>& entries
 
 template <int D>
 PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p)
-    : space_(space),
-      discretization_(discretization),
-      p_(std::move(p)),
-      value_(space.value),
-      materials_(static_cast<std::size_t>(space.materials)) {
+    : space_(space), discretization_(discretization), p_(std::move(p)), value_(space.value) {
   p_.resize(static_cast<std::size_t>(space.size));
   for (std::size_t at = 0; !problem().jumps && at < space.column.size(); ++at)
     if (const double* Q = problem().frames.at(space.column[at])) {
@@ -41,7 +37,7 @@ PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& 
       std::copy_n(local, D, value_.data() + at * D);
     }
   find_schur();
-  find_directions();
+  find_shut_in();
 }
 
 // Near prescribed components less of the displacements responds: in the corners of a body that is held all around next
@@ -69,22 +65,33 @@ void PressureLoad<D>::find_schur() {
     }
 }
 
+/// 1 in a material, or in all: -1.
+template <int D>
+std::vector<double> PressureLoad<D>::constant_in(Index material) const {
+  std::vector<double> out(p_.size());
+  for (Index k = 0; k < space_.size; ++k) out[k] = material < 0 || space_.material[k] == material ? 1 : 0;
+  return out;
+}
+
 // Nothing but compression resists a constant pressure in what is held all around.
 template <int D>
-void PressureLoad<D>::find_directions() {
-  for (auto* of_direction : {&along_, &own_, &resistance_, &more_at_first_})
-    of_direction->assign(materials_ + (materials_ > 1 ? 1 : 0), 0);
-  for (std::size_t e = 0; e < along_.size(); ++e) {
-    for (Index k = 0; k < space_.size; ++k)
-      for (Offset at = space_.mass_row[k]; at < space_.mass_row[k + 1]; ++at) {
-        if (!contains(e, k) || !contains(e, space_.mass_column[at])) continue;
-        own_[e] += space_.compliance[at];
-        resistance_[e] += schur_[at];
-      }
-    const std::vector<double> free = load_along(e);  // of all load the part that is free
-    if (dot(free, free) <= nothing * nothing * dot(load_, load_)) more_at_first_[e] = 1 / own_[e] - 1 / resistance_[e];
+void PressureLoad<D>::find_shut_in() {
+  for (Index material = space_.materials > 1 ? -1 : 0; material < space_.materials; ++material) {
+    std::vector<double> one = constant_in(material);
+    double all = 0, free = 0;
+    const std::vector<double>& load = load_of(one);
+    for (std::size_t at = 0; at < load.size(); ++at) {
+      all += load[at] * load[at];
+      if (!(problem().fixed[at / D] >> (at % D) & 1u)) free += load[at] * load[at];
+    }
+    if (free > nothing * nothing * all) continue;
+    double own = 0, resistance = 0;
+    for (Index k = 0; k < space_.size; ++k) {
+      own += one[k] * product(space_, space_.compliance, k, one);
+      resistance += one[k] * product(space_, schur_, k, one);
+    }
+    shut_in_.push_back({std::move(one), 1 / own - 1 / resistance});
   }
-  more_ = more_at_first_;
 }
 
 template <int D>
@@ -103,21 +110,6 @@ const std::vector<double>& PressureLoad<D>::displacements(const std::vector<doub
   if (!problem().jumps) return x;
   displacements_ = to_global(problem(), x);
   return displacements_;
-}
-
-template <int D>
-std::vector<double> PressureLoad<D>::load_along(std::size_t e) {
-  std::vector<double> one(p_.size());
-  for (Index k = 0; k < space_.size; ++k) one[k] = contains(e, k) ? 1 : 0;
-  std::vector<double> out = load_of(one);
-  for (std::size_t at = 0; at < out.size(); ++at)
-    if (problem().fixed[at / D] >> (at % D) & 1u) out[at] = 0;
-  return out;
-}
-
-template <int D>
-void PressureLoad<D>::set_resistance(std::size_t e, double resistance) {
-  more_[e] = resistance > 0 ? 1 / resistance - 1 / resistance_[e] : more_at_first_[e];
 }
 
 /// From b where components are free. What the prescribed ones lose in work counts, too.
@@ -160,12 +152,9 @@ void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>&
     residual[k] = sum;
   }
   solve(residual, change);
-  for (std::size_t e = 0; e < along_.size(); ++e) {
-    along_[e] = 0;
-    for (Index k = 0; k < space_.size; ++k)
-      if (contains(e, k)) along_[e] += residual[k];
-    for (Index k = 0; k < space_.size; ++k)
-      if (contains(e, k)) change[k] += more_[e] * along_[e];
+  for (const ShutIn& body : shut_in_) {
+    const double along = dot(body.pressure, residual);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] += body.more * along * body.pressure[k];
   }
 }
 

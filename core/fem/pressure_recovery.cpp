@@ -19,6 +19,7 @@ constexpr double excess = 1.25;  // over the means around a node: a linear press
 constexpr double at_edge =
     0.3;                       // of the next pressure inside is what a mean at the edge may have without any of its own
 constexpr double falls = 0.5;  // from a node in contact to the next one: more is left under a punch
+constexpr double least_width = 0.4;  // of samples, over the way to the next node: two rows of them have 0.5
 // Samples that a fit looks for, and without which it does not go on to the edge.
 template <int D>
 constexpr std::size_t enough = D == 2 ? 4 : 12;
@@ -54,12 +55,15 @@ class Recovery {
 
   bool resolved() const {
     bool all_inside = true;
+    Index top = unreachable;  // where the largest pressure is
     for (Index k = 0; k < faces_.size(); ++k) {
       if (!faces_.pressed(k)) continue;
-      if (inside_[k] && samples(k).size() >= enough<D>) return true;
       all_inside = all_inside && inside_[k];
+      if (top == unreachable || faces_.node(k).recovered > faces_.node(top).recovered) top = k;
     }
-    return all_inside;
+    if (all_inside) return true;
+    const auto some = samples(top);
+    return inside_[top] && some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(top);
   }
 
   double area() const {
@@ -94,6 +98,29 @@ class Recovery {
 
   using Place = std::array<double, D - 1>;
 
+  double way_to_neighbours(Index k) const {
+    double way = 0;
+    const TangentPlane<D> plane = samples_.plane_at(k);
+    for (const Index other : faces_.around(k))
+      for (const double x : plane(nodes_.at(faces_.node(other).vertex))) way = std::max(way, std::abs(x));
+    return way;
+  }
+
+  /// Standard deviation of the places of samples, along the direction in which that is least.
+  static double width(const std::vector<Sample<D - 1>>& some) {
+    if constexpr (D == 2) return infinity;
+    const auto n = static_cast<double>(some.size());
+    Place mean{};
+    for (const auto& sample : some)
+      for (std::size_t i = 0; i < D - 1; ++i) mean[i] += sample.x[i] / n;
+    double xx = 0, xy = 0, yy = 0;
+    for (const auto& sample : some) {
+      const double x = sample.x[0] - mean[0], y = sample.x[D - 2] - mean[D - 2];
+      xx += x * x / n, xy += x * y / n, yy += y * y / n;
+    }
+    return std::sqrt(std::max(0.0, (xx + yy) / 2 - std::hypot((xx - yy) / 2, xy)));
+  }
+
   /// By how much the mean around a node differs from the pressure at its middle, were it what is fitted to the means.
   /// Only where that bulges: pressures under a punch do not, and no polynomial follows them.
   double curvature(Index k) const {
@@ -116,9 +143,8 @@ class Recovery {
   /// By differences over the way to the neighbours.
   template <class Pressure>
   bool bulges(Index k, const TangentPlane<D>& plane, const Pressure& pressure) const {
-    double way = 0, sum = 0;
-    for (const Index other : faces_.around(k))
-      for (const double x : plane(nodes_.at(faces_.node(other).vertex))) way = std::max(way, std::abs(x));
+    const double way = way_to_neighbours(k);
+    double sum = 0;
     for (std::size_t i = 0; i < D - 1; ++i)
       for (const double side : {-way, way}) {
         Place x{};

@@ -20,8 +20,9 @@ namespace signorini {
 /// are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
 /// @return `area`, the measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where
-/// it does not fall towards the edge, as under a punch, contact goes on half way to the next node. `resolved`:
-/// somewhere there are nodes enough inside the contact for a fit, or none is at its edge.
+/// it does not fall towards the edge, as under a punch, contact goes on half way to the next node. `resolved`: where
+/// the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no node
+/// is at its edge.
 struct RecoveredPressure {
   double area;
   bool resolved;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/mesh/quadrature.hpp"
 #include "core/mortar/face_integrals.hpp"
 
 namespace signorini {
@@ -25,6 +26,8 @@ constexpr double left_of_parts = 0.01;
 // Of the area of a quadratic element's node the master covers no less: what is divided by less has weights far above
 // one, and takes many cycles.
 constexpr double least_quadratic_cover = 0.1;
+// Nodes with less of the area of a face stand for nothing but rounding: corners of quadratic elements on the axis.
+constexpr double least_node = 1e-12;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double rounding = 1e-14;
 
@@ -65,16 +68,13 @@ struct Boxes {
 template <int D, int P>
 class Gathering {
  public:
-  Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering,
+  Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering, bool axisymmetric,
             const std::vector<mortar::FaceIntegrals<D, P>>& seen)
       : slave_(slave), master_(master), one_numbering_(one_numbering), seen_(seen), place_(master.node.size(), -1) {
     list_records();
     whole_.assign(slave.node.size(), 0);
-    for (Index f = 0; f < static_cast<Index>(slave.faces.size()) / Face::parts; ++f) {
-      const auto point = Face(f).points(slave);
-      for (std::size_t p = 0; p < point.size(); ++p)
-        whole_[slave.number[point[p]]] += Face(f).area(slave) * basis_mean<P, D - 1>(p);
-    }
+    around_.assign(slave.node.size(), 0);
+    for (Index f = 0; f < static_cast<Index>(slave.faces.size()) / Face::parts; ++f) add_whole(Face(f), axisymmetric);
   }
 
   void run(const CoupleOptions& options, MortarCoupling<D>& out) {
@@ -106,6 +106,24 @@ class Gathering {
 
   Index size() const { return static_cast<Index>(slave_.node.size()); }
 
+  /// Weighted as what faces see is: by the radius of bodies of revolution.
+  void add_whole(Face face, bool axisymmetric) {
+    const auto point = face.points(slave_);
+    const ElementMap<D, D - 1, P> map = face.map(slave_);
+    std::array<double, Face::nodes> mean{};
+    double of_face = 0;
+    for (const auto& [barycentric, weight] : quadrature5<D - 1>()) {
+      const double here = weight * (axisymmetric ? map(barycentric)[0] : 1);
+      const auto value = basis<P>(barycentric);
+      for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += here * value[p];
+      of_face += here;
+    }
+    for (std::size_t p = 0; p < point.size(); ++p) {
+      whole_[slave_.number[point[p]]] += face.area(slave_) * mean[p];
+      around_[slave_.number[point[p]]] += face.area(slave_) * of_face;
+    }
+  }
+
   // By slave node, in the order of the faces.
   void list_records() {
     first_.assign(slave_.node.size() + 1, 0);
@@ -135,7 +153,8 @@ class Gathering {
       size += std::abs(share);
       for (int k = 0; k < D; ++k) out.normal[k] += share * s.record->normal[s.corner][k];
     }
-    if (!(out.weight > least * whole_[p] && out.weight > left_of_parts * size)) {
+    const bool stands_for_some = whole_[p] > least_node * around_[p];
+    if (!(stands_for_some && out.weight > least * whole_[p] && out.weight > left_of_parts * size)) {
       out.place = P > 1 && size > 0 ? Place::orphan : Place::alone;
       return out;
     }
@@ -234,7 +253,7 @@ class Gathering {
   const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
   std::vector<std::size_t> first_;
   std::vector<Seat> seats_;
-  std::vector<double> whole_;  // area of a node, covered or not
+  std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
   std::vector<Node> nodes_;
   std::vector<Index> place_;
   std::vector<Weight> row_, own_;
@@ -277,7 +296,7 @@ MortarCoupling<D> couple(const mortar::Side<D>& slave, const mortar::Side<D>& ma
     out.lumped += part.lumped;
     out.layered += part.layered;
   }
-  Gathering<D, P>(slave, master, one_numbering, seen).run(options, out);
+  Gathering<D, P>(slave, master, one_numbering, options.axisymmetric, seen).run(options, out);
   return out;
 }
 

@@ -27,17 +27,6 @@ class FollowingLoad {
   virtual void add(const std::vector<double>& change, std::vector<double>& r) = 0;
   /// p'Mp: what is left of the energy.
   virtual double squared() const = 0;
-
-  /// Directions e of p along which little but M may resist, as to a pressure that is constant in a body held all
-  /// around: S is far too large for them then.
-  virtual std::size_t directions() const = 0;
-  /// e'(C x - M p) at the last correct().
-  virtual double along(std::size_t e) const = 0;
-  /// C'e where components are free, and e'Me.
-  virtual std::vector<double> load_along(std::size_t e) = 0;
-  virtual double own(std::size_t e) const = 0;
-  /// The next corrections take e'Se for this; 0: for what it was.
-  virtual void set_resistance(std::size_t e, double resistance) = 0;
 };
 
 }  // namespace signorini

@@ -41,6 +41,36 @@ TEST(Stack, OfEightBlocksCarriesItsWeight) {
   EXPECT_LE(step.summary.iterations, 25);
 }
 
+// Friction alone holds them, and presses nowhere yet when the first cycle begins.
+TEST(Stack, OfBlocksThatFrictionHoldsTakesFewCycles) {
+  const std::string text = block("b0", "[-0.46, -0.5, 0]", "[0.54, 0.5, 0.4]", "[3, 4, 2]", material(0.1)) +
+                           block("b1", "[-0.395, -0.395, 0.4]", "[0.395, 0.395, 0.8]", "[2, 2, 2]", material(2)) +
+                           block("b2", "[-0.445, -0.465, 0.8]", "[0.485, 0.465, 1.2]", "[4, 3, 2]", material(7)) +
+                           fix("b0", "bottom", "[0, 0, 0]") + load("b0", "[0, 0, -0.001]") +
+                           load("b1", "[0, 0, -0.001]") + load("b2", "[0, 0, -0.001]") +
+                           pair("b1", "bottom", "b0", "top", "friction = 0.3\n", "elastic_coulomb") +
+                           pair("b2", "bottom", "b1", "top", "friction = 0.3\n", "elastic_coulomb");
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_EQ(report.last().summary.stages.size(), 1u);
+  EXPECT_LE(report.last().summary.iterations, 30);
+  EXPECT_NEAR(report.last().contact[1].force[2], 0.001 * 0.93 * 0.93 * 0.4, 1e-9);
+}
+
+// Newton's method from zero finds what cycles slide away from.
+TEST(Stiff, BlocksThatFrictionHoldsOnASoftBedAreSolved) {
+  const std::string text = block("bed", "[0, 0]", "[2, 1]", "[6, 3]", material(1)) +
+                           block("block", "[0.5, 1]", "[1.5, 1.5]", "[4, 2]", material(1e5)) +
+                           fix("bed", "bottom", "[0, 0]") + load("block", "[0.000995, -0.00995]") +
+                           pair("block", "bottom", "bed", "top", "friction = 0.3\n", "elastic_coulomb") +
+                           "[refine]\nuniform = 2\n";
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_NEAR(report.last().contact[0].force[1], 0.00995 * 0.5, 1e-7);
+}
+
 /// What presses within `part` of half the width, as a part of the whole.
 double force_within(const Driver& driver, double part) {
   return driver.visit(0, [&](const auto& run) {

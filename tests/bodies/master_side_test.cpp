@@ -57,6 +57,16 @@ TEST(MasterSide, KnowsHowFarTheSlaveIs) {
   });
 }
 
+// An offset of the scene's counts there, too.
+TEST(MasterSide, KnowsWhatTheSceneAddsToTheDistance) {
+  Driver driver(scene_of(blocks("slave = \"body\"\ngap = 0.01\n", 0.1, 1)));
+  ASSERT_TRUE(driver.solve().converged());
+  driver.visit(0, [](const auto& run) {
+    ASSERT_FALSE(run.results().masters.empty());
+    for (const auto& node : run.results().masters) EXPECT_NEAR(node.gap, 0.05, 1e-9);
+  });
+}
+
 // Round bodies: the largest pressure and the width of what presses are alike on both sides.
 TEST(MasterSide, FeelsTheSamePressureWhereBodiesAreRound) {
   Driver driver(scene_of(
