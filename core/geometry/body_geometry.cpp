@@ -201,12 +201,16 @@ class Chooser {
 
   void choose(const std::vector<Index>& piece) {
     const double size = size_of(piece);
-    if (const double off = off_plane(piece); off <= (surfaces_ == Surfaces::fit ? near : flat) * size)
+    // What is flat on this side of a plane of symmetry may be one half of a surface that is bent there.
+    const bool may_bend = surfaces_ == Surfaces::automatic || surfaces_ == Surfaces::smooth;
+    const bool bent = may_bend && !beyond_.empty() && off_patches(piece) > flat * size;
+    if (const double off = off_plane(piece); !bent && off <= (surfaces_ == Surfaces::fit ? near : flat) * size)
       return note(flat_kind(), piece, off);
     if (surfaces_ == Surfaces::facets) return note("facets", piece, off_patches(piece));
     if (surfaces_ == Surfaces::smooth) return make_smooth(piece);
     std::vector<Index> left = piece;
-    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts}) fit_groups(left, by);
+    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts})
+      if (!bent || by != Grouping::none) fit_groups(left, by);
     if (left.empty()) return;
     if (surfaces_ == Surfaces::fit) return note("facets", left, off_patches(left));
     make_smooth(left);

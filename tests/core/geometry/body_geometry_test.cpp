@@ -6,6 +6,7 @@
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/mesh/separate.hpp"
+#include "core/mesh/structured.hpp"
 #include "geometry_checks.hpp"
 
 namespace signorini {
@@ -149,6 +150,25 @@ TEST(BodyGeometry, SmoothSurfacesGoOnBeyondPlanesOfSymmetry) {
     const geometry::Shape3 part = geometry::Ball{.center = {0, 0, 0}, .radius = 1, .halved = halved};
     expect_part_of_the_whole<3>(meshed<3>(part, 0.35), axes);
   }
+}
+
+/// A roof whose ridge, of 20 degrees, lies on the plane.
+TEST(BodyGeometry, SmoothSurfacesAreBentOverPlanesOfSymmetry) {
+  Mesh<2> half = rectangle({0, 0}, {1, 1}, {6, 3});
+  for (Point<2>& x : half.points)
+    if (x[1] > 0) x[1] *= 1 - std::tan(std::numbers::pi / 18) * x[0];
+  Mesh<2> whole = with_image(half, {.axis = 0, .at = 0});
+  give_geometry(whole, Surfaces::smooth);
+  add_mirror(half, {.axis = 0, .at = 0}, "test");
+  remove_faces_on_mirrors(half);
+  give_geometry(half, Surfaces::smooth, geometry::default_crease, half.mirrors);
+  double ridge = 0, ridge_of_half = 0;  // the highest vertex next to it
+  for (const auto& [mesh, highest] : {std::pair{&whole, &ridge}, std::pair{&half, &ridge_of_half}}) {
+    const Mesh<2> fine = hierarchy(*mesh, 2).finest();
+    for (const Point<2>& x : fine.points)
+      if (x[0] > 0 && x[0] < 0.05) *highest = std::max(*highest, x[1]);
+  }
+  EXPECT_NEAR(ridge_of_half, ridge, 1e-12);
 }
 
 TEST(BodyGeometry, RoundedDigitsAreFittedAutomaticallyRoughOnesOnRequest) {
