@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <new>
 #include <utility>
@@ -122,16 +123,14 @@ class Automatic {
     done_.put_in_front(std::move(left));
   }
 
-  /// From the first start, then from zero: cycles may have slid far away.
+  /// From the first start, then from zero: cycles may have slid far away. Then from there, all the same.
   void newton_with_friction(const automatic::StageRule& rule) {
-    const std::vector<double> last = x_;
-    for (const bool zero : {false, true}) {
-      if (done_.outcome != Outcome::stuck) return;
-      if (!zero && std::ranges::all_of(start_, [](double v) { return v == 0; })) continue;
-      x_ = zero ? std::vector<double>(x_.size(), 0.0) : start_;
+    const std::vector<double> last = x_, zero(x_.size(), 0.0);
+    for (const std::vector<double>* start : std::array<const std::vector<double>*, 3>{&start_, &zero, &last}) {
+      if (done_.outcome != Outcome::stuck || (start == &start_ && start_ == zero)) continue;
+      x_ = *start;
       attempt<NewtonIteration<B>>(rule);
     }
-    if (done_.outcome == Outcome::stuck) x_ = last;
   }
 
   /// The user's options for up to `most` further steps.

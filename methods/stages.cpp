@@ -105,7 +105,8 @@ const std::vector<StageRule>& stages() {
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
        .begins = fmt::format("for at most {} unknowns, in space {}", number(most_for_friction),
                              number(most_for_friction_in_space)),
-       .ends = fmt::format("after {} steps from the first start, and from zero, or where its matrix is singular",
+       .ends = fmt::format("after {} steps from the first start, from zero, and from where cycles ended, or where its "
+                           "matrix is singular",
                            friction_steps),
        .purpose = "bodies that little but friction holds",
        .most_steps = friction_steps},
