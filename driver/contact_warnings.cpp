@@ -104,7 +104,7 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
     if (const ContactReport& c = report.steps.back().contact[k]; !c.resolved)
       warnings.push_back(fmt::format(
           "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of "
-          "the contact may be off by a third, or depend on the mesh where an edge or a corner touches; "
+          "the contact may be off by a third or more, or depend on the mesh where an edge or a corner touches; "
           "expected smaller elements there",
           origin, c.nodes == 1 ? "1 node" : fmt::format("{} nodes", c.nodes)));
     const StepReport& past = worst(report, k, beyond);

@@ -399,8 +399,7 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
   return cholesky.matrixU().solve(moved);
 }
 
-// A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
-// are its solutions, and a step that is long enough ends in one.
+// By least squares over the nodes.
 template <int D, int B>
 Eigen::VectorXd LooseBody<D, B>::nearest_motion(const std::vector<double>& x) const {
   const std::vector<double> u = to_global(discretization_.problem, x);
@@ -437,6 +436,8 @@ std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
   return motions_.describe(motion);
 }
 
+// A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
+// are its solutions, and a step that is long enough ends in one.
 template <int D, int B>
 std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
   std::vector<double> way = as_prescribed();

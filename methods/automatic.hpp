@@ -27,7 +27,7 @@ bool may_turn(const SolverOptions& options);
 
 /// What the rules come down to for a problem with several levels.
 /// @param aggregates weights of algebraic levels are blocks: smoothed aggregation
-/// @param functional an obstacle adds to the energy: then there are cycles alone
+/// @param functional an obstacle adds to the energy: then there are no active sets
 std::string describe(const SolverOptions& options, bool aggregates, int block, Offset unknowns, bool functional);
 
 }  // namespace automatic
