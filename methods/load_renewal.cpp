@@ -16,6 +16,11 @@ double largest(const std::vector<double>& values) {
 
 }  // namespace
 
+double relative_change(const std::vector<double>& change, const std::vector<double>& values) {
+  const double moved = largest(change), size = largest(values);
+  return size > 0 ? moved / size : moved > 0 ? infinity : 0;
+}
+
 template <int B>
 typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>& x_before,
                                                        const std::vector<double>& r_before, std::vector<double>& x,
@@ -30,8 +35,7 @@ typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>
   out.combined = accelerated && combine(x);
   if (out.combined) load_.correct(x, change_, S_change_);  // what is left now
   out.squared = dot(change_, S_change_);
-  const double moved = largest(change_), size = largest(load_.values());
-  out.change = size > 0 ? moved / size : moved > 0 ? infinity : 0;
+  out.change = relative_change(change_, load_.values());
   return out;
 }
 
@@ -40,8 +44,7 @@ bool LoadRenewal<B>::combine(std::vector<double>& x) {
   std::vector<double> p = load_.values();
   if (!acceleration_.combine(x, p)) return false;
   for (std::size_t k = 0; k < p.size(); ++k) p[k] -= load_.values()[k];
-  unused_.resize(x.size());
-  load_.add(p, unused_);
+  load_.add(p, no_residual_);
   return true;
 }
 

@@ -6,6 +6,9 @@
 
 namespace signorini {
 
+/// The largest change over the largest of what changes.
+double relative_change(const std::vector<double>& change, const std::vector<double>& values);
+
 /// Renews a load that follows the solution (core/solver/following_load.hpp) after each cycle, and accelerates the
 /// iteration of both while most phases rest.
 template <int B>
@@ -31,7 +34,7 @@ class LoadRenewal {
 
   FollowingLoad<B>& load_;
   PairedAcceleration<B> acceleration_;
-  std::vector<double> change_, S_change_, unused_;
+  std::vector<double> change_, S_change_, no_residual_;
 };
 
 }  // namespace signorini

@@ -6,9 +6,11 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/load_renewal.hpp"
 
 namespace signorini {
 
@@ -29,16 +31,15 @@ NewtonIteration<B>::NewtonIteration(const DiscreteProblem<B>& problem, std::vect
                                     const SolverOptions& options, const Registry& registry)
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
-      linear_(registry.create<UnsymmetricSolver>("unsymmetric", "umfpack")) {
+      load_(problem.following),
+      system_(problem.A, load_, registry.create<UnsymmetricSolver>("unsymmetric", "umfpack")) {
   check(problem);
   read_laws();
-  analyse();
 }
 
 template <int B>
 bool NewtonIteration<B>::suits(const DiscreteProblem<B>& problem) {
-  const auto functional = [](const Segment<B>& s) { return s.obstacle->functional() != nullptr; };
-  return problem.constraints.facet.empty() && !problem.following && std::ranges::any_of(problem.segments, functional) &&
+  return problem.constraints.facet.empty() && (problem.following || has_functional(problem.segments)) &&
          std::ranges::none_of(problem.segments, treats_not<B>);
 }
 
@@ -77,48 +78,6 @@ void NewtonIteration<B>::read_laws() {
       stiffness_[Offset{slot} * B + k] = this->problem_.A.diagonal(c.vector[slot])[k * (B + 1)];
 }
 
-// Rows of A with ascending columns: there the diagonal block is not the first one.
-template <int B>
-void NewtonIteration<B>::analyse() {
-  const BlockMatrix<B>& A = this->problem_.A;
-  std::vector<Offset> start{0};
-  std::vector<Index> column;
-  place_.resize(A.column.size());
-  stride_.resize(static_cast<std::size_t>(A.size()));
-  for (Index p = 0; p < A.size(); ++p) {
-    const Offset first = A.row[p], count = A.row[p + 1] - first;
-    const auto others = A.column.begin() + first + 1;
-    const Offset before = std::lower_bound(others, others + (count - 1), p) - others;
-    stride_[p] = count * B;
-    for (Offset m = 0; m < count; ++m) {
-      const Offset at = m == 0 ? before : m <= before ? m - 1 : m;
-      place_[first + m] = start.back() + at * B;
-    }
-    for (int i = 0; i < B; ++i) {
-      for (Offset at = 0; at < count; ++at) {
-        const Index q = at == before ? p : A.column[first + (at < before ? at + 1 : at)];
-        for (int j = 0; j < B; ++j) column.push_back(q * B + j);
-      }
-      start.push_back(start.back() + stride_[p]);
-    }
-  }
-  values_.resize(column.size());
-  linear_->analyse(start, column);
-}
-
-/// The rows of a vector: by_force A_p, and by_value on the diagonal.
-template <int B>
-void NewtonIteration<B>::set_row(Index p, const double* by_force, const double* by_value) {
-  const BlockMatrix<B>& A = this->problem_.A;
-  for (Offset m = A.row[p]; m < A.row[p + 1]; ++m) {
-    double block[B * B];
-    block::multiply<B>(by_force, A.at(m), block);
-    if (m == A.row[p])
-      for (int i = 0; i < B * B; ++i) block[i] += by_value[i];
-    for (int i = 0; i < B; ++i) std::copy_n(block + i * B, B, values_.data() + place_[m] + i * stride_[p]);
-  }
-}
-
 template <int B>
 Complementarity<B> NewtonIteration<B>::equations(Index slot) const {
   const Constraints<B>& c = level_.constraints;
@@ -142,20 +101,27 @@ void NewtonIteration<B>::linearise() {
   for (Index p = 0; p < level_.vectors; ++p) {
     const Index slot = level_.constraints.slot[p];
     if (slot < 0) {
-      set_row(p, unit, none);
+      system_.set_row(p, unit, none);
       continue;
     }
     const Offset at = Offset{p} * B;
     double by_force[B * B], by_value[B * B];
     states_[slot] = equations(slot).evaluate(y_.data() + at, force_.data() + at, d_.data() + at, by_force, by_value);
-    set_row(p, by_force, by_value);
+    system_.set_row(p, by_force, by_value);
   }
+  if (!load_) return;
+  load_->correct(y_, change_, of_load_);
+  d_.insert(d_.end(), of_load_.begin(), of_load_.end());
 }
 
 /// How far y_ is from solving the equations: squares of forces over stiffnesses.
 template <int B>
-double NewtonIteration<B>::merit() const {
+double NewtonIteration<B>::merit() {
   double sum = 0, unused[2 * B * B];
+  if (load_) {
+    load_->correct(y_, change_, of_load_);
+    sum += dot(change_, of_load_);
+  }
   for (Index p = 0; p < level_.vectors; ++p) {
     const Index slot = level_.constraints.slot[p];
     const Offset at = Offset{p} * B;
@@ -178,11 +144,10 @@ template <int B>
 bool NewtonIteration<B>::solve() {
   const double before = merit();
   linearise();
-  ++factorisations_;
-  if (!linear_->factorise(values_)) return false;
-  ++solves_;
-  linear_->solve(d_);
+  if (!system_.factorise()) return false;
+  system_.solve(d_);
   const std::vector<double> start = y_;
+  if (load_) load_start_ = load_->values();
   double best = infinity, part = 1;
   for (double t = 1; t >= least_step; t *= 0.5) {
     go(start, t);
@@ -196,7 +161,10 @@ bool NewtonIteration<B>::solve() {
 
 template <int B>
 void NewtonIteration<B>::go(const std::vector<double>& start, double part) {
-  for (std::size_t i = 0; i < d_.size(); ++i) y_[i] = start[i] - part * d_[i];
+  for (std::size_t i = 0; i < y_.size(); ++i) y_[i] = start[i] - part * d_[i];
+  for (std::size_t k = 0; k < load_start_.size(); ++k)
+    change_[k] = load_start_[k] - part * d_[y_.size() + k] - load_->values()[k];
+  if (load_) load_->add(change_, this->r_before_);
   renew_force();
 }
 
@@ -209,7 +177,7 @@ template <int B>
 typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
   const double begin = seconds();
   this->x_before_ = this->x_;
-  if (factorisations_ == 0) {
+  if (system_.factorisations() == 0) {
     y_ = this->x_;
     force_ = this->r_before_;
     for (double& f : force_) f = -f;
@@ -219,6 +187,7 @@ typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
   put_onto_sets();
   this->sums_ = this->evaluate(this->x_, this->r_);
   this->refuse_nan(this->sums_.natural_residual);
+  if (load_) measure_load();
   Step step;
   // The step itself bounds the error of the iterate before.
   step.error = solved ? std::sqrt(std::abs(this->sums_.correction)) : infinity;
@@ -227,6 +196,14 @@ typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
   step.levels.front().renewed = level_.vectors;
   step.levels.front().seconds = seconds() - begin;
   return step;
+}
+
+/// What is left to be corrected of a load that follows, after the step.
+template <int B>
+void NewtonIteration<B>::measure_load() {
+  load_->correct(this->x_, change_, of_load_);
+  this->sums_.correction += dot(change_, of_load_);
+  this->residual_of_load_ = relative_change(change_, load_->values());
 }
 
 /// What touches is on its bound, and what sticks where it was.
@@ -271,8 +248,8 @@ LevelReport NewtonIteration<B>::report(const std::vector<State>& last) const {
 template <int B>
 void NewtonIteration<B>::add_work(Stage& stage) const {
   stage.linear = "umfpack";
-  stage.linear_solves = solves_;
-  stage.factorisations = factorisations_;
+  stage.linear_solves = system_.solves();
+  stage.factorisations = system_.factorisations();
 }
 
 // By the matrix of the last step.
@@ -283,8 +260,9 @@ std::optional<double> NewtonIteration<B>::response(const std::vector<double>& fo
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k)
       if (states_[slot].side[k] != 0 || rests_on(slot, k)) d[Offset{c.vector[slot]} * B + k] = 0;
-  linear_->solve(d);
-  return std::sqrt(std::abs(std::inner_product(d.begin(), d.end(), forces.begin(), 0.0)));
+  d.resize(static_cast<std::size_t>(system_.size()));
+  system_.solve(d);
+  return std::sqrt(std::abs(std::inner_product(forces.begin(), forces.end(), d.begin(), 0.0)));
 }
 
 template class NewtonIteration<1>;

@@ -1,23 +1,22 @@
 #pragma once
-#include <memory>
 #include <vector>
 
-#include "core/algebra/unsymmetric_solver.hpp"
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
 #include "methods/complementarity.hpp"
+#include "methods/newton_system.hpp"
 
 namespace signorini {
 
-/// A semismooth Newton method for contact and friction with a direct solver: a reference to compare the other methods
-/// with, quadratic once the sets of what touches, sticks and slips rest. Its formulation is its own
+/// A semismooth Newton method for contact and friction with a direct solver, which solves for a load that follows the
+/// solution, too: a reference to compare the other methods with, quadratic once the sets of what touches, sticks and slips rest. Its formulation is its own
 /// (complementarity.hpp) and shares nothing with the sweeps. Iterates may leave the bounds; what is measured and
 /// returned is the one next to them that is on them where it touches, and has not moved where it sticks. There is no
 /// guarantee that it converges.
 template <int B>
 class NewtonIteration final : public Iteration<B> {
  public:
-  /// Whether there is friction, and nothing else that it does not treat.
+  /// Whether there is friction or a load that follows the solution, and nothing that it does not treat.
   static bool suits(const DiscreteProblem<B>& problem);
   /// Error(Exit::input) where an obstacle adds anything but friction to the energy, or there are facets.
   static void check(const DiscreteProblem<B>& problem);
@@ -36,31 +35,28 @@ class NewtonIteration final : public Iteration<B> {
   void add_work(Stage& stage) const override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
 
-  void analyse();
   void read_laws();
   Complementarity<B> equations(Index slot) const;
   void linearise();
-  double merit() const;
+  double merit();
   void renew_force();
   bool solve();
   void go(const std::vector<double>& start, double part);
-  void set_row(Index p, const double* by_force, const double* by_value);
+  void measure_load();
   void put_onto_sets();
   double largest_stiffness(Index slot) const;
   bool rests_on(Index slot, int k) const;
   LevelReport report(const std::vector<State>& last) const;
 
   Level<B> level_;
-  std::unique_ptr<UnsymmetricSolver> linear_;
+  FollowingLoad<B>* load_;
+  NewtonSystem<B> system_;
   std::vector<FrictionLaw> laws_;  // per slot
   std::vector<Flags> tangential_;  // per slot
   std::vector<double> stiffness_;  // B per slot
   std::vector<State> states_;      // per slot
-  std::vector<Offset> place_;      // of the first entry of a block's first row in values_, per block of A
-  std::vector<Offset> stride_;     // entries of a row, per vector
-  std::vector<double> values_;
-  std::vector<double> y_, force_, d_;  // the iterate, A y - b, the step
-  int factorisations_ = 0, solves_ = 0;
+  std::vector<double> y_, force_, d_;  // the iterate, A y - b, the step with that of a load
+  std::vector<double> change_, of_load_, load_start_;
 };
 
 }  // namespace signorini

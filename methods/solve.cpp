@@ -48,7 +48,7 @@ class Automatic {
     situation_.following = problem.following != nullptr;
     situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !situation_.functional;
     from_zero_ = std::ranges::all_of(x, [](double v) { return v == 0; });
-    if (situation_.functional) start_ = x;
+    if (situation_.functional) start_ = now();
   }
 
   Summary run() {
@@ -74,13 +74,12 @@ class Automatic {
   void run(const automatic::StageRule& rule) {
     if (!situation_.begun) return begin(rule);
     went_on_ = !situation_.functional;
-    if (problem_.following) problem_.following->withdraw();
     switch (rule.kind) {
       case automatic::Kind::cycles_again:
         return begin_again(rule, start_);
       case automatic::Kind::cycles_from_zero:
         from_zero_ = true;
-        return begin_again(rule, std::vector<double>(x_.size(), 0.0));
+        return begin_again(rule, zero());
       case automatic::Kind::newton:
         return newton_with_friction(rule);
       case automatic::Kind::cycles:
@@ -114,21 +113,38 @@ class Automatic {
     situation_.coarsest = done_.level_unknowns.front();
   }
 
+  /// Where an iteration begins: x, and p of a load that follows.
+  struct Place {
+    std::vector<double> x, p;
+    bool operator==(const Place&) const = default;
+  };
+  Place now() const { return {x_, problem_.following ? problem_.following->values() : std::vector<double>{}}; }
+  Place zero() const {
+    Place out = start_;
+    std::ranges::fill(out.x, 0.0);
+    std::ranges::fill(out.p, 0.0);
+    return out;
+  }
+  void go_to(const Place& place) {
+    x_ = place.x;
+    if (problem_.following) problem_.following->set(place.p);
+  }
+
   /// What was done until now is dropped.
-  void begin_again(const automatic::StageRule& rule, const std::vector<double>& start) {
+  void begin_again(const automatic::StageRule& rule, const Place& start) {
     std::vector<Stage> left = std::move(done_.stages);
     for (Stage& stage : left) stage.kept = false;
-    x_ = start;
+    go_to(start);
     begin(rule);
     done_.put_in_front(std::move(left));
   }
 
   /// From the first start, then from zero: cycles may have slid far away. Then from there, all the same.
   void newton_with_friction(const automatic::StageRule& rule) {
-    const std::vector<double> last = x_, zero(x_.size(), 0.0);
-    for (const std::vector<double>* start : std::array<const std::vector<double>*, 3>{&start_, &zero, &last}) {
-      if (done_.outcome != Outcome::stuck || (start == &start_ && start_ == zero)) continue;
-      x_ = *start;
+    const Place last = now(), nothing = zero();
+    for (const Place* start : std::array<const Place*, 3>{&start_, &nothing, &last}) {
+      if (done_.outcome != Outcome::stuck || (start == &start_ && start_ == nothing)) continue;
+      go_to(*start);
       attempt<NewtonIteration<B>>(rule);
     }
   }
@@ -159,7 +175,7 @@ class Automatic {
   void attempt(const automatic::StageRule& rule, More... more) {
     const SolverOptions own = limited(rule.most_steps);
     const int before = steps_;
-    const std::vector<double> start = x_;
+    const Place start = now();
     const double begin = seconds();
     bool ended = false;
     Stage stage;
@@ -178,13 +194,13 @@ class Automatic {
       stage.reason = "out of memory";
     }
     if (ended) {
-      if (done_.converged()) refuse_if_indefinite(start);
+      if (done_.converged()) refuse_if_indefinite(start.x);
       return;
     }
     stage.seconds = seconds() - begin;
     stage.kept = false;
     done_.stages.push_back(std::move(stage));
-    x_ = start;
+    go_to(start);
     steps_ = before;
   }
 
@@ -214,7 +230,7 @@ class Automatic {
   automatic::Situation situation_;
   bool went_on_ = false;       // beyond the first cycles
   bool from_zero_ = false;     // the cycles began there
-  std::vector<double> start_;  // where the first ones began, if others may
+  Place start_;                // where the first ones began, if others may
   Summary done_;
   double setup_seconds_ = 0;
   int steps_ = 0;  // of all that is kept
@@ -226,12 +242,10 @@ std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>&
                                         std::span<const Prolongation> prolongations, std::vector<double>& x,
                                         const SolverOptions& options, const Registry& registry) {
   check_method(problem, options);
-  if (problem.following && (method == Method::pdas || method == Method::newton))
-    input_error(
-        "solver.method",
-        fmt::format("'{}' solves for displacements alone, and nearly incompressible material has pressures of its "
-                    "own; expected 'auto', 'monotone' or 'tnnmg', or pressure = \"none\" in the body",
-                    options.method));
+  if (problem.following && method == Method::pdas)
+    input_error("solver.method",
+                "'pdas' solves for displacements alone, and nearly incompressible material has pressures of its own; "
+                "expected 'auto', 'monotone', 'tnnmg' or 'newton', or pressure = \"none\" in the body");
   if (method == Method::pdas) return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
   if (method == Method::newton) return std::make_unique<NewtonIteration<B>>(problem, x, options, registry);
   SolverOptions own = options;

@@ -1,11 +1,13 @@
 #include "core/fem/pressure_load.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/base/dot.hpp"
 #include "core/sdk/block.hpp"
+#include "core/solver/jumps.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
@@ -128,14 +130,16 @@ void PressureLoad<D>::subtract(const std::vector<double>& load) {
 
 template <int D>
 void PressureLoad<D>::apply() {
-  subtract(load_of(p_));
+  if (!std::exchange(applied_, true)) subtract(load_of(p_));
 }
 
 template <int D>
-void PressureLoad<D>::withdraw() {
-  std::vector<double> load = load_of(p_);
-  for (double& f : load) f = -f;
-  subtract(load);
+void PressureLoad<D>::set(std::vector<double> values) {
+  if (std::exchange(applied_, false)) {
+    for (double& p : p_) p = -p;
+    subtract(load_of(p_));
+  }
+  p_ = std::move(values);
 }
 
 template <int D>
@@ -186,6 +190,30 @@ void PressureLoad<D>::add(const std::vector<double>& change, std::vector<double>
   subtract(load);
   for (std::size_t at = 0; at < r.size(); ++at)
     if (!(problem().fixed[at / D] >> (at % D) & 1u)) r[at] -= load[at];
+}
+
+template <int D>
+typename FollowingLoad<D>::Matrices PressureLoad<D>::matrices() const {
+  typename FollowingLoad<D>::Matrices out;
+  const DiscreteProblem<D>& of = discretization_.problem;
+  for (Index k = 0; k < space_.size; ++k) {
+    VectorRow<D> c;
+    for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
+      std::copy_n(value_.data() + at * D, D, c[space_.column[at]].begin());
+    if (of.jumps) transform_row<D>(*of.jumps, c);
+    for (const auto& [p, value] : c) {
+      std::array<double, D> local = value;
+      if (const double* Q = of.jumps ? of.frames.at(p) : nullptr)
+        block::transposed_product<D>(Q, value.data(), local.data());
+      out.column.push_back(p);
+      for (int i = 0; i < D; ++i) out.value.push_back(of.fixed[p] >> i & 1u ? 0 : local[i]);
+    }
+    out.row.push_back(std::ssize(out.column));
+  }
+  out.mass_row = space_.mass_row;
+  out.mass_column = space_.mass_column;
+  out.mass = space_.compliance;
+  return out;
 }
 
 template <int D>

@@ -16,9 +16,10 @@ class PressureLoad final : public FollowingLoad<D> {
 
   const std::vector<double>& values() const override { return p_; }
   void apply() override;
-  void withdraw() override;
+  void set(std::vector<double> values) override;
   void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) override;
   void add(const std::vector<double>& change, std::vector<double>& r) override;
+  typename FollowingLoad<D>::Matrices matrices() const override;
   double squared() const override;
   /// The rows that tell reactions know the load, too: once, at the end.
   void press_on_prescribed();
@@ -36,6 +37,7 @@ class PressureLoad final : public FollowingLoad<D> {
   const PressureSpace<D>& space_;
   Discretization<D>& discretization_;
   std::vector<double> p_;
+  bool applied_ = false;
   std::vector<double> value_;             // of the space, in local coordinates; where unknowns are jumps in global ones
   std::vector<double> displacements_;     // then
   std::vector<double> schur_;             // what stands for the Schur complement C A^-1 C' + M

@@ -1,6 +1,8 @@
 #pragma once
 #include <vector>
 
+#include "core/base/types.hpp"
+
 namespace signorini {
 
 /// A load -C'p by unknowns p beside those of the problem, which follow the solution from cycle to cycle, such as the
@@ -17,14 +19,24 @@ class FollowingLoad {
 
   /// p.
   virtual const std::vector<double>& values() const = 0;
-  /// The load of the p of now becomes part of the problem's b, once.
+  /// The load of the p of now becomes part of the problem's b, unless it is.
   virtual void apply() = 0;
-  /// It is part of b no more: what begins next will apply it again.
-  virtual void withdraw() = 0;
+  /// Another p, whose load is no part of b yet.
+  virtual void set(std::vector<double> values) = 0;
   /// From x the correction of p, and S times it.
   virtual void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) = 0;
-  /// Changes p, the problem's b with it, and the residual b - A x.
+  /// Changes p, the problem's b with it, and the residual b - A x, unless that is empty.
   virtual void add(const std::vector<double>& change, std::vector<double>& r) = 0;
+  /// C and M, for who solves for x and p at once. In each row columns ascend.
+  struct Matrices {
+    std::vector<Offset> row{0};  ///< of C: one per p
+    std::vector<Index> column;   ///< vectors
+    std::vector<double> value;   ///< B per column, zero along prescribed components
+    std::vector<Offset> mass_row{0};
+    std::vector<Index> mass_column;
+    std::vector<double> mass;  ///< of M
+  };
+  virtual Matrices matrices() const = 0;
   /// p'Mp: what is left of the energy.
   virtual double squared() const = 0;
 };

@@ -315,6 +315,21 @@ void transform_forces(const Jumps<B>& jumps, std::vector<double>& b) {
   }
 }
 
+// No master's vector is a slave's one: what is added needs no transformation of its own.
+template <int B>
+void transform_row(const Jumps<B>& jumps, VectorRow<B>& c) {
+  const VectorRow<B> of_displacements = c;
+  for (const auto& [p, value] : of_displacements) {
+    const auto at = std::lower_bound(jumps.vector.begin(), jumps.vector.end(), p);
+    if (at == jumps.vector.end() || *at != p) continue;
+    const auto s = at - jumps.vector.begin();
+    double through[B];
+    block::transposed_product<B>(jumps.project.data() + s * B * B, value.data(), through);
+    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
+      for (int i = 0; i < B; ++i) c[jumps.column[k]][i] += jumps.weight[k] * through[i];
+  }
+}
+
 template <int B>
 void transform(const Jumps<B>& jumps, BlockMatrix<B>& A) {
   Transformation<B>(jumps, A).apply();
@@ -334,6 +349,7 @@ Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fin
   template void to_displacements(const Jumps<B>&, std::vector<double>&); \
   template void to_jumps(const Jumps<B>&, std::vector<double>&);         \
   template void transform_forces(const Jumps<B>&, std::vector<double>&); \
+  template void transform_row<B>(const Jumps<B>&, VectorRow<B>&);        \
   template void transform(const Jumps<B>&, BlockMatrix<B>&);             \
   template void reserve_couplings(const Jumps<B>&, BlockMatrix<B>&);     \
   template Prolongation between_jumps(const Prolongation&, const Jumps<B>&, const Jumps<B>&);

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <map>
 #include <vector>
 
 #include "core/algebra/block_matrix.hpp"
@@ -37,6 +39,13 @@ void to_jumps(const Jumps<B>& jumps, std::vector<double>& u);
 /// Forces: b <- Z'b. Those on the slave's side stay what they are, the master's gets the counterforces.
 template <int B>
 void transform_forces(const Jumps<B>& jumps, std::vector<double>& b);
+
+/// Coefficients of some vectors, by vector.
+template <int B>
+using VectorRow = std::map<Index, std::array<double, B>>;
+/// Those of displacements as those of unknowns: c <- c Z.
+template <int B>
+void transform_row(const Jumps<B>& jumps, VectorRow<B>& c);
 
 /// A <- Z'A Z. Rows next to no side stay as they are.
 template <int B>
