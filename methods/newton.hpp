@@ -9,10 +9,10 @@
 namespace signorini {
 
 /// A semismooth Newton method for contact and friction with a direct solver, which solves for a load that follows the
-/// solution, too: a reference to compare the other methods with, quadratic once the sets of what touches, sticks and slips rest. Its formulation is its own
-/// (complementarity.hpp) and shares nothing with the sweeps. Iterates may leave the bounds; what is measured and
-/// returned is the one next to them that is on them where it touches, and has not moved where it sticks. There is no
-/// guarantee that it converges.
+/// solution, too: a reference to compare the other methods with, quadratic once the sets of what touches, sticks and
+/// slips rest. Its formulation is its own (complementarity.hpp) and shares nothing with the sweeps. Iterates may leave
+/// the bounds; what is measured and returned is the one next to them that is on them where it touches, and has not
+/// moved where it sticks. There is no guarantee that it converges.
 template <int B>
 class NewtonIteration final : public Iteration<B> {
  public:
@@ -51,10 +51,10 @@ class NewtonIteration final : public Iteration<B> {
   Level<B> level_;
   FollowingLoad<B>* load_;
   NewtonSystem<B> system_;
-  std::vector<FrictionLaw> laws_;  // per slot
-  std::vector<Flags> tangential_;  // per slot
-  std::vector<double> stiffness_;  // B per slot
-  std::vector<State> states_;      // per slot
+  std::vector<FrictionLaw> laws_;      // per slot
+  std::vector<Flags> tangential_;      // per slot
+  std::vector<double> stiffness_;      // B per slot
+  std::vector<State> states_;          // per slot
   std::vector<double> y_, force_, d_;  // the iterate, A y - b, the step with that of a load
   std::vector<double> change_, of_load_, load_start_;
 };

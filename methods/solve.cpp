@@ -228,9 +228,9 @@ class Automatic {
   const Registry& registry_;
   const Monitor& monitor_;
   automatic::Situation situation_;
-  bool went_on_ = false;       // beyond the first cycles
-  bool from_zero_ = false;     // the cycles began there
-  Place start_;                // where the first ones began, if others may
+  bool went_on_ = false;    // beyond the first cycles
+  bool from_zero_ = false;  // the cycles began there
+  Place start_;             // where the first ones began, if others may
   Summary done_;
   double setup_seconds_ = 0;
   int steps_ = 0;  // of all that is kept

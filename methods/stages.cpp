@@ -20,7 +20,7 @@ constexpr int interior_points = 60;
 // took eight minutes.)
 constexpr Offset most_for_newton = 12'000;
 constexpr int newton_steps = 40, friction_steps = 20, bounded_cycles = 120;
-// With friction its matrices have no symmetry, and each step is a factorisation.
+// With friction matrices have no symmetry, with pressures they are indefinite, and each step is a factorisation.
 constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'000;
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
@@ -86,8 +86,8 @@ const std::vector<StageRule>& stages() {
        .begins =
            "with friction where those before were slow, and of nearly incompressible material, from where these began",
        .ends = fmt::format("where friction does not come to rest, or after {} cycles", bounded_cycles),
-       .purpose = "stacks that friction alone holds, and that corrections without bounds throw down; rubber in narrow "
-                  "grooves, without acceleration (and with corrections without bounds)",
+       .purpose = "stacks that friction alone holds, and that corrections without bounds throw down; rubber, "
+                  "without acceleration (and with corrections without bounds)",
        .most_steps = bounded_cycles,
        .patience = endless},
       {.name = "cycles from zero",
@@ -98,17 +98,18 @@ const std::vector<StageRule>& stages() {
        .begins = "with friction, where the start was another one",
        .ends = "where friction does not come to rest, or at `max_iterations`",
        .purpose = "a body that friction hardly holds, and that slid off on a coarse mesh"},
-      {.name = "Newton's method with friction",
+      {.name = "Newton's method with friction and pressures",
        .kind = Kind::newton,
        .method = "newton",
        .solver = "umfpack",
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
-       .begins = fmt::format("for at most {} unknowns, in space {}", number(most_for_friction),
-                             number(most_for_friction_in_space)),
+       .begins =
+           fmt::format("with friction, and of nearly incompressible material, for at most {} unknowns, in space {}",
+                       number(most_for_friction), number(most_for_friction_in_space)),
        .ends = fmt::format("after {} steps from the first start, from zero, and from where cycles ended, or where its "
                            "matrix is singular",
                            friction_steps),
-       .purpose = "bodies that little but friction holds",
+       .purpose = "bodies that little but friction holds; rubber in narrow grooves, and under far stiffer bodies",
        .most_steps = friction_steps},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,

@@ -30,9 +30,9 @@ struct Situation {
   bool newton = false;                      ///< the coarse solver makes Newton steps, which may be dear
   bool begun = false;                       ///< a stage has been run
   bool functional = false;                  ///< an obstacle adds to the energy, or a load follows: no active sets
-  bool friction = false;                    ///< it is friction alone, along one direction of contact at each vertex
-  bool following = false;                   ///< a load follows the solution, as the pressure of rubber does
-  bool slow = false;                        ///< cycles came to the end of their patience
+  bool friction = false;   ///< it is friction or such a load alone, with one direction of contact at each vertex
+  bool following = false;  ///< a load follows the solution, as the pressure of rubber does
+  bool slow = false;       ///< cycles came to the end of their patience
 };
 
 /// What makes the steps of a stage.

@@ -134,6 +134,12 @@ void PressureLoad<D>::apply() {
 }
 
 template <int D>
+void PressureLoad<D>::apply_anew() {
+  applied_ = false;
+  apply();
+}
+
+template <int D>
 void PressureLoad<D>::set(std::vector<double> values) {
   if (std::exchange(applied_, false)) {
     for (double& p : p_) p = -p;

@@ -295,13 +295,13 @@ TEST(Incompressible, ErrorsAreNotFarFromTheirEstimate) {
   }
 }
 
-TEST(Incompressible, MethodsOfDisplacementsAloneAreRefused) {
-  for (const char* method : {"pdas", "newton"}) try {
-      run<2, 2>(pressed<2>(2, 0.4999), {fmt::format("solver.method={}", method)});
-      ADD_FAILURE() << method;
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("pressures of its own"), std::string::npos) << error.what();
-    }
+TEST(Incompressible, ActiveSetsAreRefused) {
+  try {
+    run<2, 2>(pressed<2>(2, 0.4999), {"solver.method=pdas"});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("pressures of its own"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Incompressible, NoLockingInContact) {
