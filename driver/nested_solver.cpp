@@ -7,19 +7,19 @@
 
 #include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
-#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/check_functionals.hpp"
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
 #include "core/solver/admissible.hpp"
-#include "core/solver/functional.hpp"
+#include "core/solver/least_energy.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/mesh_levels.hpp"
 #include "driver/moved_problem.hpp"
+#include "driver/near_null_space.hpp"
 #include "methods/nested_iteration.hpp"
 #include "methods/solve.hpp"
 
@@ -48,63 +48,6 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
 
 template <int D, int B>
 using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
-
-/// Of admissible vectors the number of the one with least energy, the last one of such: J(a) - J(b) = -(a - b)'r with
-/// the residual r in the middle between them, all in one pass over the matrix. Functionals that follow the solution are
-/// as they were after the last load step: with what presses less presses there is less friction, too, and all that is
-/// held would let go.
-template <int B>
-std::size_t least_energy(const DiscreteProblem<B>& problem, const std::vector<std::vector<double>>& vectors) {
-  const std::vector<double>& first = vectors.front();
-  std::vector<std::vector<double>> middle(vectors.size());
-  for (std::size_t v = 1; v < vectors.size(); ++v) {
-    middle[v].resize(first.size());
-    for (std::size_t k = 0; k < first.size(); ++k) middle[v][k] = 0.5 * (vectors[v][k] + first[k]);
-  }
-  std::vector<double> gain(vectors.size());
-  for (Index p = 0; p < problem.A.size(); ++p)
-    for (std::size_t v = 1; v < vectors.size(); ++v) {
-      double Ax[B];
-      row_product(problem.A, p, middle[v].data(), Ax);
-      for (int i = 0; i < B; ++i) {
-        const Offset at = Offset{p} * B + i;
-        gain[v] += (vectors[v][at] - first[at]) * (problem.b[at] - Ax[i]);
-      }
-    }
-  const double* data = follows_solution(problem.segments) ? problem.constraints.before.data() : nullptr;
-  for (std::size_t v = 1; v < vectors.size(); ++v)
-    gain[v] -= functional::change(problem, first.data(), vectors[v].data(), data);
-  std::size_t best = 0;
-  for (std::size_t v = 1; v < vectors.size(); ++v)
-    if (gain[v] >= gain[best]) best = v;
-  return best;
-}
-
-/// The same in terms of unknowns that are jumps.
-template <int B>
-void to_jumps(const Jumps<B>& jumps, NearNullSpace& space) {
-  std::vector<double> mode(space.value.size() / static_cast<std::size_t>(space.modes));
-  for (Index k = 0; k < space.modes; ++k) {
-    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = space.at(static_cast<Offset>(i))[k];
-    to_jumps(jumps, mode);
-    for (std::size_t i = 0; i < mode.size(); ++i) space.at(static_cast<Offset>(i))[k] = mode[i];
-  }
-}
-
-/// Of an elastic body.
-template <int D, int B>
-NearNullSpace near_null_space(const Nodes<D>& nodes, const Jumps<B>* jumps) {
-  if constexpr (B == 1) return {};
-  std::vector<double> coordinates;
-  for (Index p = 0; p < nodes.size(); ++p) {
-    const Point<D> x = nodes.control_point(p);
-    coordinates.insert(coordinates.end(), x.begin(), x.end());
-  }
-  NearNullSpace space = rigid_body_modes<D>(coordinates);
-  if constexpr (D == B)
-    if (jumps) to_jumps(*jumps, space);
-  return space;
-}
 
 }  // namespace
 
