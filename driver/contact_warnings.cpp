@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fem/mean_turn.hpp"
 #include "core/fem/paired_sides.hpp"
 #include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
+#include "core/mesh/connected.hpp"
 
 namespace signorini {
 namespace {
@@ -122,6 +124,24 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
   }
   return warnings;
 }
+
+template <int D>
+std::vector<std::string> turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
+  constexpr double noticeable_turn = 0.1;
+  if (model.plane == Plane::axisymmetric) return {};
+  const std::vector<double> turns =
+      mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u);
+  const double largest = *std::ranges::max_element(turns);
+  if (!(largest > noticeable_turn)) return {};
+  return {
+      fmt::format("{}: {} turns by {:.2g} degrees: linear elasticity and contact take rotations for small ones, and "
+                  "see strains of {:.1g} in this one that are not there",
+                  model.origin, turns.size() > 1 ? "one of the bodies" : "the body", largest * 180 / std::numbers::pi,
+                  0.5 * largest * largest)};
+}
+
+template std::vector<std::string> turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);
+template std::vector<std::string> turn_warnings(const Model<3>&, const Nodes<3>&, const std::vector<double>&);
 
 namespace {
 

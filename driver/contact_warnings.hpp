@@ -21,6 +21,10 @@ std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& mo
 /// per obstacle and kind, for the worst step.
 std::vector<std::string> contact_warnings(const Scene& scene, const Report& report);
 
+/// A body that turns, in the end, by more than a tenth of a radian as a whole.
+template <int D>
+std::vector<std::string> turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u);
+
 /// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined
 /// mesh: with a distance between both that counts beside the displacements there. One sentence per obstacle and kind.
 template <int D, int B>

@@ -1,0 +1,63 @@
+#include "core/fem/mean_turn.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+/// Sums over the vertices of a body: their number, their positions, and the moments of both.
+template <int D>
+struct Sums {
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Square = Eigen::Matrix<double, D, D>;
+
+  double count = 0;
+  Vector x = Vector::Zero(), u = Vector::Zero();
+  Square xx = Square::Zero(), ux = Square::Zero();
+
+  void add(const Point<D>& at, const double* displacement) {
+    const Eigen::Map<const Vector> r(at.data()), d(displacement);
+    ++count;
+    x += r;
+    u += d;
+    xx += r * r.transpose();
+    ux += d * r.transpose();
+  }
+
+  // The rotation w is next to u where sum r x (u - w x r) = 0.
+  double turn() const {
+    const Square inertia = xx - x * x.transpose() / count, moment = ux - u * x.transpose() / count;
+    if constexpr (D == 2) {
+      const double sum = inertia.trace();
+      return sum > 0 ? std::abs(moment(1, 0) - moment(0, 1)) / sum : 0;
+    } else {
+      const Vector of(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0), moment(1, 0) - moment(0, 1));
+      const Square about = inertia.trace() * Square::Identity() - inertia;
+      return about.ldlt().solve(of).norm();
+    }
+  }
+};
+
+}  // namespace
+
+template <int D>
+std::vector<double> mean_turns(const Nodes<D>& nodes, const std::vector<Index>& of_node, const std::vector<double>& u) {
+  const Index bodies = of_node.empty() ? 1 : *std::max_element(of_node.begin(), of_node.end()) + 1;
+  std::vector<Sums<D>> sums(static_cast<std::size_t>(bodies));
+  const Point<D> origin = nodes.at(0);  // positions far from zero would leave nothing of the differences
+  for (Index p = 0; p < nodes.size(); ++p) {
+    if (nodes.ends(p)[0] != nodes.ends(p)[1]) continue;
+    Point<D> r = nodes.at(p);
+    for (int i = 0; i < D; ++i) r[i] -= origin[i];
+    sums[of_node.empty() ? 0 : of_node[p]].add(r, u.data() + Offset{p} * D);
+  }
+  std::vector<double> out;
+  for (const Sums<D>& of : sums) out.push_back(of.turn());
+  return out;
+}
+
+template std::vector<double> mean_turns(const Nodes<2>&, const std::vector<Index>&, const std::vector<double>&);
+template std::vector<double> mean_turns(const Nodes<3>&, const std::vector<Index>&, const std::vector<double>&);
+
+}  // namespace signorini
