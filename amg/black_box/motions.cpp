@@ -15,12 +15,14 @@ namespace signorini {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double rounding_of_rows = 64 * epsilon;     // of the sum of the entries' sizes
-constexpr double rounding_of_motions = 16 * epsilon;  // of Sd, the diagonal of S is one; times sqrt(size of d)
-constexpr double rounding_of_squares = 8 * epsilon;   // of d'Sd for d of length one
-constexpr double rounding_of_loads = 256 * epsilon;   // of the work, relative to its terms; times the same
-constexpr double negligible = 1e-9;                   // components of a motion, relative to the largest
-constexpr double rounding_of_projections = 1e-11;     // onto cones, of what is projected
+constexpr double rounding_of_rows = 64 * epsilon;        // of the sum of the entries' sizes
+constexpr double rounding_of_motions = 16 * epsilon;     // of Sd, the diagonal of S is one; times sqrt(size of d)
+constexpr double rounding_of_components = 16 * epsilon;  // of those of d, over the largest
+constexpr double rounding_of_squares = 8 * epsilon;      // of d'Sd for d of length one
+constexpr double rounding_of_loads = 256 * epsilon;      // of the work, relative to its terms; times the same
+constexpr double negligible = 1e-9;                      // components of a motion, relative to the largest
+constexpr double rounding_of_projections = 1e-11;        // onto cones, of what is projected
+constexpr double far = 100;                              // how far off a cone a motion may be, in violated conditions
 
 // What may be factorised: few vectors or entries, or nearly a tree. To order them and to count the factor's takes
 // little time then; whether it is made, the count tells.
@@ -205,8 +207,8 @@ class Motions<B>::Finder {
     }
   }
 
-  // Row by row, too: weak springs may have little energy beside all of the motion's terms. (Not of systems: rotations
-  // have unknowns that hardly move.)
+  // Row by row, too: weak springs may have little energy beside all of the motion's terms. (Not of blocks: where a
+  // rotation hardly moves anything, rounding of the rest of it is more than that of a row.)
   static bool is_motion(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& d) {
     const Eigen::VectorXd Sd = S.selfadjointView<Eigen::Lower>() * d;
     const double small = rounding_of_motions * std::sqrt(static_cast<double>(S.rows()));
@@ -219,7 +221,8 @@ class Motions<B>::Finder {
           terms[entry.row()] += std::abs(entry.value() * d[column]);
           terms[column] += std::abs(entry.value() * d[entry.row()]);
         }
-    return (Sd.cwiseAbs().array() <= rounding_of_rows * terms.array() + negligible * small).all();
+    const double of_motion = rounding_of_components * d.cwiseAbs().maxCoeff();
+    return (Sd.cwiseAbs().array() <= rounding_of_rows * terms.array() + of_motion).all();
   }
 
   static Eigen::VectorXd neither_smooth_nor_rough(Eigen::Index size) {
@@ -344,10 +347,12 @@ Eigen::VectorXd Motions<B>::falling_direction(const Basis& basis, const std::vec
   }
   if (allowed.all()) return basis.value * work;
   const Eigen::VectorXd falling = allowed.nearest(work);
-  const double size = falling.norm();
-  if (!(size > std::max(rounding_of_projections * work.norm(), small * terms.norm() + error))) return {};
-  // Little of the forces may be left: whether it is more than rounding, the conditions themselves tell.
-  if (allowed.least_rate(falling) >= -negligible * size) return basis.value * falling;
+  if (!(falling.norm() > std::max(rounding_of_projections * work.norm(), small * terms.norm() + error))) return {};
+  // Little of the forces may be left: whether it is more than rounding and conditions that are not quite met explain,
+  // their work along it tells.
+  const double missed = std::max(0.0, -allowed.least_rate(falling));
+  if (work.dot(falling) > (small * terms.norm() + error) * falling.norm() + far * missed * work.norm())
+    return basis.value * falling;
   certain = false;
   return {};
 }

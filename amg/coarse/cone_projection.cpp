@@ -8,7 +8,8 @@ namespace signorini {
 
 namespace {
 
-constexpr double tolerance = 1e-12;  // part of |g| by which a condition may be missed
+constexpr double tolerance = 1e-12;  // part of |c| by which a condition may be missed
+constexpr double nothing = 1e-15;    // part of |g| that is rounding
 
 /// Columns G_j' of the conditions that hold as equalities.
 Eigen::MatrixXd columns(const Eigen::MatrixXd& G, const std::vector<Eigen::Index>& active) {
@@ -37,6 +38,12 @@ bool advance(std::vector<Eigen::Index>& active, std::vector<double>& multiplier,
   return all;
 }
 
+/// Takes off c what is along some columns, to rounding of what is left: twice is enough, however little that is.
+void orthogonalise(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& columns, Eigen::VectorXd& c) {
+  const Eigen::MatrixXd Q = columns.householderQ() * Eigen::MatrixXd::Identity(c.size(), columns.rank());
+  for (int pass = 0; pass < 2; ++pass) c -= Q * (Q.transpose() * c);
+}
+
 }  // namespace
 
 Eigen::VectorXd project_onto_cone(const Eigen::MatrixXd& G, const Eigen::VectorXd& g) {
@@ -45,15 +52,19 @@ Eigen::VectorXd project_onto_cone(const Eigen::MatrixXd& G, const Eigen::VectorX
   Eigen::VectorXd c = g;
   for (Eigen::Index round = 0; round < 3 * G.rows(); ++round) {
     Eigen::Index worst = 0;
-    if (!((G * c).minCoeff(&worst) < -tolerance * g.norm()) || std::ranges::count(active, worst)) break;
+    const bool missed = (G * c).minCoeff(&worst) < -tolerance * c.norm();
+    if (!missed || !(c.norm() > nothing * g.norm()) || std::ranges::count(active, worst)) break;
     active.push_back(worst);
     multiplier.push_back(0);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     Eigen::VectorXd best;
     do {
       if (active.empty()) return g;
-      best = columns(G, active).colPivHouseholderQr().solve(-g);
+      qr.compute(columns(G, active));
+      best = qr.solve(-g);
     } while (!advance(active, multiplier, best));
-    c = g + columns(G, active) * best;
+    c = g;
+    orthogonalise(qr, c);
   }
   return c;
 }

@@ -222,6 +222,50 @@ TEST(Motions, ElasticBodies) {
   EXPECT_EQ(solver.solve(corner, lower, upper).summary.outcome, Outcome::unbounded);
 }
 
+/// A plane truss of m x h squares with both diagonals, of stiffnesses such that all entries are whole numbers.
+Matrix truss(Index m, Index h) {
+  const auto joint = [m](Index x, Index y) { return y * (m + 1) + x; };
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index x = 0; x <= m; ++x)
+    for (Index y = 0; y <= h; ++y)
+      for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {1, 1}, {-1, 1}}) {
+        if (x + dx < 0 || x + dx > m || y + dy > h) continue;
+        const Index at[4] = {2 * joint(x, y), 2 * joint(x, y) + 1, 2 * joint(x + dx, y + dy),
+                             2 * joint(x + dx, y + dy) + 1};
+        const double along[4] = {-1.0 * dx, -1.0 * dy, 1.0 * dx, 1.0 * dy};
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4; ++j)
+            if (along[i] * along[j] != 0) entries.emplace_back(at[i], at[j], along[i] * along[j]);
+      }
+  const Index n = 2 * (m + 1) * (h + 1);
+  Matrix A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+// Of its weight next to nothing is left where the floor has taken its part, and that little decides: they slide away.
+TEST(Motions, TrussesThatHardlySlide) {
+  for (const auto& [m, h] : {std::pair(1, 1), {2, 1}, {3, 3}, {6, 3}, {12, 12}, {20, 20}}) {
+    const Matrix A = truss(m, h);
+    std::vector<double> weight(static_cast<std::size_t>(A.rows())), floor(weight.size(), -infinity);
+    for (std::size_t k = 1; k < weight.size(); k += 2) weight[k] = -1;
+    for (int x = 0; x <= m; ++x) floor[2 * static_cast<std::size_t>(x) + 1] = 0;
+    EXPECT_TRUE(BlackBox(A, 1).solve(weight, floor).summary.converged()) << m;
+    for (const int power : {0, 10, 19, 24, 27, 30, 34}) {
+      std::vector<double> pushed = weight;
+      for (std::size_t k = 0; k < weight.size(); k += 2) pushed[k] = std::ldexp(1.0, -power);
+      for (const char* method : {"auto", "tnnmg", "pdas"}) {
+        SolverOptions options;
+        options.method = method;
+        const Summary summary = BlackBox(A, 1, options).solve(pushed, floor).summary;
+        EXPECT_EQ(summary.outcome, Outcome::unbounded)
+            << m << ", " << power << ", " << method << ": " << summary.reason;
+        EXPECT_THAT(summary.reason, HasSubstr("row")) << m << ", " << power << ", " << method;
+      }
+    }
+  }
+}
+
 /// D A D: its motions are no constants, and its diagonal does not dominate.
 Matrix scaled_by_waves(const Matrix& A) {
   const Eigen::VectorXd s = vector(waves(static_cast<std::size_t>(A.rows()))).array() + 2;
