@@ -17,6 +17,7 @@ namespace {
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
+constexpr double coarse = 0.1;       // of these, between nodes
 constexpr double rounding = 1e-6;    // of displacements, with what tolerances leave
 constexpr double many = 0.1;         // of the nodes in contact
 constexpr double edged =
@@ -26,6 +27,12 @@ constexpr double edged =
 double off(const ContactReport& contact) {
   const double by = std::max(contact.largest_penetration, contact.largest_opening);
   return contact.largest_displacement > 0 ? by / contact.largest_displacement : 0;
+}
+
+/// The same between nodes, if more than at these. (Of scalars it is what elements leave.)
+double off_between(const ContactReport& contact) {
+  const double by = contact.penetration_between_nodes;
+  return contact.force.size() > 1 && by > contact.largest_penetration ? by / contact.largest_displacement : 0;
 }
 
 /// Part of the nodes in contact.
@@ -103,6 +110,15 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
           contact.largest_displacement, at_step(report, farthest),
           contact.pair ? ", or the mesh too coarse: between bodies conditions are means over faces"
                        : ", or quadratic elements are too coarse"));
+    const StepReport& between = worst(report, k, off_between);
+    if (const ContactReport& c = between.contact[k]; off_between(c) > coarse)
+      warnings.push_back(fmt::format(
+          "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: conditions hold at nodes "
+          "alone; expected smaller elements there",
+          origin, c.penetration_between_nodes,
+          c.largest_displacement > 0 ? fmt::format("where displacements are up to {:.3g}", c.largest_displacement)
+                                     : "which no node touches",
+          at_step(report, between)));
     if (const ContactReport& c = report.steps.back().contact[k]; !c.resolved)
       warnings.push_back(fmt::format(
           "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of "
@@ -118,8 +134,10 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
     const StepReport& held = worst(report, k, undetermined);
     if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)
       warnings.push_back(fmt::format(
-          "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix{}: how the force there divides "
-          "between obstacle and support is not determined; what presses, {:.3g}, is counted as the obstacle's",
+          "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix, or pressed on by other "
+          "obstacles "
+          "as well, along directions that depend on each other{}: how the force there divides is not determined; what "
+          "presses, {:.3g}, is counted as the obstacle's",
           origin, c.undetermined_nodes, c.nodes, at_step(report, held), c.undetermined_force));
   }
   return warnings;

@@ -53,9 +53,9 @@ template <int D, int B>
 class Points {
  public:
   Points(const Nodes<D>& nodes, Index obstacle, const ContactState<B>& state, const std::vector<double>& u)
-      : nodes_(nodes), u_(u), touched_(nodes.size()), displaced_(nodes.mesh().points) {
-    for (const ContactNode<B>& node : state.nodes)
-      if (node.contact && node.obstacle == obstacle) touched_[node.vertex] = true;
+      : nodes_(nodes), u_(u), gap_(nodes.size(), infinity), displaced_(nodes.mesh().points) {
+    for (const ContactNode<B>& node : state.nodes)  // that of a nearer obstacle is less than this one's
+      if (B > 1 || (node.contact && node.obstacle == obstacle)) gap_[node.vertex] = node.contact ? 0 : node.gap;
     if (B == 1) return;
     const std::vector<double> by = nodes.at_vertices(u, B);
     for (std::size_t v = 0; v < displaced_.size(); ++v)
@@ -65,7 +65,7 @@ class Points {
   template <int P, int K>
   void add(const std::array<Index, element_nodes<K, P>>& vertices) {
     const auto node = nodes_.of(vertices);
-    if (std::ranges::none_of(node, [this](Index p) { return touched_[p]; })) return;
+    if (!is_near<K>(node)) return;
     const ElementMap<D, K, P> map(displaced_, vertices);
     each_point_between<K, P>([&](const std::array<double, K + 1>& barycentric) {
       SurfaceVertex& point = vertices_.emplace_back();
@@ -95,9 +95,20 @@ class Points {
   }
 
  private:
+  /// Distances change by no more than the way: what is farther off than its corners are from each other is clear.
+  template <int K, std::size_t N>
+  bool is_near(const std::array<Index, N>& node) const {
+    double least = infinity, longest = 0;
+    for (const Index p : node) least = std::min(least, gap_[p]);
+    for (int k = 0; k <= K; ++k)
+      for (int m = 0; m < k; ++m)
+        longest = std::max(longest, length<D>(difference<D>(nodes_.at(node[k]), nodes_.at(node[m]))));
+    return least <= longest;
+  }
+
   const Nodes<D>& nodes_;
   const std::vector<double>& u_;
-  std::vector<char> touched_;  // per node
+  std::vector<double> gap_;  // per node
   std::vector<Point<D>> displaced_;
   std::vector<SurfaceVertex> vertices_;
   std::vector<std::array<double, B>> value_;

@@ -341,6 +341,11 @@ void BoundCombiner<D, B>::merge(const Reduced& bound) {
       const double lower = sign > 0 ? bound.lower : -bound.upper, upper = sign > 0 ? bound.upper : -bound.lower;
       // Of two that touch at once the one with a functional presses, not the one that rounding puts in front.
       const double tie = functional_ && other.lower_from == functional_ ? rounding(obstacle) : 0;
+      const bool same = bound.from->direction == other.lower_from->direction || lower == -infinity;
+      if (!same && std::abs(lower - other.lower) <= rounding(obstacle))
+        other.tied = true;
+      else if (lower > other.lower)
+        other.tied = false;
       if (lower > other.lower + tie)
         other.lower = lower, other.lower_obstacle = obstacle, other.lower_from = bound.from;
       if (upper < other.upper) other.upper = upper, other.upper_obstacle = obstacle, other.upper_from = bound.from;

@@ -39,6 +39,8 @@ struct CombinedBound {
   double lower, upper;
   Index lower_obstacle, upper_obstacle;
   const Bound<B>*lower_from, *upper_from;  ///< before they were reduced
+  /// Obstacles with several normals, of which what is prescribed leaves one direction, are equally near.
+  bool tied = false;
 };
 
 /// Decides what holds at a vertex where bounds meet prescribed directions and each other.

@@ -43,6 +43,7 @@ class NodeReader {
     ContactNode<B> node{p, obstacle, at_lower || at_upper, false, part * (below ? x - lower : upper - x), 0, 0, {}, {}};
     for (int i = 0; i < B; ++i) node.direction[i] = below ? normal[i] : -normal[i];
     push(node, std::max(below ? r : -r, 0.0) / part);  // what is left of the other sign is rounding
+    node.shared = node.contact && discretization_.tied[at] != 0;
     return node;
   }
 

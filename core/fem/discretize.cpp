@@ -169,6 +169,7 @@ class Discretizer {
     constraints().vector.reserve(slots);
     for (auto* bounds : {&constraints().lower, &constraints().upper}) bounds->reserve(slots * B);
     for (auto* obstacles : {&out_.lower_obstacle, &out_.upper_obstacle}) obstacles->reserve(slots * B);
+    out_.tied.reserve(slots * B);
   }
 
   // Visits the nodes with fixes or bounds in ascending order.
@@ -308,6 +309,7 @@ class Discretizer {
       constraints().upper.push_back(turned ? -lower : upper);
       out_.lower_obstacle.push_back(turned ? above : below);
       out_.upper_obstacle.push_back(turned ? below : above);
+      out_.tied.push_back(here && combined[k].tied);
     }
   }
 

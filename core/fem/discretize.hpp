@@ -37,6 +37,7 @@ struct Discretization {
   /// B per slot of problem.constraints: the number in Model::obstacles that the lower or upper bound comes from, -1
   /// where there is none.
   std::vector<Index> lower_obstacle, upper_obstacle;
+  std::vector<char> tied;         ///< likewise: CombinedBound::tied
   std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
   std::vector<FacetSource<B>> facets;          ///< per face of problem.constraints
   std::vector<ReducedBound<B>> reduced;        ///< by ascending `at`

@@ -65,12 +65,13 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 | key of the report | says |
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
-| `largest_penetration_between_nodes` | the same of points between nodes, on faces that touch: conditions hold at nodes alone |
+| `largest_penetration_between_nodes` | the same of points between nodes: conditions hold at nodes alone |
 | `largest_opening` | how far one is off it though contact is claimed |
 | `beyond_nodes` | of two bodies: nodes in contact that have come to where the other one is no longer in front of them |
 
-A warning is given where a length is over 1 % of the displacements there, and where over a tenth of the nodes in contact
-are beyond.
+A warning is given where a length is over 1 % of the displacements there (between nodes over 10 %: that is what elements
+leave), where over a tenth of the nodes in contact are beyond, and where a body turns by more than 0.1 as a whole: linear
+elasticity takes rotations for small ones.
 
 **Two bodies.** `elastic` and `elastic_coulomb` let two elastic bodies touch each other: `body` with `on` or `where`, and
 `other` with `other_on` or `other_where`. Both may be parts of one body. What they do, and which of them is the slave, is in [bodies.md](bodies.md). Other
