@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/dot.hpp"
@@ -62,6 +63,17 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
                     report.balance[part].body, left, loads));
   }
   return warnings;
+}
+
+double imbalance(const StepReport& report) {
+  const auto size = [](const std::vector<double>& f) { return std::sqrt(dot(f, f)); };
+  double worst = 0;
+  for (const BalanceReport& balance : report.balance) {
+    const double acting = std::max({size(balance.applied), size(balance.reactions), size(balance.contact)});
+    const double left = left_over(balance, report.bodies.front().axisymmetric && balance.applied.size() > 1);
+    if (acting > 0) worst = std::max(worst, left / acting);
+  }
+  return worst;
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                           \

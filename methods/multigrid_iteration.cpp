@@ -105,7 +105,9 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   this->refuse_nan(sums.natural_residual);
   add_gain();
   const bool idle = sums.moved == 0 && sums.natural_residual > 0 && !this->rests_at_rounding();
-  const double error = idle ? infinity : remaining_error();
+  // A cycle that changes nothing leaves nothing but rounding, if that is how small the residual is.
+  const bool settled = idle && this->relative_residual() <= this->options_.tolerance;
+  const double error = settled ? 0 : idle ? infinity : remaining_error();
   // Where the linear model has no minimum, the functional may well have one.
   Step step{cycle.levels, error, estimate_.rate(), combined, cycle.bounded || free || nonlinear_, gaining, false, {}};
   rests_ = rests(cycle.finest()) && (!this->follows() || cycle.finest().critical > 0);
@@ -121,7 +123,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     lost_patience_ = true;
     step.stuck = "the cycles converge too slowly";
   }
-  if (idle && !nonlinear_ && !load_) step.stuck = "the cycles change nothing, but forces are left";
+  if (idle && !settled && !nonlinear_ && !load_) step.stuck = "the cycles change nothing, but forces are left";
   return step;
 }
 

@@ -6,6 +6,7 @@
 #include "core/fem/stress_reader.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/quadrature.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
@@ -68,6 +69,7 @@ class StressRecovery {
         elements_(nodes.template elements<P>()),
         around_(nodes),
         boundary_(nodes.size()),
+        between_materials_(nodes.size()),
         patch_(elements_.size()),
         near_nodes_(nodes.size()) {
     const StressReader<D, P> reader(nodes, model, u, pressure);
@@ -80,21 +82,60 @@ class StressRecovery {
       for (const Index p : nodes.of(face.vertices)) boundary_[p] = true;
     for (Index p = 0; p < nodes.size(); ++p)
       for (const Index e : around_.at(p))
-        if (nodes.region(e) != nodes.region(around_.at(p).front())) boundary_[p] = true;
+        if (nodes.region(e) != nodes.region(around_.at(p).front())) boundary_[p] = between_materials_[p] = true;
   }
 
   /// Per node. Those inside come first: linear elements have no points where stresses are better than elsewhere, but
   /// what makes them worse cancels around a node inside, and the fits of the others start from there.
   std::vector<Stress> run() {
     recovered_.resize(nodes_.size());
+    find_midpoints();
     for (const bool outermost : {false, true})
       for (Index p = 0; p < nodes_.size(); ++p)
-        if (boundary_[p] == outermost) recovered_[p] = at(p);
+        if (boundary_[p] == outermost && !is_midpoint(p)) recovered_[p] = at(p);
+    for (Index p = 0; p < nodes_.size(); ++p)
+      if (is_midpoint(p)) recovered_[p] = seen_[p] == 2 ? mean_of_ends(p) : at(p);
     return std::move(recovered_);
   }
 
  private:
   static std::span<const QuadraturePoint<D>> points() { return stiffness_rule<D, P>(true); }
+
+  bool is_midpoint(Index p) const { return P == 2 && nodes_.ends(p)[0] != nodes_.ends(p)[1]; }
+
+  /// Of each vertex the midpoints of its edges: there its polynomial is asked, too (Zienkiewicz and Zhu, Int. J. Numer.
+  /// Methods Eng. 33, 1992).
+  void find_midpoints() {
+    if (P == 1) return;
+    first_midpoint_.assign(nodes_.size() + std::size_t{1}, 0);
+    seen_.assign(nodes_.size(), 0);
+    const auto each_end = [this](const auto& use) {
+      for (Index p = 0; p < nodes_.size(); ++p)
+        for (int k = 0; k < 2 && is_midpoint(p); ++k) use(p, nodes_.ends(p)[k]);
+    };
+    each_end([this](Index, Index end) { ++first_midpoint_[end + std::size_t{1}]; });
+    for (std::size_t p = 1; p < first_midpoint_.size(); ++p) first_midpoint_[p] += first_midpoint_[p - 1];
+    midpoint_.resize(static_cast<std::size_t>(first_midpoint_.back()));
+    std::vector<Offset> next(first_midpoint_.begin(), first_midpoint_.end() - 1);
+    each_end([&](Index p, Index end) { midpoint_[next[end]++] = p; });
+  }
+
+  /// Adds what a vertex's polynomial is at the midpoints of its edges.
+  void add_at_midpoints(Index vertex, const PolynomialFit<2, D, 6>& fit) {
+    for (Offset k = first_midpoint_[vertex]; k < first_midpoint_[vertex + std::size_t{1}]; ++k) {
+      const Index p = midpoint_[k];
+      const auto found = fit.at(difference<D>(nodes_.at(p), nodes_.at(vertex)), most_amplified);
+      if (!found) continue;
+      ++seen_[p];
+      for (int i = 0; i < 6; ++i) recovered_[p][i] += (*found)[i];
+    }
+  }
+
+  Stress mean_of_ends(Index p) const {
+    Stress out = recovered_[p];
+    for (double& s : out) s /= 2;
+    return out;
+  }
 
   Stress at(Index p) {
     const auto elements = around_.at(p);
@@ -174,7 +215,11 @@ class StressRecovery {
     if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     for (auto& sample : near_)
       for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];
-    return PolynomialFit<Degree, D, 6>(near_).at({}, most_amplified);
+    const PolynomialFit<Degree, D, 6> fit(near_);
+    const auto found = fit.at({}, most_amplified);
+    if constexpr (P == 2 && Degree == 2)
+      if (found && !is_midpoint(p) && !between_materials_[p]) add_at_midpoints(p, fit);
+    return found;
   }
 
   Stress mean() const {
@@ -188,7 +233,10 @@ class StressRecovery {
   const std::vector<std::array<Index, element_nodes<D, P>>>& elements_;
   const ElementsAround<D, P> around_;
   std::vector<Sample<D, 6>> samples_;  // of all elements
-  std::vector<char> boundary_;         // per node: on the boundary, or between materials
+  std::vector<char> boundary_, between_materials_;  // per node; the latter ones are on the boundary, too
+  std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
+  std::vector<Index> midpoint_;                     // of edges, by their ends
+  std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials
   std::vector<Stress> recovered_;      // per node
   Collection patch_, near_nodes_;      // elements around a node, and nodes of these
   std::size_t grown_ = 0;              // elements of the patch with all those around them

@@ -162,8 +162,7 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
 template <int B>
 void Iteration<B>::measure(double error) {
   Summary& s = summary_;
-  s.residual = reference_ > 0 ? sums_.natural_residual / reference_ : is_rounding_of_unknowns() ? 0 : infinity;
-  s.residual = std::max(s.residual, residual_of_load_);
+  s.residual = std::max(relative_residual(), residual_of_load_);
   const double of_load = problem_.following ? problem_.following->squared() : 0;
   double squared = energy_norm_squared(problem_, x_, sums_.products) + of_load;
   const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
@@ -267,6 +266,11 @@ template <int B>
 bool Iteration<B>::is_rounding_of_unknowns() const {
   const double size = std::max(sums_.largest, largest_before_);
   return sums_.natural_residual <= 1000 * std::numeric_limits<double>::epsilon() * size;
+}
+
+template <int B>
+double Iteration<B>::relative_residual() const {
+  return reference_ > 0 ? sums_.natural_residual / reference_ : is_rounding_of_unknowns() ? 0 : infinity;
 }
 
 // Unless it is the iteration that carried the unknowns away.

@@ -73,6 +73,8 @@ class Iteration {
   Index free_unknowns(const Level<B>& level) const;
   /// Whether the natural residual is a small multiple of machine precision times the largest unknown.
   bool is_rounding_of_unknowns() const;
+  /// The natural residual over that of the projected zero.
+  double relative_residual() const;
   /// Whether the residual is so small that it says nothing.
   bool rests_at_rounding() const;
   /// How many times the residual or the error after the last step was larger than the tolerance.
