@@ -175,7 +175,7 @@ double flattened(const Results<D, B>& results, Index obstacle) {
     least = std::min(least, along);
     most = std::max(most, along);
   }
-  const double size = std::max(std::abs(least), std::abs(most));
+  const double size = std::max({std::abs(least), std::abs(most), results.deformed[obstacle]->displacement});
   return most - least > rounding * size ? most - least : 0;
 }
 

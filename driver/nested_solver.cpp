@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/fem/admissible_sets.hpp"
 #include "core/fem/check_functionals.hpp"
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
@@ -448,8 +450,11 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
-    if (error.status() != Exit::interrupted)
+    if (error.status() != Exit::interrupted) {
       blame_functionals(nodes_[level], model, solution.discretization, solution.x);
+      if (!std::ranges::all_of(solution.x, [](double v) { return std::isfinite(v); }))
+        check_admissible_sets(nodes_[level], model, solution.discretization.problem, true);
+    }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
   check_functionals(nodes_[level], model, solution.discretization, solution.x);

@@ -169,7 +169,9 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
 template <int D, int B>
 void check(const Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, Console(true), body);
+  const Console console(false);
+  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, console, body);
+  console.phase("check the steps");
   const int order = scene.bodies[body].order;
   const Nodes<D> nodes = nodes_of(hierarchy, order).back();
   locate_probes(hierarchy.finest(), scene, body);

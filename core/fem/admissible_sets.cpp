@@ -135,11 +135,14 @@ template <int D, int B>
 }  // namespace
 
 template <int D, int B>
-void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem) {
-  if (std::ranges::none_of(problem.segments, [](const auto& s) { return may_be_no_box(*s.obstacle); })) return;
+void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem, bool all) {
+  const auto asked = [all](const Segment<B>& s) {
+    return all ? !s.obstacle->functional() : may_be_no_box(*s.obstacle);
+  };
+  if (std::ranges::none_of(problem.segments, asked)) return;
   Projection<B> projection(problem, extent(nodes.mesh()));
   for (const Segment<B>& segment : problem.segments) {
-    if (!may_be_no_box(*segment.obstacle)) continue;
+    if (!asked(segment)) continue;
     const std::pair<Index, Index> slots = slots_between(problem.constraints, segment.first, segment.last);
     each_side<B>([&](const std::array<int, B>& sides) {
       projection.run(segment, sides);
@@ -154,9 +157,9 @@ void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const D
   }
 }
 
-template void check_admissible_sets(const Nodes<2>&, const Model<1>&, const DiscreteProblem<1>&);
-template void check_admissible_sets(const Nodes<3>&, const Model<1>&, const DiscreteProblem<1>&);
-template void check_admissible_sets(const Nodes<2>&, const Model<2>&, const DiscreteProblem<2>&);
-template void check_admissible_sets(const Nodes<3>&, const Model<3>&, const DiscreteProblem<3>&);
+template void check_admissible_sets(const Nodes<2>&, const Model<1>&, const DiscreteProblem<1>&, bool);
+template void check_admissible_sets(const Nodes<3>&, const Model<1>&, const DiscreteProblem<1>&, bool);
+template void check_admissible_sets(const Nodes<2>&, const Model<2>&, const DiscreteProblem<2>&, bool);
+template void check_admissible_sets(const Nodes<3>&, const Model<3>&, const DiscreteProblem<3>&, bool);
 
 }  // namespace signorini

@@ -8,8 +8,10 @@ namespace signorini {
 /// next to far away ones on all sides of the box. Those of BoxObstacle with its own minimiser are boxes; what a
 /// functional adds to the energy would hide the set.
 /// @param problem its constraints and segments
+/// @param all asks boxes with minimisers of their own as well, such as one whose sweep has led to no number
 /// @throws Error(Exit::plugin) that names the obstacle and the node where it is none
 template <int D, int B>
-void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem);
+void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem,
+                           bool all = false);
 
 }  // namespace signorini

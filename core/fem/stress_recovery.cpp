@@ -232,14 +232,14 @@ class StressRecovery {
   const Nodes<D>& nodes_;
   const std::vector<std::array<Index, element_nodes<D, P>>>& elements_;
   const ElementsAround<D, P> around_;
-  std::vector<Sample<D, 6>> samples_;  // of all elements
+  std::vector<Sample<D, 6>> samples_;               // of all elements
   std::vector<char> boundary_, between_materials_;  // per node; the latter ones are on the boundary, too
   std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
   std::vector<Index> midpoint_;                     // of edges, by their ends
   std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials
-  std::vector<Stress> recovered_;      // per node
-  Collection patch_, near_nodes_;      // elements around a node, and nodes of these
-  std::size_t grown_ = 0;              // elements of the patch with all those around them
+  std::vector<Stress> recovered_;                   // per node
+  Collection patch_, near_nodes_;                   // elements around a node, and nodes of these
+  std::size_t grown_ = 0;                           // elements of the patch with all those around them
   std::vector<Sample<D, 6>> near_;
 };
 

@@ -5,8 +5,10 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <limits>
 
 #include "core/base/error.hpp"
+#include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/projected_sweep.hpp"
 #include "tests/core/fem/support.hpp"
 
@@ -124,6 +126,34 @@ TEST(AdmissibleSets, BoxesAreAccepted) {
   plane.direction[0][0] = 0.6, plane.direction[0][2] = 0.8;
   plane.lower[0] = -0.25;
   EXPECT_NO_THROW(discretize_with<3>(plane, [](double* v) { v[0] = std::max(v[0], -0.25); }));
+}
+
+/// A box whose sweep ends nowhere.
+class NoNumber final : public BoxObstacle<2> {
+ public:
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"no number", 2, 2}}}; }
+  void assemble(const SurfaceVertex*, std::size_t count, LocalConstraint<2>* out, Status&) const noexcept override {
+    std::fill_n(out, count, cube<2>(-1, 1));
+  }
+  void sweep(const LevelView<2>& level, Index first, Index last, Order order) const noexcept override {
+    BoxObstacle<2>::sweep(level, first, last, order);
+    level.x[2 * first] = std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+// Boxes are asked when a solve has led to no number, not before.
+TEST(AdmissibleSets, SweepsThatEndNowhereAreFoundWhenAllAreAsked) {
+  Model<2> model;
+  model.obstacles = {{std::make_shared<NoNumber>(), Selection{"right", {}, ""}, "scene.toml:8: o"}};
+  const Mesh<2> mesh = unit_mesh<2>(2);
+  const auto discretization = discretize(mesh, model);
+  try {
+    check_admissible_sets(Nodes<2>(mesh), model, discretization.problem, true);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::plugin);
+    EXPECT_THAT(error.what(), ::testing::StartsWith("scene.toml:8: o: the plugin's sweep ends at (nan"));
+  }
 }
 
 }  // namespace
