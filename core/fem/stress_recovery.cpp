@@ -47,8 +47,11 @@ class Collection {
     for (const Index k : numbers_) added_[k] = false;
     numbers_.clear();
   }
-  void add(Index k) {
-    if (!std::exchange(added_[k], true)) numbers_.push_back(k);
+  /// Returns whether it was not there.
+  bool add(Index k) {
+    if (std::exchange(added_[k], true)) return false;
+    numbers_.push_back(k);
+    return true;
   }
   Index operator[](std::size_t k) const { return numbers_[k]; }
   std::size_t size() const { return numbers_.size(); }
@@ -71,7 +74,8 @@ class StressRecovery {
         boundary_(nodes.size()),
         between_materials_(nodes.size()),
         patch_(elements_.size()),
-        near_nodes_(nodes.size()) {
+        near_nodes_(nodes.size()),
+        grown_nodes_(nodes.size()) {
     const StressReader<D, P> reader(nodes, model, u, pressure);
     samples_.reserve(elements_.size() * points().size());
     for (std::size_t e = 0; e < elements_.size(); ++e) {
@@ -140,6 +144,8 @@ class StressRecovery {
   Stress at(Index p) {
     const auto elements = around_.at(p);
     if (elements.empty()) return {};
+    if (!boundary_[p])
+      if (const auto found = inside(p)) return *found;
     Stress sum{};
     int materials = 0;
     for (auto first = elements.begin(); first != elements.end(); ++first) {
@@ -156,9 +162,23 @@ class StressRecovery {
     return sum;
   }
 
+  /// The usual case, without a patch that may grow: of one material, on no plane of symmetry.
+  std::optional<Stress> inside(Index p) {
+    const std::size_t count = points().size();
+    const Point<D>& origin = nodes_.at(p);
+    near_.clear();
+    for (const Index e : around_.at(p))
+      for (std::size_t q = 0; q < count; ++q) {
+        near_.push_back(samples_[e * count + q]);
+        for (int i = 0; i < D; ++i) near_.back().x[i] -= origin[i];
+      }
+    return fit<P>(p);
+  }
+
   Stress of_patch(Index p) {
     const bool outermost = boundary_[p];
     grown_ = 0;
+    grown_nodes_.clear();
     if (outermost) add_layer();
     for (int layer = outermost ? 2 : 1; layer <= most_layers; ++layer, add_layer()) {
       near_.clear();
@@ -173,9 +193,11 @@ class StressRecovery {
   /// Of elements of the same material.
   void add_layer() {
     for (const std::size_t last = patch_.size(); grown_ < last; ++grown_)
-      for (const Index p : nodes_.of(elements_[patch_[grown_]]))
+      for (const Index p : nodes_.of(elements_[patch_[grown_]])) {
+        if (!grown_nodes_.add(p)) continue;
         for (const Index e : around_.at(p))
           if (nodes_.region(e) == nodes_.region(patch_[0])) patch_.add(e);
+      }
   }
 
   void add_elements() {
@@ -212,9 +234,15 @@ class StressRecovery {
   template <int Degree>
   std::optional<Stress> fitted(Index p) {
     add_images(p);
-    if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     for (auto& sample : near_)
       for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];
+    return fit<Degree>(p);
+  }
+
+  /// Of what is near, seen from the node.
+  template <int Degree>
+  std::optional<Stress> fit(Index p) {
+    if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     const PolynomialFit<Degree, D, 6> fit(near_);
     const auto found = fit.at({}, most_amplified);
     if constexpr (P == 2 && Degree == 2)
@@ -238,7 +266,7 @@ class StressRecovery {
   std::vector<Index> midpoint_;                     // of edges, by their ends
   std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials
   std::vector<Stress> recovered_;                   // per node
-  Collection patch_, near_nodes_;                   // elements around a node, and nodes of these
+  Collection patch_, near_nodes_, grown_nodes_;     // elements around a node, and nodes of these
   std::size_t grown_ = 0;                           // elements of the patch with all those around them
   std::vector<Sample<D, 6>> near_;
 };
