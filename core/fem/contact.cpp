@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/algebra/products.hpp"
 #include "core/fem/force_split.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double positive_force = 1e-8;  // of the largest force
 constexpr double on_bound = 1e-12;       // of the numbers compared
+constexpr double least_covered = 0.25;   // of a node's area: forces on less of it, over that, make pressures of nothing
 
 template <int B>
 class NodeReader {
@@ -387,16 +389,39 @@ class ContactTotals {
   ContactVertex<B> here_;
 };
 
+/// How much of the slave's nodes of an obstacle the master is in front of; all of what it says nothing of.
+template <int B>
+class Covered {
+ public:
+  /// @param pairs null: no bodies touch each other
+  Covered(const PairedBodies<B>* pairs, Index obstacle) {
+    if (!pairs) return;
+    const auto same = std::ranges::equal_range(pairs->nodes, obstacle, {}, &PairedNode<B>::obstacle);
+    nodes_ = {same.begin(), same.end()};
+  }
+
+  double at(Index node) const {
+    const auto found = std::ranges::lower_bound(nodes_, node, {}, &PairedNode<B>::node);
+    return found == nodes_.end() || found->node != node ? 1 : found->covered;
+  }
+
+ private:
+  std::span<const PairedNode<B>> nodes_;
+};
+
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
-void measure(const Nodes<D>& nodes, const Model<B>& model, Index obstacle, double least_force, ContactState<B>& state) {
+void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairs, Index obstacle,
+             double least_force, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
   ContactTotals<B> totals(summary);
+  const Covered<B> covered(pairs, obstacle);
   const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
-    node.area = surface.area(node);
+    node.covered = covered.at(node.vertex);
+    node.area = std::max(node.covered, least_covered) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
     if (!in_body) continue;
@@ -451,7 +476,8 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
-    measure(nodes, model, static_cast<Index>(obstacle), positive_force * largest[obstacle], state);
+    measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],
+            state);
   return state;
 }
 

@@ -17,7 +17,7 @@ struct ContactNode {
   /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
   /// degrees of -direction; where there is none all do.
   double area;
-  double pressure;  ///< consistent nodal force over area, positive where the obstacle pushes
+  double pressure;  ///< consistent nodal force over covered area, positive where the obstacle pushes
   /// Exerted by the obstacle, global coordinates; without contact what a functional of the obstacle exerts, or zero.
   std::array<double, B> force;
   std::array<double, B> direction;     ///< of what presses, and of the gap; of length 1, global
@@ -28,6 +28,7 @@ struct ContactNode {
   /// Obstacles press on the vertex along dependent directions: how the force divides among them is not determined; see
   /// split_force() for what is taken.
   bool shared = false;
+  double covered = 1;    ///< between bodies: part of the area that the other one is in front of
   double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
   FrictionLaw law{};     ///< where there is friction
   /// The tangential traction at the node, exerted by the obstacle, global: see recover_traction(). Where it is not

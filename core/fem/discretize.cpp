@@ -76,6 +76,7 @@ class Discretizer {
         combiner_(nodes, model, bounds_, fixes_) {
     if (pairing_) {
       problem().jumps = pairing_->jumps;
+      out_.pairs = pairing_;
       refuse_other_bounds();
     }
     bound_coefficients(nodes, fixes_, bounds_);

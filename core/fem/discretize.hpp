@@ -39,13 +39,14 @@ struct Discretization {
   std::vector<Index> lower_obstacle, upper_obstacle;
   std::vector<char> tied;         ///< likewise: CombinedBound::tied
   std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
-  std::vector<FacetSource<B>> facets;          ///< per face of problem.constraints
-  std::vector<ReducedBound<B>> reduced;        ///< by ascending `at`
-  std::vector<HeldBound<B>> held;              ///< by ascending node; elasticity only
-  std::vector<FixedDirections<B>> fixes;       ///< by ascending node
-  PrescribedRows<B> prescribed;                ///< one for each of `fixes`
-  std::vector<double> load;                    ///< of all loads, in global coordinates; B per node
-  std::vector<std::array<double, B>> applied;  ///< per load of the model: its total
+  std::vector<FacetSource<B>> facets;            ///< per face of problem.constraints
+  std::vector<ReducedBound<B>> reduced;          ///< by ascending `at`
+  std::vector<HeldBound<B>> held;                ///< by ascending node; elasticity only
+  std::vector<FixedDirections<B>> fixes;         ///< by ascending node
+  std::shared_ptr<const PairedBodies<B>> pairs;  ///< where bodies may touch each other; null: none
+  PrescribedRows<B> prescribed;                  ///< one for each of `fixes`
+  std::vector<double> load;                      ///< of all loads, in global coordinates; B per node
+  std::vector<std::array<double, B>> applied;    ///< per load of the model: its total
 };
 
 /// Finite elements for a model, of the order that the nodes have. Vectors are numbered as the nodes.

@@ -52,8 +52,8 @@ std::vector<double> mean_turns(const Nodes<D>& nodes, const std::vector<Index>& 
     for (int i = 0; i < D; ++i) r[i] -= origin[i];
     sums[of_node.empty() ? 0 : of_node[p]].add(r, u.data() + Offset{p} * D);
   }
-  std::vector<double> out;
-  for (const Sums<D>& of : sums) out.push_back(of.turn());
+  std::vector<double> out(sums.size());
+  std::ranges::transform(sums, out.begin(), [](const Sums<D>& of) { return of.turn(); });
   return out;
 }
 

@@ -100,6 +100,7 @@ class Coupler {
     for (int i = 0; i < D; ++i) node.away[i] = with_friction ? -free->direction[i] : -normal[i];
     const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
     node.part = found.part(k);
+    node.covered = found.covered[k];
     node.gap = found.gap[k] / node.part + before;
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});

@@ -16,6 +16,7 @@ struct PairedNode {
   std::array<double, B> away;  ///< unit normal from the master to the slave; with friction see free_normal()
   double gap;                  ///< mean distance along it, weighted by the node's dual basis function: a coefficient
   double part = 1;             ///< of the distance in the node's bound, see MortarCoupling::part()
+  double covered = 1;          ///< part of the node's area that the master is in front of
 };
 
 /// The sides of a model's bodies that may touch each other, coupled by mortar on one mesh.

@@ -197,20 +197,22 @@ class Recovery {
     return value && !punched && *value <= falls * sum / count ? *value : -sum / count;
   }
 
-  /// Measure of the part of a face where the linear function with the squares at its corners is positive.
+  /// Measure of the part of a face where the linear function with the squares at its corners is positive, as far as
+  /// another body is in front of its nodes.
   double positive(std::size_t f) const {
     const Face<D>& face = nodes_.mesh().boundary[faces_.faces()[f]];
     std::array<double, D> value;
-    double sum = 0;
-    int pressed = 0;
+    double sum = 0, covered = 0;
+    int pressed = 0, reachable = 0;
     for (int c = 0; c < D; ++c) {
       const Index k = faces_.corners(f)[c];
       value[c] = k == unreachable ? 0 : square_[k];
+      if (k != unreachable) covered += faces_.node(k).covered, ++reachable;
       if (faces_.pressed(k)) sum += value[c], ++pressed;
     }
     for (int c = 0; c < D; ++c)
       if (faces_.corners(f)[c] == unreachable) value[c] = -std::abs(sum) / pressed;
-    return face_measure(nodes_, faces_.faces()[f]) * part(face, value);
+    return face_measure(nodes_, faces_.faces()[f]) * part(face, value) * covered / reachable;
   }
 
   double part(const Face<D>& face, const std::array<double, D>& value) const {

@@ -179,6 +179,7 @@ class Gathering {
     }
     out.node.push_back(slave_.node[p]);
     out.weight.push_back(node.weight);
+    out.covered.push_back(node.weight / whole_[p]);
     out.normal.push_back(node.normal);
     out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
     out.nearest.push_back(nearest);

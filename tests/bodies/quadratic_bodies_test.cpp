@@ -107,6 +107,7 @@ TEST(QuadraticBodies, BalanceWhereOneOverhangsTheOther) {
       expect_opposite(contact);
       EXPECT_NEAR(length(contact.force), 0.1 * end, 1e-10);
       EXPECT_NEAR(contact.moment[0] + contact.pair->moment[0], 0, 1e-10);
+      EXPECT_NEAR(contact.area, end, 0.02 * end);
       expect_balance(report.last(), 1e-10);
       show("force {:.4g}, largest pressure {:.4g}, {} iterations\n", length(contact.force), contact.max_pressure,
            report.last().summary.iterations);

@@ -95,6 +95,23 @@ TEST(TwoBodies, PassThePatchTestIn3D) {
       }
 }
 
+// Faces count as far as the other body is in front of them, whichever is the slave.
+TEST(TwoBodies, AreaIsWhatIsInFrontOfTheOtherBody) {
+  for (const int cells : {5, 7, 11, 28})
+    for (const char* slave : {"body", "other"}) {
+      Driver driver(scene_of(
+          tables::block("wide", "[-1, 0]", "[1, 1]", fmt::format("[{}, 4]", cells)) +
+          tables::block("narrow", "[-0.5, -1]", "[0.5, 0]", "[9, 4]") + tables::fix("narrow", "bottom", "[0, 0]") +
+          tables::fix("wide", "top", "[0, -0.02]") +
+          fmt::format("[[obstacle]]\ntype = \"elastic\"\nbody = \"wide\"\non = \"bottom\"\nother = \"narrow\"\n"
+                      "other_on = \"top\"\nslave = \"{}\"\n",
+                      slave)));
+      const ContactReport& contact = driver.solve().last().contact[0];
+      EXPECT_NEAR(contact.area, 1, 1e-9) << cells << slave;
+      EXPECT_LT(contact.max_pressure, 4 * std::abs(contact.force[1])) << cells << slave;
+    }
+}
+
 /// Lower half of a disk of radius 1, moved down onto a block.
 std::string disk_on_block(int refinements, const std::string& obstacle, double block_stiffness = 1) {
   return fmt::format(

@@ -97,7 +97,7 @@ Chains pairs(int count, std::vector<double> b) {
   }
   out.A.resize(2 * count, 2 * count);
   out.A.setFromTriplets(entries.begin(), entries.end());
-  const auto n = static_cast<std::size_t>(2 * count);
+  const auto n = 2 * static_cast<std::size_t>(count);
   out.b = std::move(b);
   out.lower.assign(n, 0);
   out.upper.assign(n, infinity);
@@ -156,7 +156,8 @@ void expect_right_answers(Random& random, int trials, int count, int longest, co
   int falling = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const double bounded = std::array{0.02, 0.1, 0.5}[trial % 3];
-    const Kind kind{bounded * (trial % 2), bounded * (trial % 4 / 2), trial % 5 == 0 ? 1 : 0.8, 0.2, trial % 7 > 2};
+    const int two_bits = trial % 4;
+    const Kind kind{bounded * (trial % 2), two_bits >= 2 ? bounded : 0, trial % 5 == 0 ? 1 : 0.8, 0.2, trial % 7 > 2};
     const Chains p = random_chains(random, 1 + random.below(count), longest, kind);
     const Summary s = solve(p, options);
     SCOPED_TRACE(fmt::format("trial {}, {}: {}", trial, name(options), s.reason));
