@@ -115,9 +115,9 @@ class Comparison {
   Comparison(const Mirror& mirror, std::string origin) : mirror_(mirror), origin_(std::move(origin)) {}
 
   void add(const Point<D>& x, double here, double at_image) {
-    if (here == at_image) return;  // infinite ones, too
     for (const double value : {here, at_image})
       if (std::isfinite(value)) largest_ = std::max(largest_, std::abs(value));
+    if (here == at_image) return;  // infinite ones, too
     const double off = std::abs(here - at_image);
     if (off <= most_) return;
     most_ = off;

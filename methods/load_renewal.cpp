@@ -34,7 +34,8 @@ typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>
   Renewed out;
   out.combined = accelerated && combine(x);
   if (out.combined) load_.correct(x, change_, S_change_);  // what is left now
-  out.squared = dot(change_, S_change_);
+  out.squared = squared_ = dot(change_, S_change_);
+  if (squared_ > 0) least_ = std::min(least_, squared_);
   out.change = relative_change(change_, load_.values());
   return out;
 }

@@ -15,7 +15,9 @@ template <int B>
 class LoadRenewal {
  public:
   /// Keeps references to both.
-  LoadRenewal(FollowingLoad<B>& load, const Constraints<B>& constraints) : load_(load), acceleration_(constraints) {}
+  /// @param tolerance see PairedAcceleration
+  LoadRenewal(FollowingLoad<B>& load, const Constraints<B>& constraints, double tolerance)
+      : load_(load), acceleration_(constraints, tolerance) {}
 
   /// What a renewal has done.
   struct Renewed {
@@ -23,6 +25,8 @@ class LoadRenewal {
     double squared = 0;     ///< of the change, measured by S
     double change = 0;      ///< the largest one over the largest of what changes
   };
+  /// Whether changes have grown so much that they will not shrink: S stands for too little there.
+  bool diverges() const { return squared_ > far * least_; }
   /// After a cycle from x_before, with the residual r_before, to x with r, both for the load of now. r becomes the
   /// residual of x for the new load, but where x is accelerated.
   /// @param accelerated whether to accelerate: where few phases changed
@@ -32,7 +36,10 @@ class LoadRenewal {
  private:
   bool combine(std::vector<double>& x);
 
+  static constexpr double far = 1e24;  // squares of changes, over the least one
+
   FollowingLoad<B>& load_;
+  double squared_ = 0, least_ = infinity;  // of the last change, and of all
   PairedAcceleration<B> acceleration_;
   std::vector<double> change_, S_change_, no_residual_;
 };

@@ -63,7 +63,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear),
       renewal_(options) {
-  if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints);
+  if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints, options.tolerance);
   multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
 }
 
@@ -118,6 +118,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
     renewal_.add(sums.natural_residual);
     step.stuck = renewal_.stuck();
   }
+  if (load_ && load_->diverges()) step.stuck = "the cycles and the pressures of nearly incompressible material diverge";
   if (method_ != Method::automatic) return step;
   if (step.stuck.empty() && loses_patience()) {
     lost_patience_ = true;

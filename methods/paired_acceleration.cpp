@@ -12,8 +12,7 @@ namespace {
 // What it leads to is no more than so many times as far away as last time, or as the step: contact that shuts rubber in
 // opens where its pressure is too low, which is to show in time.
 constexpr double farther = 2;
-constexpr double rounding = 1e-10;  // of the largest displacement
-constexpr double grown = 4;         // square of a step over that before: the iteration is not what the directions knew
+constexpr double grown = 4;  // square of a step over that before: the iteration is not what the directions knew
 
 void subtract(const std::vector<double>& from, const std::vector<double>& what, std::vector<double>& out) {
   out.resize(from.size());
@@ -62,7 +61,8 @@ void PairedAcceleration<B>::make_orthogonal(Direction& newest) {
   newest.squared = dot(image_.x, newest.step.x) + dot(image_.p, newest.step.p);
 }
 
-// What the step has put onto a bound is there but for rounding, if the steps before have done so, too.
+// What the step has put onto a bound stays there, if it is that but for what tolerances leave: the force there is the
+// obstacle's. (The next cycle lets go what pulls.)
 template <int B>
 void PairedAcceleration<B>::project(std::vector<double>& x) const {
   double largest = 0;
@@ -73,7 +73,7 @@ void PairedAcceleration<B>::project(std::vector<double>& x) const {
       const double own = now_.result.x[first + k], lower = constraints_.lower[Offset{slot} * B + k],
                    upper = constraints_.upper[Offset{slot} * B + k];
       const bool on_bound = own == lower || own == upper;
-      if (on_bound && std::abs(x[first + k] - own) <= rounding * largest) x[first + k] = own;
+      if (on_bound && std::abs(x[first + k] - own) <= tolerance_ * largest) x[first + k] = own;
     }
     if (!constraints_.admits(slot, x.data() + first)) constraints_.project(slot, x.data() + first);
   }

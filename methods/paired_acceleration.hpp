@@ -15,7 +15,9 @@ namespace signorini {
 template <int B>
 class PairedAcceleration {
  public:
-  explicit PairedAcceleration(const Constraints<B>& constraints) : constraints_(constraints) {}
+  /// @param tolerance of positions, over the largest displacement
+  PairedAcceleration(const Constraints<B>& constraints, double tolerance)
+      : constraints_(constraints), tolerance_(tolerance) {}
 
   /// Forgets all steps: the phases have changed.
   void reset() {
@@ -53,6 +55,7 @@ class PairedAcceleration {
   void project(std::vector<double>& x) const;
 
   const Constraints<B>& constraints_;
+  const double tolerance_;
   Step now_, before_;
   std::array<Direction, depth> directions_;  // a ring
   int steps_ = 0, known_ = 0, next_ = 0;

@@ -75,12 +75,13 @@ class Projection {
     segment.obstacle->sweep(view_, segment.first, segment.last, Order::forward);
   }
 
-  /// Of the last run, at a slot.
-  std::array<double, B> found(Index slot) const {
+  /// Of the last run, at a vector.
+  std::array<double, B> at(Index p) const {
     std::array<double, B> out;
-    std::copy_n(x_.data() + Offset{constraints_.vector[slot]} * B, B, out.begin());
+    std::copy_n(x_.data() + Offset{p} * B, B, out.begin());
     return out;
   }
+  std::array<double, B> found(Index slot) const { return at(constraints_.vector[slot]); }
   std::array<double, B> expected(Index slot) const {
     std::array<double, B> out;
     for (int k = 0; k < B; ++k) out[k] = clamp(slot, k, b_[Offset{constraints_.vector[slot]} * B + k]);
@@ -146,6 +147,9 @@ void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const D
     const std::pair<Index, Index> slots = slots_between(problem.constraints, segment.first, segment.last);
     each_side<B>([&](const std::array<int, B>& sides) {
       projection.run(segment, sides);
+      for (Index p = segment.first; p < segment.last; ++p)  // also what no bound holds
+        if (const auto at = projection.at(p); !std::ranges::all_of(at, [](double v) { return std::isfinite(v); }))
+          refuse<D, B>(nodes, model, segment, p, at, {});
       for (Index slot = slots.first; slot < slots.second; ++slot) {
         const auto found = projection.found(slot), expected = projection.expected(slot);
         const double rounding = of_distance * projection.distance(slot);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace signorini {
 namespace {
@@ -25,17 +26,11 @@ struct Sums {
     ux += d * r.transpose();
   }
 
-  // The rotation w is next to u where sum r x (u - w x r) = 0.
+  // Of the linear displacement next to u the part that is a rotation.
   double turn() const {
     const Square inertia = xx - x * x.transpose() / count, moment = ux - u * x.transpose() / count;
-    if constexpr (D == 2) {
-      const double sum = inertia.trace();
-      return sum > 0 ? std::abs(moment(1, 0) - moment(0, 1)) / sum : 0;
-    } else {
-      const Vector of(moment(2, 1) - moment(1, 2), moment(0, 2) - moment(2, 0), moment(1, 0) - moment(0, 1));
-      const Square about = inertia.trace() * Square::Identity() - inertia;
-      return about.ldlt().solve(of).norm();
-    }
+    const Square gradient = inertia.ldlt().solve(moment.transpose()).transpose();
+    return 0.5 * (gradient - gradient.transpose()).norm() / std::sqrt(2.0);
   }
 };
 

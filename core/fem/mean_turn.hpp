@@ -5,8 +5,8 @@
 
 namespace signorini {
 
-/// The angles, in radians, by which displacements turn bodies: those of the small rotations next to them, by least
-/// squares over the vertices about their middle.
+/// The angles, in radians, by which displacements turn bodies: those of the linear displacements next to them, by least
+/// squares over the vertices, as far as these are rotations.
 /// @param of_node per node the number of its body; empty: there is one
 /// @param u displacements, D per node
 template <int D>

@@ -114,23 +114,29 @@ const std::vector<double>& PressureLoad<D>::displacements(const std::vector<doub
   return displacements_;
 }
 
-/// From b where components are free. What the prescribed ones lose in work counts, too.
+/// b and the work from what they are without it: what large p were in between leaves no rounding. Where components are
+/// prescribed what they lose in work counts.
 template <int D>
-void PressureLoad<D>::subtract(const std::vector<double>& load) {
+void PressureLoad<D>::renew_load() {
   DiscreteProblem<D>& to = problem();
+  const std::vector<double>& load = load_of(p_);
+  to.prescribed_work = own_work_;
   for (std::size_t p = 0; p < to.fixed.size(); ++p)
     for (std::size_t k = 0; k < D; ++k) {
       const std::size_t at = p * D + k;
       if (to.fixed[p] >> k & 1u)
         to.prescribed_work -= load[at] * to.start[at];
       else
-        to.b[at] -= load[at];
+        to.b[at] = own_[at] - load[at];
     }
 }
 
 template <int D>
 void PressureLoad<D>::apply() {
-  if (!std::exchange(applied_, true)) subtract(load_of(p_));
+  if (std::exchange(applied_, true)) return;
+  own_ = problem().b;
+  own_work_ = problem().prescribed_work;
+  renew_load();
 }
 
 template <int D>
@@ -140,11 +146,15 @@ void PressureLoad<D>::apply_anew() {
 }
 
 template <int D>
+void PressureLoad<D>::withdraw() {
+  if (!std::exchange(applied_, false)) return;
+  problem().b = own_;
+  problem().prescribed_work = own_work_;
+}
+
+template <int D>
 void PressureLoad<D>::set(std::vector<double> values) {
-  if (std::exchange(applied_, false)) {
-    for (double& p : p_) p = -p;
-    subtract(load_of(p_));
-  }
+  withdraw();
   p_ = std::move(values);
 }
 
@@ -191,11 +201,11 @@ void PressureLoad<D>::solve(const std::vector<double>& residual, std::vector<dou
 
 template <int D>
 void PressureLoad<D>::add(const std::vector<double>& change, std::vector<double>& r) {
-  const std::vector<double>& load = load_of(change);
   for (std::size_t k = 0; k < p_.size(); ++k) p_[k] += change[k];
-  subtract(load);
-  for (std::size_t at = 0; at < r.size(); ++at)
-    if (!(problem().fixed[at / D] >> (at % D) & 1u)) r[at] -= load[at];
+  const std::vector<double>& b = problem().b;
+  for (std::size_t at = 0; at < r.size(); ++at) r[at] -= b[at];
+  renew_load();
+  for (std::size_t at = 0; at < r.size(); ++at) r[at] += b[at];
 }
 
 template <int D>

@@ -34,12 +34,15 @@ class PressureLoad final : public FollowingLoad<D> {
   void solve(const std::vector<double>& residual, std::vector<double>& change);
   const std::vector<double>& displacements(const std::vector<double>& x);
   const std::vector<double>& load_of(const std::vector<double>& p);
-  void subtract(const std::vector<double>& load);
+  void withdraw();
+  void renew_load();
 
   const PressureSpace<D>& space_;
   Discretization<D>& discretization_;
   std::vector<double> p_;
   bool applied_ = false;
+  std::vector<double> own_;  // b without the load, while it is applied, and the work likewise
+  double own_work_ = 0;
   std::vector<double> value_;             // of the space, in local coordinates; where unknowns are jumps in global ones
   std::vector<double> displacements_;     // then
   std::vector<double> schur_;             // what stands for the Schur complement C A^-1 C' + M

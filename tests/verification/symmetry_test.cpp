@@ -391,6 +391,7 @@ TEST(Symmetry, RefusesWhatIsNotSymmetric) {
   EXPECT_THAT(refusal(held + load("", "[0.1, 0]")), AllOf(HasSubstr("load"), HasSubstr("not symmetric")));
   EXPECT_THAT(refusal(held + load("on = \"bottom\"", "[0, \"0.1*x\"]")), HasSubstr("load.0"));
   EXPECT_EQ(refusal(held + load("on = \"right\"", "[0.1, 0.2]")), "");
+  EXPECT_EQ(refusal(held + load("", "[\"0.1*sin(pi)\", -0.1]")), "");  // rounding of zero
   EXPECT_EQ(refusal(held + load("on = \"bottom\"", "[\"-0.01*x\", \"0.01*x^2\"]")), "");
   EXPECT_THAT(refusal(held + floor("shape = \"plane\"\npoint = [0, 0]\nnormal = [0.1, 1]\n")),
               AllOf(HasSubstr("obstacle.0"), HasSubstr("not symmetric")));

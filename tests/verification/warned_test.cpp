@@ -69,6 +69,9 @@ TEST(Warned, LargeTurnsAreSaid) {
           << angle << from;
     }
   }
+  const Report shear =
+      solved(tables::block("b", "[0, 0]", "[2, 1]", "[4, 2]") + tables::fix("b", "boundary", "['0.3*y', '0.3*x']"));
+  EXPECT_THAT(shear.warnings, Not(Contains(HasSubstr("turns by"))));
   const Report box = solved(tables::block("b", "[0, 0, 0]", "[1, 2, 3]", "[2, 2, 2]") +
                             tables::fix("b", "left", "['0.2*z', 0, '-0.2*x']"));
   EXPECT_THAT(box.warnings, Contains(HasSubstr("turns by 11 degrees")));
