@@ -396,8 +396,8 @@ class Covered {
   /// @param pairs null: no bodies touch each other
   Covered(const PairedBodies<B>* pairs, Index obstacle) {
     if (!pairs) return;
-    const auto same = std::ranges::equal_range(pairs->nodes, obstacle, {}, &PairedNode<B>::obstacle);
-    nodes_ = {same.begin(), same.end()};
+    const auto from = std::ranges::lower_bound(pairs->nodes, obstacle, {}, &PairedNode<B>::obstacle);
+    nodes_ = {from, std::ranges::upper_bound(from, pairs->nodes.end(), obstacle, {}, &PairedNode<B>::obstacle)};
   }
 
   double at(Index node) const {
