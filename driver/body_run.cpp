@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/solver/attainable.hpp"
 #include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
@@ -185,8 +186,9 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   for (std::string& warning : balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.
-  if (report.summary.outcome == Outcome::rounding) {
-    report.summary.add_rounding(imbalance(report), 0);
+  const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report) : 0;
+  if (lost > inaccurate) {
+    report.summary.add_rounding(lost, 0);
     report.bodies.front().summary = report.summary;
   }
   times_.output += watch.elapsed();

@@ -135,9 +135,8 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
     if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)
       warnings.push_back(fmt::format(
           "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix, or pressed on by other "
-          "obstacles "
-          "as well, along directions that depend on each other{}: how the force there divides is not determined; what "
-          "presses, {:.3g}, is counted as the obstacle's",
+          "obstacles as well, along directions that depend on each other{}: how the force there divides is not "
+          "determined; what presses, {:.3g}, is counted as the obstacle's",
           origin, c.undetermined_nodes, c.nodes, at_step(report, held), c.undetermined_force));
   }
   return warnings;

@@ -55,7 +55,8 @@ class Points {
   Points(const Nodes<D>& nodes, Index obstacle, const ContactState<B>& state, const std::vector<double>& u)
       : nodes_(nodes), u_(u), gap_(nodes.size(), infinity), displaced_(nodes.mesh().points) {
     for (const ContactNode<B>& node : state.nodes)  // that of a nearer obstacle is less than this one's
-      if (B > 1 || (node.contact && node.obstacle == obstacle)) gap_[node.vertex] = node.contact ? 0 : node.gap;
+      if (B > 1 || (node.contact && node.obstacle == obstacle))
+        gap_[node.vertex] = std::min(gap_[node.vertex], node.contact ? 0 : node.gap);
     if (B == 1) return;
     const std::vector<double> by = nodes.at_vertices(u, B);
     for (std::size_t v = 0; v < displaced_.size(); ++v)

@@ -16,6 +16,7 @@ class PressureLoad final : public FollowingLoad<D> {
 
   const std::vector<double>& values() const override { return p_; }
   void apply() override;
+  void withdraw() override;
   void set(std::vector<double> values) override;
   /// After b was made anew without it.
   void apply_anew();
@@ -34,7 +35,6 @@ class PressureLoad final : public FollowingLoad<D> {
   void solve(const std::vector<double>& residual, std::vector<double>& change);
   const std::vector<double>& displacements(const std::vector<double>& x);
   const std::vector<double>& load_of(const std::vector<double>& p);
-  void withdraw();
   void renew_load();
 
   const PressureSpace<D>& space_;

@@ -21,6 +21,8 @@ class FollowingLoad {
   virtual const std::vector<double>& values() const = 0;
   /// The load of the p of now becomes part of the problem's b, unless it is.
   virtual void apply() = 0;
+  /// It is part of b no more.
+  virtual void withdraw() = 0;
   /// Another p, whose load is no part of b yet.
   virtual void set(std::vector<double> values) = 0;
   /// From x the correction of p, and S times it.

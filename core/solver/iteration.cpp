@@ -36,7 +36,7 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   for (Index p = 0; p < problem_.A.size(); ++p)
     for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
   for (const double v : problem_.constraints.last) largest_before_ = std::max(largest_before_, std::abs(v));
-  if (problem_.following) problem_.following->set(problem_.following->values());  // without its load
+  if (problem_.following) problem_.following->withdraw();
   reference_ = residual_at_projected_zero();
   if (problem_.following) problem_.following->apply();
   make_admissible(problem_, x_);
