@@ -78,7 +78,8 @@ void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) c
 }
 
 template <int D, int B>
-void BodyRun<D, B>::add_result_warnings(std::vector<std::string>& warnings) const {
+void BodyRun<D, B>::add_result_warnings(const Report& report, std::vector<std::string>& warnings) const {
+  append(warnings, apart_warnings(scene_, body_, report, results_));
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
   if constexpr (D == B) append(warnings, turn_warnings(model_, nodes(), results_.u));
 }

@@ -41,7 +41,7 @@ class BodyRun {
   /// What is odd about the scene as it is at t, before it is solved.
   void add_warnings(double t, std::vector<std::string>& warnings) const;
   /// What is odd about the results.
-  void add_result_warnings(std::vector<std::string>& warnings) const;
+  void add_result_warnings(const Report& report, std::vector<std::string>& warnings) const;
 
   const Scene::Body& body() const { return scene_.bodies[body_]; }
   const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }

@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/fem/mean_turn.hpp"
 #include "core/fem/paired_sides.hpp"
 #include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
 #include "core/mesh/connected.hpp"
+#include "driver/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -90,6 +93,26 @@ std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& mo
           "another side meant?",
           term.origin));
     }
+  return warnings;
+}
+
+template <int D, int B>
+std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, const Report& report,
+                                        const Results<D, B>& results) {
+  std::vector<std::string> warnings;
+  const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto touches = [&](const StepReport& step) { return step.contact[numbers[k]].nodes > 0; };
+    if (std::ranges::any_of(report.steps, touches)) continue;
+    double least = std::numeric_limits<double>::infinity();  // where no face is in front of another one
+    for (const ContactNode<B>& node : results.masters)
+      if (std::cmp_equal(node.obstacle, k)) least = std::min(least, node.gap);
+    if (!std::isfinite(least)) continue;
+    const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
+    warnings.push_back(
+        fmt::format("{}: '{}' and '{}' never touch; at the end a distance of {:.3g} is left between them",
+                    obstacle.source.table, obstacle.body, obstacle.other, least));
+  }
   return warnings;
 }
 
@@ -217,10 +240,11 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
   return warnings;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                           \
-  template std::vector<std::string> start_warnings(const Nodes<D>&, const Model<B>&, bool);                   \
-  template std::vector<std::string> pair_warnings(const Nodes<D>&, const Model<B>&);                          \
-  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&, \
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                 \
+  template std::vector<std::string> start_warnings(const Nodes<D>&, const Model<B>&, bool);                         \
+  template std::vector<std::string> pair_warnings(const Nodes<D>&, const Model<B>&);                                \
+  template std::vector<std::string> apart_warnings(const Scene&, std::size_t, const Report&, const Results<D, B>&); \
+  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&,       \
                                                    const Results<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)

@@ -16,9 +16,14 @@ std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& m
 template <int D, int B>
 std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model);
 
+/// Bodies that face each other, and that no step brings together.
+template <int D, int B>
+std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, const Report& report,
+                                        const Results<D, B>& results);
+
 /// Where the deformed body is inside an obstacle, or off it where contact is claimed, by more than a hundredth of the
-/// displacements there; contacts of too few nodes; and forces that held vertices share with the obstacle. One sentence
-/// per obstacle and kind, for the worst step.
+/// displacements there; contacts of too few nodes; and forces that held vertices
+/// share with the obstacle. One sentence per obstacle and kind, for the worst step.
 std::vector<std::string> contact_warnings(const Scene& scene, const Report& report);
 
 /// A body that turns, in the end, by more than a tenth of a radian as a whole.

@@ -215,7 +215,7 @@ void Driver::finish() {
   for (auto& warning : contact_warnings(scene_, report_)) warnings.push_back(std::move(warning));
   for (std::size_t body = 0; body < bodies(); ++body)
     std::as_const(*this).visit(body, [&](const auto& run) {
-      run.add_result_warnings(warnings);
+      run.add_result_warnings(report_, warnings);
       if (run.by_matrix()) report_.hierarchy = "matrix";
     });
 }

@@ -15,9 +15,9 @@
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
 #include "core/solver/admissible.hpp"
-#include "core/solver/least_energy.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
+#include "driver/level_start.hpp"
 #include "driver/loose_body.hpp"
 #include "driver/mesh_levels.hpp"
 #include "driver/moved_problem.hpp"
@@ -48,6 +48,17 @@ void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
     for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
 }
 
+template <int D>
+std::vector<Prolongation> between_meshes(const MeshHierarchy<D>& hierarchy, const std::vector<Nodes<D>>& nodes,
+                                         std::size_t first, Times& times) {
+  const Stopwatch watch;
+  std::vector<Prolongation> between;
+  for (std::size_t k = first; k < hierarchy.refinements.size(); ++k)
+    between.push_back(prolongation(hierarchy.refinements[k], nodes[k], nodes[k + 1]));
+  times.setup += watch.elapsed();
+  return between;
+}
+
 template <int D, int B>
 using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
 
@@ -69,20 +80,13 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       monitor_([this](const IterationRecord& record) {
         progress_.cycle(record);
         return !progress_.interrupted();
-      }) {
-  Stopwatch watch;
-  for (std::size_t k = first_; k < hierarchy.refinements.size(); ++k)
-    prolongations_.push_back(prolongation(hierarchy.refinements[k], nodes_[k], nodes_[k + 1]));
+      }),
+      matrices_(first_, factorised_, between_meshes(hierarchy, nodes_, first_, times)) {
   before_.resize(hierarchy.levels.size());
   now_.resize(hierarchy.levels.size());
-  numbers_before_.resize(hierarchy.levels.size());
-  numbers_now_.resize(hierarchy.levels.size());
-  pressure_before_.resize(hierarchy.levels.size());
-  pressure_now_.resize(hierarchy.levels.size());
   spaces_.resize(hierarchy.levels.size());
   changed_.resize(hierarchy.levels.size());
   kept_.resize(hierarchy.levels.size());
-  times_.setup += watch.elapsed();
 }
 
 template <int D, int B>
@@ -101,11 +105,11 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     ++count.stiffness, ++count.load, ++count.constraints;
   }
   if (changed_[level]) find_pressure_space(model, level);
-  if (level == first_ && changed_[level]) forget_products();
+  if (level == first_ && changed_[level]) matrices_.forget_products();
   DiscreteProblem<B>& problem = solution.discretization.problem;
-  if (model.follows && !problem.constraints.last.empty() && !before_[level].empty())
-    remember(to_local(problem, before_[level]), problem);
-  if (model.follows) numbers_before_[level].hand_to(solution.discretization);
+  if (model.follows && !problem.constraints.last.empty() && !before_[level].u.empty())
+    remember(to_local(problem, before_[level].u), problem);
+  if (model.follows) before_[level].numbers.hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
   if (!forces_.empty()) {
     Discretization<B>& discretization = solution.discretization;
@@ -181,18 +185,15 @@ void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse
 
 template <int D, int B>
 void NestedSolver<D, B>::drop_algebraic_levels() {
-  prolongations_.erase(prolongations_.begin(), prolongations_.begin() + static_cast<Offset>(algebraic_));
-  algebraic_ = 0;
+  matrices_.drop_algebraic();
   continued_ = false;
-  galerkin_.clear();
-  is_product_.clear();
 }
 
 /// Interpolation between the meshes up to this one is one between the jumps that they have now.
 template <int D, int B>
 void NestedSolver<D, B>::connect_jumps(std::size_t level) {
   const Stopwatch watch;
-  pairs_.connect(level, std::span(prolongations_).subspan(algebraic_));
+  pairs_.connect(level, matrices_.between_meshes());
   times_.setup += watch.elapsed();
 }
 
@@ -221,9 +222,10 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
   if (!kept) return {};
   DiscreteProblem<B>& problem = kept->discretization.problem;
   if (level + 1 < hierarchy_.levels.size()) {
-    if (number(level) >= galerkin_.size()) return {};
-    problem.A = std::move(galerkin_[number(level)].A);
-    problem.fixed = std::move(galerkin_[number(level)].off);
+    GalerkinMatrix<B>* matrix = matrices_.of(level);
+    if (!matrix) return {};
+    problem.A = std::move(matrix->A);
+    problem.fixed = std::move(matrix->off);
   }
   const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization, pairs_.at(level));
   changed_[level] = !assembled.same_matrix();
@@ -256,19 +258,6 @@ std::vector<double> NestedSolver<D, B>::refined_pressure(std::size_t level, cons
 }
 
 template <int D, int B>
-void NestedSolver<D, B>::forget_products() {
-  is_product_.assign(galerkin_.size(), false);
-}
-
-/// All of them, or none.
-template <int D, int B>
-std::span<const GalerkinMatrix<B>> NestedSolver<D, B>::products_below(std::size_t level) const {
-  const std::size_t count = number(level);
-  if (galerkin_.size() < count || !all_products(count)) return {};
-  return std::span(galerkin_).first(count).subspan(levels_left_out(level));
-}
-
-template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   if (coarse.x.empty()) return;
   DiscreteProblem<B>& problem = coarse.discretization.problem;
@@ -298,11 +287,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
                                                       : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
-  algebraic_ = below.prolongations.size();
-  prolongations_.insert(prolongations_.begin(), std::make_move_iterator(below.prolongations.begin()),
-                        std::make_move_iterator(below.prolongations.end()));
-  galerkin_ = std::move(below.matrices);
-  is_product_.assign(galerkin_.size(), true);
+  matrices_.continue_below(std::move(below.prolongations), std::move(below.matrices));
   ++times_.assemblies.hierarchies;
   times_.setup += watch.elapsed();
 }
@@ -318,80 +303,25 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
     if (error.status() == Exit::interrupted) throw;
     progress_.phase(fmt::format("no levels below the coarsest mesh: {}", error.what()));
   }
-  forget_products();
+  matrices_.forget_products();
 }
 
 template <int D, int B>
-std::span<const Prolongation> NestedSolver<D, B>::levels_below(std::size_t level) const {
-  return std::span(prolongations_).first(number(level)).subspan(levels_left_out(level));
-}
-
-/// The number of coarsest meshes that are no levels below this one.
-template <int D, int B>
-std::size_t NestedSolver<D, B>::levels_left_out(std::size_t level) const {
-  return std::min(factorised_ > 0 ? factorised_ - 1 : 0, number(level));
-}
-
-/// On nested meshes the matrix of the coarser one is the product that the solver would compute: it takes it over.
-template <int D, int B>
-void NestedSolver<D, B>::share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem) {
-  const Stopwatch watch;
-  const std::size_t below = number(level) - 1;
-  DiscreteProblem<B>& shared = coarse.discretization.problem;
-  galerkin_.resize(std::max(galerkin_.size(), below + 1));
-  is_product_.resize(galerkin_.size());
-  if (changed_[level - 1] || changed_[level])
-    is_product_[below] = all_products(below) && is_galerkin(shared, prolongations_[below], problem);
-  galerkin_[below] = {std::move(shared.A), std::move(shared.fixed), false};
-  times_.setup += watch.elapsed();
-}
-
-/// Of all starts there are the one with least energy.
-template <int D, int B>
-void NestedSolver<D, B>::start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
+void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
   const DiscreteProblem<B>& problem = solution.discretization.problem;
-  std::vector<std::vector<double>> starts;
-  const auto add = [&](std::vector<double> x) {
-    make_admissible(problem, x);
-    starts.push_back(std::move(x));
-  };
-  const std::vector<double> last = to_local(problem, before_[level]);
-  if (options_.start == "nested") add(std::move(solution.x));
-  add(last);
-  if (!coarse.x.empty() && !before_[level - 1].empty()) {
-    const DiscreteProblem<B>& below = coarse.discretization.problem;
-    std::vector<double> change = to_local(below, before_[level - 1]);
-    for (std::size_t k = 0; k < change.size(); ++k) change[k] = coarse.x[k] - change[k];
-    std::vector<double> x = interpolate(below, change, prolongations_[number(level) - 1], problem);
-    for (std::size_t k = 0; k < x.size(); ++k) x[k] += last[k];
-    stick_between(below, coarse.x, prolongations_[number(level) - 1], problem, x);
-    add(std::move(x));
+  std::optional<CoarserStep<B>> coarser;
+  if (!coarse.x.empty())
+    coarser.emplace(CoarserStep<B>{coarse.discretization.problem, coarse.x, coarse.pressure, before_[level - 1],
+                                   matrices_.above(level - 1)});
+  const CoarserStep<B>* known = coarser ? &*coarser : nullptr;
+  if (spaces_[level]) {
+    const auto refined = [&](const std::vector<double>& pressure) { return refined_pressure(level, pressure); };
+    start_with_pressure(problem, before_[level], known, refined, solution.x, solution.pressure);
+  } else {
+    std::vector<std::vector<double>> starts;
+    if (options_.start == "nested") starts.push_back(std::move(solution.x));
+    solution.x = start_after(problem, before_[level], known, std::move(starts));
   }
-  solution.x = std::move(starts[least_energy(problem, starts)]);
-}
-
-/// With a pressure, of which displacements alone have no energy to compare: from the last step and the change that the
-/// coarser mesh saw, or from the coarser mesh alone where it does not know the last step.
-template <int D, int B>
-void NestedSolver<D, B>::start_with_pressure(std::size_t level, const Solution<B>& coarse,
-                                             Solution<B>& solution) const {
-  const DiscreteProblem<B>& problem = solution.discretization.problem;
-  const bool change = !coarse.x.empty() && !before_[level - 1].empty() && !pressure_before_[level].empty();
-  if (!change && !coarse.x.empty()) return;
-  solution.x = to_local(problem, before_[level]);
-  solution.pressure = pressure_before_[level];
-  if (change) {
-    const auto less = [](std::vector<double> a, const std::vector<double>& b, double factor) {
-      for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) a[k] += factor * b[k];
-      return a;
-    };
-    const DiscreteProblem<B>& below = coarse.discretization.problem;
-    const std::vector<double> moved = less(coarse.x, to_local(below, before_[level - 1]), -1);
-    solution.x = less(solution.x, interpolate(below, moved, prolongations_[number(level) - 1], problem), 1);
-    solution.pressure =
-        less(solution.pressure, refined_pressure(level, less(coarse.pressure, pressure_before_[level - 1], -1)), 1);
-  }
-  make_admissible(problem, solution.x);
 }
 
 /// The start comes from the next coarser mesh, below all meshes from algebraic levels.
@@ -408,25 +338,21 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
   if (first) continue_algebraically(problem);
   const Stopwatch watch;
   if (refined) {
-    const Prolongation& P = prolongations_[number(level) - 1];
+    const Prolongation& P = matrices_.above(level - 1);
     solution.x = interpolate(coarse.discretization.problem, coarse.x, P, problem);
     stick_between(coarse.discretization.problem, coarse.x, P, problem, solution.x);
   }
   if (first) {
-    problem.galerkin = products_below(level);
-    solution.x =
-        nested_start(problem, std::span(prolongations_).first(algebraic_), options_, registry_, monitor_, &dropped_);
+    problem.galerkin = matrices_.products_below(level);
+    solution.x = nested_start(problem, matrices_.between_algebraic(), options_, registry_, monitor_, &dropped_);
   }
   if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
-  if (!before_[level].empty()) {
-    if (spaces_[level])
-      start_with_pressure(level, coarse, solution);
-    else
-      start_from_before(level, coarse, solution);
-  }
+  if (!before_[level].u.empty()) start_after_step(level, coarse, solution);
   times_.solve += watch.elapsed();
   if (refined) {
-    share_matrix(coarse, level, problem);
+    const Stopwatch sharing;
+    matrices_.share(coarse.discretization.problem, level, problem, changed_[level - 1] || changed_[level]);
+    times_.setup += sharing.elapsed();
     keep(model, level - 1, coarse);
   }
   return solution;
@@ -437,7 +363,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
                                      const LooseBody<D, B>* body, Solution<B>& solution) {
   progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
-  solution.discretization.problem.galerkin = products_below(level);
+  solution.discretization.problem.galerkin = matrices_.products_below(level);
   MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x);
   std::optional<LoadOf<D, B>> pressure;
   if constexpr (D == B) {
@@ -447,7 +373,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     }
   }
   try {
-    solution.summary = signorini::solve<B>(solution.discretization.problem, levels_below(level), solution.x, options,
+    solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     if (error.status() != Exit::interrupted) {
@@ -513,9 +439,9 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     std::optional<LooseBody<D, B>> body;
     if (solution.discretization.functional.empty()) body.emplace(nodes_[level], model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
-    now_[level] = to_global(solution.discretization.problem, solution.x);
-    numbers_now_[level] = {solution.discretization, solution.x};
-    pressure_now_[level] = solution.pressure;
+    now_[level].u = to_global(solution.discretization.problem, solution.x);
+    now_[level].numbers = {solution.discretization, solution.x};
+    now_[level].pressure = solution.pressure;
     coarse = std::move(solution);
     return "";
   };
@@ -524,7 +450,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     progress_.phase(stage.reason);
     dropped_.push_back(std::move(stage));
     coarse = {};
-    forget_products();
+    matrices_.forget_products();
   };
   nested_iteration<B>(hierarchy_.levels.size() - 1 - first_, options_, solve, failed);
   return coarse;
@@ -533,8 +459,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
-  for (auto& of_level : now_) of_level = {};
-  for (auto& of_level : numbers_now_) of_level = {};
+  for (LevelSolution<B>& of_level : now_) of_level = {};
   pair_levels(model);
   Solution<B> coarse;
   if (options_.start == "nested") coarse = solve_coarser_meshes(model);
@@ -543,8 +468,8 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   coarse = {};
   if (finest == first_) come_near(model, solution);
   solve_finest(model, solution);
-  numbers_now_[finest] = {solution.discretization, solution.x};
-  pressure_now_[finest] = solution.pressure;
+  now_[finest].numbers = {solution.discretization, solution.x};
+  now_[finest].pressure = solution.pressure;
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
@@ -574,9 +499,8 @@ Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   Scene::Solver own = options_;
   own.hierarchy = "meshes";
   auto meshes = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_, nodes_);
-  meshes->numbers_before_ = numbers_before_;
-  meshes->pressure_before_ = pressure_before_;
-  Solution<B> second = before_.back().empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back());
+  meshes->before_ = before_;
+  Solution<B> second = before_.back().u.empty() ? meshes->solve(model) : meshes->solve_after(model, before_.back().u);
   const bool better = second.summary.outcome == Outcome::converged || !first || !first->summary.converged();
   if (better) meshes_ = std::move(meshes);
   Solution<B>& kept = better ? second : *first;
@@ -590,24 +514,20 @@ template <int D, int B>
 void NestedSolver<D, B>::accept() {
   if (meshes_) return meshes_->accept();
   before_.swap(now_);
-  numbers_before_.swap(numbers_now_);
-  pressure_before_.swap(pressure_now_);
-  for (auto& of_level : now_) of_level = {};
+  for (LevelSolution<B>& of_level : now_) of_level = {};
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   if (meshes_) return meshes_->solve(model);
-  for (auto& solution : before_) solution.clear();
-  for (auto& numbers : numbers_before_) numbers = {};
-  for (auto& pressure : pressure_before_) pressure.clear();
+  for (LevelSolution<B>& of_level : before_) of_level = {};
   return solve_safely(model);
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
   if (meshes_) return meshes_->solve_after(model, u);
-  before_.back() = u;
+  before_.back().u = u;
   pairs_.follow(model, u);
   Solution<B> solution = solve_safely(model);
   const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,10 +10,10 @@
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
-#include "core/solver/prolongation.hpp"
 #include "core/solver/summary.hpp"
+#include "driver/level_matrices.hpp"
 #include "driver/level_pairs.hpp"
-#include "driver/own_numbers.hpp"
+#include "driver/level_solution.hpp"
 #include "driver/progress.hpp"
 #include "methods/configuration.hpp"
 #include "methods/solve.hpp"
@@ -74,7 +73,7 @@ class NestedSolver {
   void take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs, std::vector<std::vector<double>> forces);
 
   /// Interpolation between the meshes `level` and `level` + 1.
-  const Prolongation& from_mesh(std::size_t level) const { return prolongations_[number(level)]; }
+  const Prolongation& from_mesh(std::size_t level) const { return matrices_.above(level); }
 
   /// Gives back the problem of the last solve, whose matrix and load the next one takes over as far as they stay the
   /// same; those of coarser levels are kept anyway. Without it the finest level's are assembled again.
@@ -98,7 +97,7 @@ class NestedSolver {
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
-  void start_from_before(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
+  void start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void pair_levels(const Model<B>& model);
   void pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
   void come_near(const Model<B>& model, Solution<B>& solution);
@@ -107,20 +106,10 @@ class NestedSolver {
   void connect_jumps(std::size_t level);
   bool pair_more(const Model<B>& model, Solution<B>& solution);
   std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
-  std::size_t number(std::size_t level) const { return algebraic_ + level - first_; }
   void add_forces(std::size_t level, double sign, Discretization<B>& discretization) const;
-  void share_matrix(Solution<B>& coarse, std::size_t level, DiscreteProblem<B>& problem);
-  std::span<const Prolongation> levels_below(std::size_t level) const;
-  std::size_t levels_left_out(std::size_t level) const;
   void keep(const Model<B>& model, std::size_t level, Solution<B>& coarse);
-  std::span<const GalerkinMatrix<B>> products_below(std::size_t level) const;
-  bool all_products(std::size_t count) const {
-    return std::find(is_product_.begin(), is_product_.begin() + count, false) == is_product_.begin() + count;
-  }
-  void forget_products();
   void find_pressure_space(const Model<B>& model, std::size_t level);
   std::vector<double> refined_pressure(std::size_t level, const std::vector<double>& coarse) const;
-  void start_with_pressure(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
@@ -139,21 +128,15 @@ class NestedSolver {
   const Progress& progress_;
   Times& times_;
   const Monitor monitor_;
-  std::vector<Prolongation> prolongations_;  // between the meshes, after those between algebraic levels
-  std::size_t algebraic_ = 0;                // number of the latter
-  std::vector<GalerkinMatrix<B>> galerkin_;  // of the levels below the finest, as far as they are there
-  std::vector<bool> is_product_;             // of each of these: the solver would compute it for the next finer level
-  std::vector<bool> changed_;                // per mesh: its matrix is another one than in the last solve
-  std::vector<std::optional<Kept>> kept_;    // per mesh
+  LevelMatrices<B> matrices_;
+  std::vector<bool> changed_;              // per mesh: its matrix is another one than in the last solve
+  std::vector<std::optional<Kept>> kept_;  // per mesh
   bool continued_ = false;
-  std::vector<Stage> dropped_;            // starts that coarser levels did not give, and rough ones
-  std::unique_ptr<NestedSolver> meshes_;  // what goes on where levels by the matrix did not do
-  // Per mesh, solutions in global coordinates: of the last step that was accepted, and of the last solve (finest mesh:
-  // none).
-  std::vector<std::vector<double>> before_, now_;
-  std::vector<OwnNumbers<B>> numbers_before_, numbers_now_;          // likewise, of the finest mesh as well
-  std::vector<std::vector<double>> pressure_before_, pressure_now_;  // likewise
-  std::vector<std::optional<PressureOf<D, B>>> spaces_;              // per mesh
+  std::vector<Stage> dropped_;                           // starts that coarser levels did not give, and rough ones
+  std::unique_ptr<NestedSolver> meshes_;                 // what goes on where levels by the matrix did not do
+  std::vector<LevelSolution<B>> before_;                 // per mesh, of the last step that was accepted
+  std::vector<LevelSolution<B>> now_;                    // per mesh, of the last solve
+  std::vector<std::optional<PressureOf<D, B>>> spaces_;  // per mesh
 };
 
 }  // namespace signorini

@@ -37,8 +37,9 @@ std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& 
     block::transposed_product<B>(jumps.project.data() + s * B * B, node.force.data(), back);
     for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k) {
       const Index q = jumps.column[k];
+      const bool on_slave = std::ranges::binary_search(of_slave[node.obstacle], q);
       NodalForce<B>& force =
-          out.emplace_back(NodalForce<B>{q, node.obstacle, {}, std::ranges::binary_search(of_slave[node.obstacle], q)});
+          out.emplace_back(NodalForce<B>{q, node.obstacle, {}, on_slave, node.friction, node.sticks});
       for (int i = 0; i < B; ++i) force.force[i] = -jumps.weight[k] * back[i];
     }
   }

@@ -11,7 +11,8 @@ struct NodalForce {
   Index node;
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> force;
-  bool on_slave = false;  ///< or on the master
+  bool on_slave = false;                  ///< or on the master
+  bool friction = false, sticks = false;  ///< of the slave's node, as ContactNode has them
 };
 
 /// What contact between bodies exerts on the masters: the force on a slave's node with the other sign, at the nodes of

@@ -24,11 +24,7 @@ class Master {
 
   std::vector<ContactNode<D>> find(const std::vector<NodalForce<D>>& forces, const std::vector<double>& u) {
     add_nodes(u);
-    for (const NodalForce<D>& force : forces) {
-      if (force.obstacle != obstacle_ || force.on_slave) continue;
-      if (ContactNode<D>* node = at(force.node))
-        for (int i = 0; i < D; ++i) node->force[i] += force.force[i];
-    }
+    add_forces(forces);
     double largest = 0;
     for (ContactNode<D>& node : out_) largest = std::max(largest, press(node));
     const double least = positive_force * largest;
@@ -61,6 +57,21 @@ class Master {
       out_.push_back(node);
     }
     std::ranges::sort(out_, {}, &ContactNode<D>::vertex);
+  }
+
+  /// A node sticks where most of the force comes from the slave's nodes that do.
+  void add_forces(const std::vector<NodalForce<D>>& forces) {
+    std::vector<double> sticking(out_.size());
+    for (const NodalForce<D>& force : forces) {
+      if (force.obstacle != obstacle_ || force.on_slave) continue;
+      ContactNode<D>* node = at(force.node);
+      if (!node) continue;
+      for (int i = 0; i < D; ++i) node->force[i] += force.force[i];
+      node->friction |= force.friction;
+      const double size = std::sqrt(dot(force.force, force.force));
+      if (force.friction) sticking[static_cast<std::size_t>(node - out_.data())] += force.sticks ? size : -size;
+    }
+    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].sticks = out_[k].friction && sticking[k] > 0;
   }
 
   /// What the obstacle adds to the distance of bodies, as it would at a node of a slave: its bound where these touch.

@@ -267,6 +267,18 @@ TEST(Apart, BodiesAreSolvedOneByOne) {
   show("{} iterations, one by one {}\n", report.last().summary.iterations, alone.report().last().summary.iterations);
 }
 
+// They face each other, and nothing brings them together.
+TEST(Apart, BodiesAreNamedThatNeverTouch) {
+  const auto moved = [](const char* by) {
+    Driver driver(scene_of(lying("[0, 0]", on_top) + fix("above", "top", by)));
+    return driver.solve();
+  };
+  const Report apart = moved("[0, -0.005]"), touching = moved("[0, -0.02]");
+  ASSERT_EQ(apart.warnings.size(), 1u);
+  EXPECT_THAT(apart.warnings[0], HasSubstr("obstacle.0: 'above' and 'below' never touch"));
+  EXPECT_TRUE(touching.warnings.empty());
+}
+
 TEST(Overlap, OfMoreThanAnElementIsNamed) {
   const auto overlapping = [](double by) {
     return block("below", "[0, 0]", "[2, 1]", "[8, 4]") +
