@@ -46,6 +46,7 @@ class LevelPairs {
   /// From now on these are all that may touch, per mesh, whatever the model says.
   void give(std::vector<Pairs> pairs);
   bool given() const { return given_; }
+  const std::vector<Pairs>& all() const { return all_; }
 
   /// Per obstacle by how much slaves were taken to have moved past masters when they found each other; empty: not.
   const std::vector<Point<B>>& shift() const { return shift_; }

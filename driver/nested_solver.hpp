@@ -54,7 +54,7 @@ class NestedSolver {
 
   /// Of the last solve on the finest mesh; null where no pressure has unknowns of its own.
   const PressureOf<D, B>* pressure_space() const {
-    if (meshes_) return meshes_->pressure_space();
+    if (other_) return other_->pressure_space();
     return spaces_.back() ? &*spaces_.back() : nullptr;
   }
 
@@ -83,7 +83,7 @@ class NestedSolver {
   const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
 
   /// Whether all levels below the finest mesh are chosen by its matrix.
-  bool by_matrix() const { return first_ > 0 && !meshes_; }
+  bool by_matrix() const { return other_ ? other_->by_matrix() : first_ > 0; }
 
  private:
   /// The problem of a level after its solve: all but its matrix, which is among the products where it is a coarse one.
@@ -93,7 +93,13 @@ class NestedSolver {
   };
 
   bool may_fall_back() const;
+  bool newton_may_do(const Solution<B>& solution) const;
+  std::unique_ptr<NestedSolver> other_way(const Scene::Solver& options) const;
+  Solution<B> try_again(const Model<B>& model, const Scene::Solver& options, std::vector<Stage> left,
+                        std::optional<Solution<B>> first);
+  Solution<B> solve_on_meshes(const Model<B>& model);
   Solution<B> solve_safely(const Model<B>& model);
+  void come_back();
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
@@ -133,7 +139,7 @@ class NestedSolver {
   std::vector<std::optional<Kept>> kept_;  // per mesh
   bool continued_ = false;
   std::vector<Stage> dropped_;                           // starts that coarser levels did not give, and rough ones
-  std::unique_ptr<NestedSolver> meshes_;                 // what goes on where levels by the matrix did not do
+  std::unique_ptr<NestedSolver> other_;                  // what goes on where this one did not do
   std::vector<LevelSolution<B>> before_;                 // per mesh, of the last step that was accepted
   std::vector<LevelSolution<B>> now_;                    // per mesh, of the last solve
   std::vector<std::optional<PressureOf<D, B>>> spaces_;  // per mesh

@@ -21,10 +21,13 @@ inline Stage dropped_start(double seconds, std::string reason) {
 
 /// For a start on a finer level, which need not be better than the discretisation error: one cycle from a coarser start
 /// brings a scalar problem below that, as in linear full multigrid; cycles of elastic bodies reduce the error far less.
+/// Newton's method is on its way to a solution only near one: it goes on until it has it.
 template <int B>
 SolverOptions for_a_start(SolverOptions options, bool started) {
   options.tolerance = std::max(options.tolerance, 1e-3);
-  options.max_iterations = std::min(options.max_iterations, B == 1 && started ? 1 : 5);
+  constexpr int newton_steps = 40;
+  const int most = options.method == "newton" ? newton_steps : B == 1 && started ? 1 : 5;
+  options.max_iterations = std::min(options.max_iterations, most);
   return options;
 }
 

@@ -25,9 +25,7 @@ constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'00
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
 bool coarsens(const Situation& s) { return !s.functional && s.block == 1 && 2 * s.coarsest <= s.unknowns; }
-bool newton_suits(const Situation& s) {
-  return s.friction && s.unknowns <= (s.block == 3 ? most_for_friction_in_space : most_for_friction);
-}
+bool newton_suits(const Situation& s) { return s.friction && newton_is_affordable(s.block, s.unknowns); }
 bool factorisable(const Situation& s) { return !s.functional && s.unknowns <= most_for_direct; }
 
 // The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
@@ -168,6 +166,10 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
     if (rule.kind == Kind::active_sets && rule.suits({.block = block, .unknowns = unknowns, .coarsest = coarsest}))
       out.emplace_back(rule.solver);
   return out;
+}
+
+bool newton_is_affordable(int block, Offset unknowns) {
+  return unknowns <= (block == 3 ? most_for_friction_in_space : most_for_friction);
 }
 
 bool others_suit(const Situation& s) { return s.functional || coarsens(s) || factorisable(s); }

@@ -55,6 +55,9 @@ struct StageRule {
 
 const std::vector<StageRule>& stages();
 
+/// Whether the factorisations of Newton's method with friction and pressures are affordable.
+bool newton_is_affordable(int block, Offset unknowns);
+
 /// Whether cycles that have begun need not go on to their end: some other method suits.
 bool others_suit(const Situation& situation);
 

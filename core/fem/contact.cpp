@@ -16,7 +16,6 @@ namespace {
 
 constexpr double positive_force = 1e-8;  // of the largest force
 constexpr double on_bound = 1e-12;       // of the numbers compared
-constexpr double least_covered = 0.25;   // of a node's area: forces on less of it, over that, make pressures of nothing
 
 template <int B>
 class NodeReader {
@@ -421,7 +420,7 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
     node.covered = covered.at(node.vertex);
-    node.area = std::max(node.covered, least_covered) * surface.area(node);
+    node.area = std::max(node.covered, node.least_covered) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
     if (!in_body) continue;

@@ -28,7 +28,12 @@ struct ContactNode {
   /// Obstacles press on the vertex along dependent directions: how the force divides among them is not determined; see
   /// split_force() for what is taken.
   bool shared = false;
-  double covered = 1;    ///< between bodies: part of the area that the other one is in front of
+  double covered = 1;  ///< between bodies: part of the area that the other one is in front of
+  /// Whether that is so little that forces, over that, make pressures of nothing.
+  bool hardly_covered() const { return covered < least_covered; }
+  /// Whether the other body ends there.
+  bool partly_covered() const { return covered < 0.9; }
+  static constexpr double least_covered = 0.25;
   double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
   FrictionLaw law{};     ///< where there is friction
   /// The tangential traction at the node, exerted by the obstacle, global: see recover_traction(). Where it is not

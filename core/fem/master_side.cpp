@@ -54,6 +54,7 @@ class Master {
           jump[i] -= found.value[j] * u[static_cast<std::size_t>(Offset{nodes_.of_vertex(found.column[j])} * D + i)];
       node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) + offset(node.vertex, found.normal[k]);
       for (int i = 0; i < D; ++i) node.direction[i] = -found.normal[k][i];
+      node.covered = found.covered[k];
       out_.push_back(node);
     }
     std::ranges::sort(out_, {}, &ContactNode<D>::vertex);
@@ -97,7 +98,7 @@ class Master {
 
   /// Splits a force into what presses and what shears. @return the former
   double press(ContactNode<D>& node) const {
-    node.area = surface_.area(node);
+    node.area = std::max(node.covered, node.least_covered) * surface_.area(node);
     const double force = std::max(dot(node.force, node.direction), 0.0);
     for (int i = 0; i < D; ++i) node.tangential[i] = node.force[i] - force * node.direction[i];
     if (!(node.area > 0)) return force;

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace signorini {
 
 inline constexpr Index unreachable = -1;  ///< number of a node that the obstacle says nothing of
 
-/// The nodes of one obstacle, numbered in the order of ContactState::nodes, and the faces around those it presses.
+/// The nodes of one obstacle by ascending vertex, and the faces around those it presses. Where these have other nodes,
+/// too, of which nothing is known as they are far from contact, these count as nodes without contact.
 template <int D, int B>
 class PressedFaces {
  public:
@@ -30,6 +32,7 @@ class PressedFaces {
     }
     std::ranges::sort(faces_);
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    add_strangers(nodes, obstacle);
     connect(nodes);
   }
 
@@ -39,7 +42,8 @@ class PressedFaces {
   /// In Mesh::boundary.
   const std::vector<Index>& faces() const { return faces_; }
   const std::array<Index, D>& corners(std::size_t face) const { return corners_[face]; }
-  /// Nodes that share faces with one, in ascending order.
+  /// Nodes that share faces with one, in ascending order; without those that another body is hardly in front of, where
+  /// a contact ends as at an edge of the body.
   const std::vector<Index>& around(Index k) const { return around_[k]; }
   /// One of the faces at a node that has neighbours.
   Index face_at(Index k) const { return face_at_[k]; }
@@ -68,7 +72,8 @@ class PressedFaces {
 
   /// Whether all neighbours are pressed, too.
   bool inside(Index k) const {
-    return pressed(k) && std::ranges::all_of(around_[k], [&](Index other) { return pressed(other); });
+    return pressed(k) && !node_[k]->hardly_covered() &&
+           std::ranges::all_of(around_[k], [&](Index other) { return pressed(other); });
   }
 
  private:
@@ -88,6 +93,35 @@ class PressedFaces {
     return true;
   }
 
+  /// But for those that lie beyond the end of another body.
+  void add_strangers(const Nodes<D>& nodes, Index obstacle) {
+    std::vector<Index> strangers, beyond;
+    for (const Index face : faces_) {
+      const auto vertices = nodes.of_face(face);
+      const bool ends = std::ranges::any_of(vertices, [&](Index v) {
+        const Index k = number_of(v, {});
+        return k != unreachable && node_[k]->partly_covered();
+      });
+      for (const Index v : vertices)
+        if (number_of(v, {}) == unreachable) (ends ? beyond : strangers).push_back(v);
+    }
+    for (std::vector<Index>* list : {&strangers, &beyond}) std::ranges::sort(*list);
+    strangers.erase(std::unique(strangers.begin(), strangers.end()), strangers.end());
+    for (const Index v : strangers) {
+      if (std::ranges::binary_search(beyond, v)) continue;
+      ContactNode<B>& node = strangers_.emplace_back();
+      node.vertex = v, node.obstacle = obstacle;
+      const auto at = std::ranges::upper_bound(node_, v, {}, [](const auto* other) { return other->vertex; });
+      pressed_.insert(pressed_.begin() + (at - node_.begin()), false);
+      node_.insert(at, &node);
+    }
+  }
+
+  /// Whether the contact of a node of a face ends there as at an edge of the body, or goes on to another one.
+  bool goes_on(Index k, Index other) const {
+    return other == unreachable ? !node_[k]->partly_covered() : !node_[other]->hardly_covered();
+  }
+
   void connect(const Nodes<D>& nodes) {
     around_.resize(node_.size());
     face_at_.resize(node_.size());
@@ -100,7 +134,7 @@ class PressedFaces {
         if (k == unreachable) continue;
         face_at_[k] = face;
         for (const Index other : corners)
-          if (other != k) around_[k].push_back(other);
+          if (other != k && goes_on(k, other)) around_[k].push_back(other);
       }
     }
     for (std::vector<Index>& list : around_) {
@@ -109,6 +143,7 @@ class PressedFaces {
     }
   }
 
+  std::deque<ContactNode<B>> strangers_;
   std::vector<ContactNode<B>*> node_;
   std::vector<bool> pressed_;
   std::vector<Index> faces_, face_at_;

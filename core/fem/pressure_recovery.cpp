@@ -45,7 +45,7 @@ class Recovery {
     for (Index k = 0; k < faces_.size(); ++k) {
       if (!faces_.pressed(k)) continue;
       ContactNode<B>& node = faces_.node(k);
-      square_[k] = fitted(k).value_or(node.pressure * node.pressure);
+      square_[k] = fitted(k).value_or(around(k));
       node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)));
       if (const double least = at_least(k); least > 0) square_[k] = std::max(square_[k], least * least);
     }
@@ -57,7 +57,7 @@ class Recovery {
     bool all_inside = true;
     Index top = unreachable;  // where the largest pressure is
     for (Index k = 0; k < faces_.size(); ++k) {
-      if (!faces_.pressed(k)) continue;
+      if (!faces_.pressed(k) || faces_.node(k).hardly_covered()) continue;
       all_inside = all_inside && inside_[k];
       if (top == unreachable || faces_.node(k).recovered > faces_.node(top).recovered) top = k;
     }
@@ -161,6 +161,17 @@ class Recovery {
     });
   }
 
+  /// What is known without a fit: the mean, or that of the neighbours.
+  double around(Index k) const {
+    const ContactNode<B>& node = faces_.node(k);
+    double sum = 0;
+    int count = 0;
+    for (const Index other : faces_.around(k))
+      if (node.hardly_covered() && faces_.pressed(other)) sum += faces_.node(other).pressure, ++count;
+    const double mean = count > 0 ? sum / count : node.pressure;
+    return mean * mean;
+  }
+
   std::optional<double> fitted(Index k) const {
     const auto some = samples(k);
     if (!inside_[k] && (some.size() < enough<D> || (faces_.pressed(k) && rises(k)))) return {};
@@ -198,21 +209,22 @@ class Recovery {
   }
 
   /// Measure of the part of a face where the linear function with the squares at its corners is positive, as far as
-  /// another body is in front of its nodes.
+  /// another body is in front of its nodes. Corners that it is not in front of do not end the contact within the face:
+  /// that body does.
   double positive(std::size_t f) const {
     const Face<D>& face = nodes_.mesh().boundary[faces_.faces()[f]];
     std::array<double, D> value;
     double sum = 0, covered = 0;
-    int pressed = 0, reachable = 0;
+    int pressed = 0;
+    for (const Index k : faces_.corners(f)) {
+      if (k != unreachable) covered += faces_.node(k).covered;
+      if (faces_.pressed(k)) sum += square_[k], ++pressed;
+    }
     for (int c = 0; c < D; ++c) {
       const Index k = faces_.corners(f)[c];
-      value[c] = k == unreachable ? 0 : square_[k];
-      if (k != unreachable) covered += faces_.node(k).covered, ++reachable;
-      if (faces_.pressed(k)) sum += value[c], ++pressed;
+      value[c] = k == unreachable || faces_.node(k).hardly_covered() ? sum / std::max(pressed, 1) : square_[k];
     }
-    for (int c = 0; c < D; ++c)
-      if (faces_.corners(f)[c] == unreachable) value[c] = -std::abs(sum) / pressed;
-    return face_measure(nodes_, faces_.faces()[f]) * part(face, value) * covered / reachable;
+    return face_measure(nodes_, faces_.faces()[f]) * part(face, value) * covered / D;
   }
 
   double part(const Face<D>& face, const std::array<double, D>& value) const {

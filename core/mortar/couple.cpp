@@ -28,6 +28,9 @@ constexpr double left_of_parts = 0.01;
 constexpr double least_quadratic_cover = 0.1;
 // Nodes with less of the area of a face stand for nothing but rounding: corners of quadratic elements on the axis.
 constexpr double least_node = 1e-12;
+// Cosine of the angle to a node's normal up to which faces count in how much of the node is covered: 60 degrees, less
+// rounding. (Those around an edge see something else.)
+constexpr double facing = 0.5 - 1e-9;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double rounding = 1e-14;
 
@@ -70,15 +73,27 @@ class Gathering {
  public:
   Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering, bool axisymmetric,
             const std::vector<mortar::FaceIntegrals<D, P>>& seen)
-      : slave_(slave), master_(master), one_numbering_(one_numbering), seen_(seen), place_(master.node.size(), -1) {
+      : slave_(slave),
+        master_(master),
+        one_numbering_(one_numbering),
+        axisymmetric_(axisymmetric),
+        seen_(seen),
+        place_(master.node.size(), -1) {
     list_records();
     whole_.assign(slave.node.size(), 0);
     around_.assign(slave.node.size(), 0);
-    for (Index f = 0; f < static_cast<Index>(slave.faces.size()) / Face::parts; ++f) add_whole(Face(f), axisymmetric);
+    each_share([&](Face, Index p, double share, double of_face) {
+      whole_[p] += share;
+      around_[p] += of_face;
+    });
   }
 
   void run(const CoupleOptions& options, MortarCoupling<D>& out) {
     for (Index p = 0; p < size(); ++p) nodes_.push_back(sum(p, options));
+    front_.assign(slave_.node.size(), 0);
+    each_share([&](Face face, Index p, double share, double) {
+      if (faces(face, nodes_[p].normal)) front_[p] += share;
+    });
     for (Index p = 0; p < size(); ++p)
       if (nodes_[p].place == Place::paired)
         add_node(p, out);
@@ -106,23 +121,30 @@ class Gathering {
 
   Index size() const { return static_cast<Index>(slave_.node.size()); }
 
+  /// Calls visit(face, node, area of the node in it, area of the face) for all nodes of slave faces.
+  template <class Visit>
+  void each_share(const Visit& visit) const {
+    for (Index f = 0; f < static_cast<Index>(slave_.faces.size()) / Face::parts; ++f) each_share(Face(f), visit);
+  }
+
   /// Weighted as what faces see is: by the radius of bodies of revolution.
-  void add_whole(Face face, bool axisymmetric) {
+  template <class Visit>
+  void each_share(Face face, const Visit& visit) const {
     const auto point = face.points(slave_);
     const ElementMap<D, D - 1, P> map = face.map(slave_);
     std::array<double, Face::nodes> mean{};
     double of_face = 0;
     for (const auto& [barycentric, weight] : quadrature5<D - 1>()) {
-      const double here = weight * (axisymmetric ? map(barycentric)[0] : 1);
+      const double here = weight * (axisymmetric_ ? map(barycentric)[0] : 1);
       const auto value = basis<P>(barycentric);
       for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += here * value[p];
       of_face += here;
     }
-    for (std::size_t p = 0; p < point.size(); ++p) {
-      whole_[slave_.number[point[p]]] += face.area(slave_) * mean[p];
-      around_[slave_.number[point[p]]] += face.area(slave_) * of_face;
-    }
+    for (std::size_t p = 0; p < point.size(); ++p)
+      visit(face, slave_.number[point[p]], face.area(slave_) * mean[p], face.area(slave_) * of_face);
   }
+
+  bool faces(Face face, const Point<D>& normal) const { return dot(slave_.normal[face.part(0)], normal) >= facing; }
 
   // By slave node, in the order of the faces.
   void list_records() {
@@ -179,7 +201,7 @@ class Gathering {
     }
     out.node.push_back(slave_.node[p]);
     out.weight.push_back(node.weight);
-    out.covered.push_back(node.weight / whole_[p]);
+    out.covered.push_back(front_[p] > 0 ? node.weight / front_[p] : 1);
     out.normal.push_back(node.normal);
     out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
     out.nearest.push_back(nearest);
@@ -250,11 +272,12 @@ class Gathering {
 
   const mortar::Side<D>& slave_;
   const mortar::Side<D>& master_;
-  const bool one_numbering_;
+  const bool one_numbering_, axisymmetric_;
   const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
   std::vector<std::size_t> first_;
   std::vector<Seat> seats_;
   std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
+  std::vector<double> front_;           // area of a node in faces along its normal
   std::vector<Node> nodes_;
   std::vector<Index> place_;
   std::vector<Weight> row_, own_;

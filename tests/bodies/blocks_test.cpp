@@ -58,6 +58,29 @@ TEST(Stack, OfBlocksThatFrictionHoldsTakesFewCycles) {
   EXPECT_NEAR(report.last().contact[1].force[2], 0.001 * 0.93 * 0.93 * 0.4, 1e-9);
 }
 
+// A tilted stack: what few cycles on coarse meshes leave has slid far away, and neither cycles nor Newton's method find
+// back from there, or from zero.
+TEST(Stack, OfSoftAndStiffBlocksIsFoundMeshByMesh) {
+  std::string text = fix("b0", "bottom", "[0, 0]") + "[refine]\nuniform = 2\n";
+  const double left[] = {0, 0.3, 0.1, 0.25}, young[] = {1, 100, 0.01, 10};
+  const char* cells[] = {"[5, 2]", "[6, 3]", "[7, 2]", "[5, 3]"};
+  for (int k = 0; k < 4; ++k) {
+    const std::string name = fmt::format("b{}", k);
+    text += block(name, fmt::format("[{}, {}]", left[k], 0.3 * k), fmt::format("[{}, {}]", left[k] + 1, 0.3 * (k + 1)),
+                  cells[k], material(young[k])) +
+            load(name, "[2e-8, -1e-6]");
+    if (k > 0) text += pair(name, "bottom", fmt::format("b{}", k - 1), "top", "friction = 0.4\n", "elastic_coulomb");
+  }
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(report.last().contact[k].force[0], -2e-8 * 0.3 * (3 - k), 1e-15);
+    EXPECT_NEAR(report.last().contact[k].force[1], 1e-6 * 0.3 * (3 - k), 1e-13);
+  }
+  show("{} stages\n", report.last().summary.stages.size());
+}
+
 // Newton's method from zero finds what cycles slide away from.
 TEST(Stiff, BlocksThatFrictionHoldsOnASoftBedAreSolved) {
   const std::string text = block("bed", "[0, 0]", "[2, 1]", "[6, 3]", material(1)) +

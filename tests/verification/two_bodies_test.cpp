@@ -112,6 +112,46 @@ TEST(TwoBodies, AreaIsWhatIsInFrontOfTheOtherBody) {
     }
 }
 
+/// What is recovered is the same pressure on both sides.
+void expect_recovered(const std::string& text, double area, double pressure) {
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_TRUE(report.warnings.empty());
+  const ContactReport& contact = report.last().contact[0];
+  EXPECT_NEAR(contact.area, area, 1e-8 * area);
+  EXPECT_NEAR(contact.max_pressure, pressure, 1e-8 * pressure);
+  driver.visit(0, [&](const auto& run) {
+    for (const auto& node : run.results().contact.nodes) EXPECT_NEAR(node.recovered, pressure, 1e-8 * pressure);
+    for (const auto& node : run.results().masters)
+      if (node.contact) EXPECT_NEAR(node.recovered, pressure, 1e-8 * pressure);
+  });
+}
+
+// A block hangs over another one, and is pressed on there as from below: the same stress everywhere. The load has the
+// moments of one of 0.01 for x > 1 within the last face of the block.
+TEST(TwoBodies, PressuresAreKnownUpToTheEndOfTheOtherBody) {
+  const char* strained = "[\"0.0039 * x\", \"-0.0091 * y\"]";
+  for (const std::string& contact : {pair("upper", "bottom", "lower", "top"), pair("lower", "top", "upper", "bottom")})
+    expect_recovered(tables::block("lower", "[0, 0]", "[1, 1]", "[3, 3]") +
+                         tables::block("upper", "[0, 1]", "[1.3, 2]", "[4, 3]") +
+                         tables::fix("lower", "bottom", strained) + tables::fix("upper", "top", strained) +
+                         "[[load]]\nbody = \"upper\"\non = \"bottom\"\nvalue = [0, \"0.01 * (x > 0.975 ? "
+                         "0.92307692307692335 + 1.3108784706417589 * (x - 1.1375) : 0)\"]\n" +
+                         contact,
+                     1, 0.01);
+}
+
+// Faces around an edge are picked, and are in front of nothing.
+TEST(TwoBodies, FacesAroundAnEdgeAreNoPartOfTheContact) {
+  for (const std::string& contact :
+       {pair("upper", "boundary", "lower", "boundary"), pair("lower", "boundary", "upper", "boundary")})
+    expect_recovered(tables::block("lower", "[0, 0]", "[1, 1]", "[3, 3]", "young = 1\npoisson = 0\n") +
+                         tables::block("upper", "[0, 1]", "[1, 2]", "[4, 3]", "young = 1\npoisson = 0\n") +
+                         tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.02]") + contact,
+                     1, 0.01);
+}
+
 /// Lower half of a disk of radius 1, moved down onto a block.
 std::string disk_on_block(int refinements, const std::string& obstacle, double block_stiffness = 1) {
   return fmt::format(
