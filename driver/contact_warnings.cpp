@@ -87,11 +87,23 @@ std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& mo
     for (const ObstacleTerm<D>& term : model.obstacles) {
       if (!term.other) continue;
       const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
-      if (couple_sides(nodes, model, term, faces.slave, faces.master).nodes() > 0) continue;
-      warnings.push_back(fmt::format(
-          "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
-          "another side meant?",
-          term.origin));
+      const MortarCoupling<D> coupling = couple_sides(nodes, model, term, faces.slave, faces.master);
+      if (coupling.nodes() == 0)
+        warnings.push_back(fmt::format(
+            "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
+            "another side meant?",
+            term.origin));
+      const PrescribedNodes fixed = prescribed_nodes(nodes, collect_fixes<D, D>(nodes, model), coupling);
+      if (fixed.normal > 0 && fixed.normal < fixed.all)
+        warnings.push_back(fmt::format(
+            "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the normal: "
+            "nothing keeps the other body off them; expected free nodes, or the other side as the slave ('slave')",
+            term.origin, fixed.normal, fixed.all));
+      if (term.obstacle->friction() && fixed.without_friction())
+        warnings.push_back(fmt::format(
+            "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the surface: "
+            "no friction acts there along that; expected free nodes, or the other side as the slave ('slave')",
+            term.origin, fixed.some, fixed.all));
     }
   return warnings;
 }

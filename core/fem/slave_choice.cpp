@@ -18,6 +18,8 @@ namespace {
 
 /// Moduli that differ by less than this factor take as many cycles whichever body is the slave: then accuracy decides.
 constexpr double alike = 2;
+/// The slave may be so much stiffer to have free nodes: cycles are five times as many then.
+constexpr double far_stiffer = 100;
 /// Contact is where bodies are closest: up to this part of a face's length farther apart. Bodies dent each other less
 /// than that on meshes that show it.
 constexpr double depth = 0.1;
@@ -28,10 +30,11 @@ constexpr double as_fine = 1.01;
 struct SideFacts {
   std::vector<Index> nodes;      ///< that see the other one, or are seen; ascending
   double modulus = 0, size = 0;  ///< near the other body; of faces
-  bool prescribed = false;       ///< along the normal at all these nodes
-  std::string taken;             ///< by another obstacle: its name; empty: no
+  PrescribedNodes fixed;
+  std::string taken;  ///< by another obstacle: its name; empty: no
 
-  bool may_be_slave() const { return !prescribed && taken.empty(); }
+  bool prescribed() const { return fixed.all > 0 && fixed.normal == fixed.all; }
+  bool may_be_slave() const { return !prescribed() && taken.empty(); }
 };
 
 /// Of a side the faces that are closest to the other body.
@@ -76,9 +79,12 @@ class Chooser {
     if (body.may_be_slave() != other.may_be_slave()) {
       const bool exchanged = other.may_be_slave();
       const SideFacts& master = exchanged ? body : other;
-      return {exchanged, master.prescribed ? "the other side is prescribed"
-                                           : fmt::format("{} acts on the other side, too", master.taken)};
+      return {exchanged, master.prescribed() ? "the other side is prescribed"
+                                             : fmt::format("{} acts on the other side, too", master.taken)};
     }
+    for (const bool exchanged : {false, true})
+      if (frees(exchanged ? other : body, exchanged ? body : other, model_.obstacles[k]))
+        return {exchanged, "nodes of the other side are prescribed"};
     if (body.modulus > alike * other.modulus) return {true, softer(other, body)};
     if (other.modulus > alike * body.modulus) return {false, softer(body, other)};
     if (body.size > as_fine * other.size) return {true, finer(other, body)};
@@ -87,6 +93,13 @@ class Chooser {
   }
 
  private:
+  /// Whether conditions are lost at the nodes of the other side, and not at those of this one.
+  static bool frees(const SideFacts& slave, const SideFacts& master, const ObstacleTerm<D>& term) {
+    if (term.obstacle->friction() && slave.fixed.without_friction() != master.fixed.without_friction())
+      return master.fixed.without_friction();
+    return slave.fixed.normal == 0 && master.fixed.normal > 0 && slave.modulus <= far_stiffer * master.modulus;
+  }
+
   void look_at_pair(Index k) {
     const Mesh<D>& mesh = nodes_.mesh();
     const ObstacleTerm<D>& term = model_.obstacles[k];
@@ -114,9 +127,7 @@ class Chooser {
     std::ranges::sort(out.nodes);
     out.nodes.erase(std::unique(out.nodes.begin(), out.nodes.end()), out.nodes.end());
     mark(k, out.nodes);
-    out.prescribed = own.nodes() > 0;
-    for (Index n = 0; n < own.nodes(); ++n)
-      out.prescribed = out.prescribed && !free_normal<D>(fixes_, nodes_.of_vertex(own.node[n]), own.normal[n]);
+    out.fixed = prescribed_nodes(nodes_, fixes_, own);
     double area = 0;
     for (const Index f : near) {
       const Face<D>& face = nodes_.mesh().boundary[f];
@@ -165,6 +176,22 @@ class Chooser {
 }  // namespace
 
 template <int D>
+PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
+                                 const MortarCoupling<D>& coupling) {
+  PrescribedNodes out;
+  out.all = coupling.nodes();
+  for (Index n = 0; n < coupling.nodes(); ++n) {
+    const Index p = nodes.of_vertex(coupling.node[n]);
+    const auto at = std::ranges::lower_bound(fixes, p, {}, &FixedDirections<D>::vertex);
+    if (at == fixes.end() || at->vertex != p) continue;
+    if (std::all_of(at->fix, at->fix + at->count, [](Index fix) { return fix < 0; })) continue;
+    ++out.some;
+    out.normal += !free_normal<D>(fixes, p, coupling.normal[n]);
+  }
+  return out;
+}
+
+template <int D>
 std::vector<SlaveChoice> choose_slaves(const Nodes<D>& nodes, const Model<D>& model) {
   const auto open = [](const ObstacleTerm<D>& term) { return term.other && term.slave == Slave::automatic; };
   std::vector<SlaveChoice> out;
@@ -183,6 +210,10 @@ void exchange_sides(const std::vector<SlaveChoice>& choices, Model<D>& model) {
     if (choices[k].exchanged) std::swap(model.obstacles[k].on, model.obstacles[k].other);
 }
 
+template PrescribedNodes prescribed_nodes(const Nodes<2>&, const std::vector<FixedDirections<2>>&,
+                                          const MortarCoupling<2>&);
+template PrescribedNodes prescribed_nodes(const Nodes<3>&, const std::vector<FixedDirections<3>>&,
+                                          const MortarCoupling<3>&);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<2>&, const Model<2>&);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<3>&, const Model<3>&);
 template void exchange_sides(const std::vector<SlaveChoice>&, Model<2>&);

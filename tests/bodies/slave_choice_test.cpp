@@ -52,6 +52,38 @@ TEST(Slave, IsTheSofterBody) {
     }
 }
 
+/// The upper block, softer by half, with one more fix.
+std::string with_fix(const std::string& fix, const std::string& obstacle) {
+  return text_of({.lower = material(1.9), .obstacle = obstacle, .more = fix});
+}
+
+// A fix takes the place of contact at the slave's nodes: the lower block is the slave, though the upper one is softer.
+TEST(Slave, HasNoNodesThatArePrescribedAlongTheNormal) {
+  const std::string fixed = tables::fix("upper", "right", "[\"free\", -0.05]");
+  const ContactReport contact = contact_of(with_fix(fixed, Press().obstacle));
+  EXPECT_EQ(contact.pair->slave, "lower");
+  EXPECT_EQ(contact.pair->reason, "nodes of the other side are prescribed");
+  EXPECT_LT(contact.largest_penetration, 0.05 * contact.largest_displacement);
+  // Where the scene wants it otherwise a warning says what that means.
+  Driver driver(scene_of(with_fix(fixed, pair("upper", "bottom", "lower", "top", "slave = \"body\"\n"))));
+  EXPECT_THAT(driver.solve().warnings, testing::Contains(HasSubstr("1 of 5 nodes of the slave on the coarsest mesh is "
+                                                                   "prescribed along the normal")));
+}
+
+// A pad that is dragged along as a whole.
+TEST(Slave, IsFreeToFeelFriction) {
+  const std::string dragged = tables::fix("upper", "boundary", "[0.01, \"free\"]");
+  const auto rough = [](const std::string& more) {
+    return pair("upper", "bottom", "lower", "top", "friction = 0.2\n" + more, "elastic_coulomb");
+  };
+  const ContactReport contact = contact_of(with_fix(dragged, rough("")));
+  EXPECT_EQ(contact.pair->slave, "lower");
+  EXPECT_LT(contact.tangential_force[0], -5e-4);
+  Driver driver(scene_of(with_fix(dragged, rough("slave = \"body\"\n"))));
+  EXPECT_THAT(driver.solve().warnings, testing::Contains(HasSubstr("no friction acts there along that")));
+  EXPECT_EQ(driver.report().last().contact[0].tangential_force[0], 0);
+}
+
 TEST(Slave, IsTheFinerBodyWhereBothAreAboutAsSoft) {
   for (const std::string& obstacle : {Press().obstacle, turned}) {
     SCOPED_TRACE(obstacle);
