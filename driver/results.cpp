@@ -35,8 +35,12 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
   out.masters = master_side(nodes, model, out.counterforces, out.u);
   const auto back = totals(out.counterforces, model.obstacles.size(), true);
+  const auto along = totals(out.counterforces, model.obstacles.size(), true, &NodalForce<B>::tangential);
   for (std::size_t k = 0; k < back.size(); ++k)
-    for (int i = 0; i < B; ++i) out.contact.obstacles[k].force[i] += back[k][i];
+    for (int i = 0; i < B; ++i) {
+      out.contact.obstacles[k].force[i] += back[k][i];
+      out.contact.obstacles[k].tangential_force[i] += along[k][i];
+    }
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));

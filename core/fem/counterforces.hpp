@@ -1,4 +1,5 @@
 #pragma once
+#include <type_traits>
 #include <vector>
 
 #include "core/fem/contact.hpp"
@@ -11,6 +12,7 @@ struct NodalForce {
   Index node;
   Index obstacle;  ///< number in Model::obstacles
   std::array<double, B> force;
+  std::array<double, B> tangential;       ///< along the surface, counted in `force`
   bool on_slave = false;                  ///< or on the master
   bool friction = false, sticks = false;  ///< of the slave's node, as ContactNode has them
 };
@@ -23,8 +25,11 @@ std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& 
                                          const DiscreteProblem<B>& problem, const ContactState<B>& contact);
 
 /// The sums of those on slaves, or on masters, per obstacle of the model; zero for obstacles that act on one body.
+/// @param part what is summed up
+template <int B>
+using PartOfForce = std::type_identity_t<std::array<double, B> NodalForce<B>::*>;
 template <int B>
 std::vector<std::array<double, B>> totals(const std::vector<NodalForce<B>>& forces, std::size_t obstacles,
-                                          bool on_slave = false);
+                                          bool on_slave = false, PartOfForce<B> part = &NodalForce<B>::force);
 
 }  // namespace signorini

@@ -79,6 +79,22 @@ TEST(Sliding, BackwardsTurnsFrictionRound) {
   EXPECT_NEAR(part(10), 1, 1e-6);
 }
 
+// Quadratic slaves that the slider covers in part: nodes there share what presses and drags with their neighbours.
+TEST(Sliding, QuadraticBodiesKeepCoulombsLaw) {
+  const std::string soft = "order = 2\nyoung = 1\npoisson = 0.3\n", hard = "order = 2\nyoung = 4\npoisson = 0.3\n";
+  Driver driver(scene_of(block("lower", "[0, -0.7]", "[3, 0]", "[6, 1]", soft) + fix("lower", "bottom", "[0, 0]") +
+                         block("upper", "[0.13, 0]", "[1.03, 0.5]", "[3, 2]", hard) +
+                         fix("upper", "top", "[\"1.2 * max(0, t - 0.25)\", \"-0.01 * min(1, 4 * t)\"]") + slides() +
+                         "[steps]\ncount = 4\n"));
+  const Report& report = solved(driver);
+  for (std::size_t k = 1; k < report.steps.size(); ++k) {
+    const ContactReport& contact = report.steps[k].contact[0];
+    EXPECT_EQ(contact.stick_nodes, 0);
+    EXPECT_NEAR(contact.normal_force[0], 0, 1e-10);
+    EXPECT_NEAR(std::abs(contact.tangential_force[0]), friction * contact.normal_force[1], 1e-9);
+  }
+}
+
 // Half of the block leaves the lower one at its end.
 TEST(Sliding, OverTheEndLosesArea) {
   const auto area = [](const std::string& more) {
