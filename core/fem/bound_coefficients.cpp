@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
-#include "core/base/dot.hpp"
+#include "core/fem/bound_bends.hpp"
 #include "core/fem/element.hpp"
 
 namespace signorini {
@@ -17,38 +16,21 @@ class Coefficients {
   Coefficients(const Nodes<D>& nodes, const std::vector<FixedDirections<B>>& fixes, std::vector<Bound<B>>& bounds)
       : nodes_(nodes), fixes_(fixes), bounds_(bounds) {}
 
-  void run() {
-    for (auto bound = bounds_.begin(); bound != bounds_.end(); ++bound) {
-      const auto [a, b] = nodes_.ends(bound->vertex);
-      if (a != b) move(*bound, twin(*bound, a), twin(*bound, b));
-    }
+  void run(const std::vector<BoundBend>& bends) {
+    for (std::size_t k = 0; k < bounds_.size(); ++k)
+      if (const auto [a, b] = nodes_.ends(bounds_[k].vertex); a != b) move(bounds_[k], bends[k]);
   }
 
  private:
-  /// Of the same obstacle, along nearly the same direction, at a corner.
-  const Bound<B>* twin(const Bound<B>& bound, Index corner) const {
-    auto at = std::ranges::lower_bound(bounds_, corner, {}, &Bound<B>::vertex);
-    for (; at != bounds_.end() && at->vertex == corner; ++at)
-      if (at->obstacle == bound.obstacle && dot(at->direction, bound.direction) > smooth_cosine) return &*at;
-    return nullptr;
-  }
-
-  void move(Bound<B>& bound, const Bound<B>* a, const Bound<B>* b) const {
+  void move(Bound<B>& bound, const BoundBend& bend) const {
     if (const auto by = prescribed_shift(bound)) {
       bound.lower += *by;
       bound.upper += *by;
       return;
     }
-    if (!a || !b) return;
-    // What presses on the ends moves them along their own directions, which on curved obstacles are others than here.
-    const double along_a = dot(a->direction, bound.direction), along_b = dot(b->direction, bound.direction);
-    const auto coefficient = [&](double value, double at_a, double at_b) {
-      if (!std::isfinite(at_a) || !std::isfinite(at_b)) return value;
-      return Nodes<D>::midpoint_coefficient(value, along_a * at_a, along_b * at_b);
-    };
     const bool feasible = bound.lower <= bound.upper;
-    bound.lower = bound.gap + coefficient(bound.lower - bound.gap, a->lower - a->gap, b->lower - b->gap);
-    bound.upper = bound.gap + coefficient(bound.upper - bound.gap, a->upper - a->gap, b->upper - b->gap);
+    bound.lower += Nodes<D>::midpoint_coefficient(0, bend.lower / 2, bend.lower / 2);
+    bound.upper += Nodes<D>::midpoint_coefficient(0, bend.upper / 2, bend.upper / 2);
     if (feasible && bound.lower > bound.upper) bound.lower = bound.upper = (bound.lower + bound.upper) / 2;
   }
 
@@ -82,13 +64,14 @@ class Coefficients {
 }  // namespace
 
 template <int D, int B>
-void bound_coefficients(const Nodes<D>& nodes, const std::vector<FixedDirections<B>>& fixes,
+void bound_coefficients(const Nodes<D>& nodes, const Model<B>& model, const std::vector<FixedDirections<B>>& fixes,
                         std::vector<Bound<B>>& bounds) {
-  if (nodes.order() > 1) Coefficients<D, B>(nodes, fixes, bounds).run();
+  if (nodes.order() > 1) Coefficients<D, B>(nodes, fixes, bounds).run(bound_bends(nodes, model, bounds));
 }
 
-#define SIGNORINI_INSTANTIATE(D, B) \
-  template void bound_coefficients(const Nodes<D>&, const std::vector<FixedDirections<B>>&, std::vector<Bound<B>>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                          \
+  template void bound_coefficients(const Nodes<D>&, const Model<B>&, const std::vector<FixedDirections<B>>&, \
+                                   std::vector<Bound<B>>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -158,6 +158,7 @@ class Collector {
     const double length = normalise(bound.direction);
     const std::string& origin = model_.obstacles[obstacle_].origin;
     if (!(std::fabs(length - 1) < same_direction))
+    bound.part = part;
       input_error(origin, fmt::format("direction of length {} at {}, expected a unit vector", length,
                                       position(nodes_, vertex)));
     if (std::isnan(bound.lower) || std::isnan(bound.upper))

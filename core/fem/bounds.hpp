@@ -13,6 +13,7 @@ struct Bound {
   double lower, upper;
   Index data = -1;  ///< place of its FunctionalNumbers, where the obstacle has a functional here
   double gap = 0;   ///< between bodies: what both bounds contain of PairedNode::gap
+  double part = 1;  ///< of what the obstacle says, see PairedNode::part
 };
 
 /// What an obstacle with a functional says at a vertex beside its bound.

@@ -79,7 +79,7 @@ class Discretizer {
       out_.pairs = pairing_;
       refuse_other_bounds();
     }
-    bound_coefficients(nodes, fixes_, bounds_);
+    bound_coefficients(nodes, model, fixes_, bounds_);
     const auto n = static_cast<std::size_t>(nodes.size());
     problem().fixed.assign(n, 0);
     problem().start.assign(n * B, 0);

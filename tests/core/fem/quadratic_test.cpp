@@ -1,6 +1,8 @@
 // Quadratic elements: fields that they hold come out to rounding.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mesh/refine.hpp"
@@ -301,6 +303,64 @@ TEST(Quadratic, BoundsAreThoseOfCoefficients) {
     const double expected = nodes.coefficient(p, [&](Index q) { return quadratic<2>(0, nodes.at(q)); });
     EXPECT_NEAR(problem.constraints.lower[slot], expected, 1e-14);
     EXPECT_NEAR(problem.constraints.upper[slot], expected + 0.001, 1e-14);
+  }
+}
+
+/// Bounds of a scalar unknown on the unit square or cube, as functions of x.
+template <int D>
+DiscreteProblem<1> bounded(int cells, const std::function<double(double)>& lower,
+                           const std::function<double(double)>& upper) {
+  const Mesh<D> mesh = refined(unit_mesh<D>(cells));
+  Model<1> model;
+  const auto rule = [=](const SurfaceVertex& v) { return bound<1>({1}, lower(v.position[0]), upper(v.position[0])); };
+  model.obstacles.push_back(term<1>(rule, {}));
+  return discretize<D, 1>(Nodes<D>(mesh, 2), model).problem;
+}
+
+/// No quadratic function jumps: where bounds do, within an edge or twice in it, those of coefficients are the
+/// obstacle's own, and none is off by a part of the jump.
+template <int D>
+void expect_jumps_stay_where_they_are() {
+  for (const double at : {0.3, 0.4, 0.5, 0.55, 0.65}) {
+    const auto step = [=](double x) { return x < at ? 0.0 : -1.0; };
+    const auto bump = [=](double x) { return std::abs(x - at) < 0.11 ? 0.0 : -1e30; };
+    const auto gone = [=](double x) { return x < at ? 0.0 : -infinity; };
+    for (const std::function<double(double)>& lower : {std::function<double(double)>(step), {bump}, {gone}}) {
+      const auto upper = [&](double x) { return 1 - lower(1 - x); };
+      const auto problem = bounded<D>(3, lower, upper);
+      for (Index slot = 0; slot < problem.constraints.size(); ++slot) {
+        const double low = problem.constraints.lower[slot], high = problem.constraints.upper[slot];
+        EXPECT_TRUE(low == lower(0) || low == lower(1) || low == lower(at)) << low;
+        EXPECT_TRUE(high == upper(0) || high == upper(1) || high == upper(1 - at)) << high;
+      }
+    }
+  }
+}
+
+TEST(Quadratic, BoundsThatJumpAreNotExtrapolated) {
+  expect_jumps_stay_where_they_are<2>();
+  expect_jumps_stay_where_they_are<3>();
+}
+
+/// What limits jumps leaves smooth bounds alone, up to third order: also where they turn and where their curvature
+/// changes its sign.
+TEST(Quadratic, SmoothBoundsKeepTheirCoefficients) {
+  const auto psi = [](double x) { return std::sin(7 * x); };
+  double last = 0;
+  for (const int cells : {4, 8, 16}) {
+    const Mesh<2> mesh = refined(unit_mesh<2>(cells));
+    const Nodes<2> nodes(mesh, 2);
+    const auto problem = bounded<2>(cells, psi, [](double) { return infinity; });
+    double worst = 0;
+    for (Index slot = 0; slot < problem.constraints.size(); ++slot) {
+      const Index p = problem.constraints.vector[slot];
+      const double expected = nodes.coefficient(p, [&](Index q) { return psi(nodes.at(q)[0]); });
+      const double off = std::abs(problem.constraints.lower[slot] - expected);
+      if (std::abs(psi(nodes.at(p)[0])) > 4.0 / cells) EXPECT_LT(off, 1e-14);
+      worst = std::max(worst, off);
+    }
+    if (last > 0) EXPECT_LT(worst, last / 6);
+    last = worst;
   }
 }
 
