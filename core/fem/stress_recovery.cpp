@@ -73,6 +73,8 @@ class StressRecovery {
         around_(nodes),
         boundary_(nodes.size()),
         between_materials_(nodes.size()),
+        mirrors_(nodes.mesh().mirrors),
+        mirrored_(nodes.size()),
         patch_(elements_.size()),
         near_nodes_(nodes.size()),
         grown_nodes_(nodes.size()) {
@@ -84,19 +86,29 @@ class StressRecovery {
     }
     for (const Face<D>& face : nodes.mesh().boundary)
       for (const Index p : nodes.of(face.vertices)) boundary_[p] = true;
+    if (model.plane == Plane::axisymmetric) mirrors_.push_back({.axis = 0, .at = 0});
+    for (const Mirror& mirror : mirrors_)
+      for (Index p = 0; p < nodes.size(); ++p)
+        if (lies_on<D>(mirror, nodes.at(p))) mirrored_[p] = true;
     for (Index p = 0; p < nodes.size(); ++p)
       for (const Index e : around_.at(p))
         if (nodes.region(e) != nodes.region(around_.at(p).front())) boundary_[p] = between_materials_[p] = true;
   }
 
-  /// Per node. Those inside come first: linear elements have no points where stresses are better than elsewhere, but
-  /// what makes them worse cancels around a node inside, and the fits of the others start from there.
+  /// Per node. Linear elements have no points where stresses are better than elsewhere, but what makes them worse
+  /// cancels around a node inside whose patch is its own image in it. The fits of the others start from there: first of
+  /// those inside, then of those on the boundary.
   std::vector<Stress> run() {
     recovered_.resize(nodes_.size());
     find_midpoints();
-    for (const bool outermost : {false, true})
+    find_regular();
+    const auto each = [this](const auto& chosen) {
       for (Index p = 0; p < nodes_.size(); ++p)
-        if (boundary_[p] == outermost && !is_midpoint(p)) recovered_[p] = at(p);
+        if (!is_midpoint(p) && chosen(p)) recovered_[p] = at(p);
+    };
+    each([this](Index p) { return !boundary_[p] && regular_[p]; });
+    each([this](Index p) { return !boundary_[p] && !regular_[p]; });
+    each([this](Index p) { return boundary_[p]; });
     for (Index p = 0; p < nodes_.size(); ++p)
       if (is_midpoint(p)) recovered_[p] = seen_[p] == 2 ? mean_of_ends(p) : at(p);
     return std::move(recovered_);
@@ -124,6 +136,32 @@ class StressRecovery {
     each_end([&](Index p, Index end) { midpoint_[next[end]++] = p; });
   }
 
+  /// Those inside, on no plane of symmetry nor the axis, with linear elements in a patch that is its own image in them.
+  void find_regular() {
+    inner_.resize(nodes_.size());
+    regular_.resize(nodes_.size());
+    for (Index p = 0; p < nodes_.size(); ++p) {
+      inner_[p] = !boundary_[p];
+      regular_[p] = inner_[p] && !mirrored_[p] && (P == 2 || is_own_image(p));
+    }
+  }
+
+  bool is_own_image(Index p) {
+    constexpr double same = 0.1;  // of the way to a neighbour; where refinement follows a curve it is a part of h
+    near_nodes_.clear();
+    for (const Index e : around_.at(p))
+      for (const Index q : nodes_.of(elements_[e]))
+        if (q != p) near_nodes_.add(q);
+    return std::ranges::all_of(near_nodes_, [&](Index q) {
+      const Point<D> there = difference<D>(nodes_.at(q), nodes_.at(p));
+      return std::ranges::any_of(near_nodes_, [&](Index other) {
+        Point<D> off = difference<D>(nodes_.at(other), nodes_.at(p));
+        for (int i = 0; i < D; ++i) off[i] += there[i];
+        return dot<D>(off, off) <= same * same * dot<D>(there, there);
+      });
+    });
+  }
+
   /// Adds what a vertex's polynomial is at the midpoints of its edges.
   void add_at_midpoints(Index vertex, const PolynomialFit<2, D, 6>& fit) {
     for (Offset k = first_midpoint_[vertex]; k < first_midpoint_[vertex + std::size_t{1}]; ++k) {
@@ -145,7 +183,7 @@ class StressRecovery {
     const auto elements = around_.at(p);
     if (elements.empty()) return {};
     if (!boundary_[p])
-      if (const auto found = inside(p)) return *found;
+      if (const auto found = regular_[p] ? inside(p) : from_regular(p)) return *found;
     Stress sum{};
     int materials = 0;
     for (auto first = elements.begin(); first != elements.end(); ++first) {
@@ -162,7 +200,7 @@ class StressRecovery {
     return sum;
   }
 
-  /// The usual case, without a patch that may grow: of one material, on no plane of symmetry.
+  /// The usual case, without a patch that may grow: of one material, on no plane of symmetry nor the axis.
   std::optional<Stress> inside(Index p) {
     const std::size_t count = points().size();
     const Point<D>& origin = nodes_.at(p);
@@ -175,19 +213,32 @@ class StressRecovery {
     return fit<P>(p);
   }
 
+  /// From regular nodes around it, where these have it between them: their errors do not grow.
+  std::optional<Stress> from_regular(Index p) {
+    if (P == 2) return {};
+    patch_.clear();
+    for (const Index e : around_.at(p)) patch_.add(e);
+    start_layers();
+    add_layer();
+    add_nodes(regular_);
+    return fitted<2>(p, 1);
+  }
+
   Stress of_patch(Index p) {
     const bool outermost = boundary_[p];
-    grown_ = 0;
-    grown_nodes_.clear();
+    start_layers();
     if (outermost) add_layer();
     for (int layer = outermost ? 2 : 1; layer <= most_layers; ++layer, add_layer()) {
-      near_.clear();
-      outermost&& P == 1 ? add_nodes() : add_elements();
+      outermost&& P == 1 ? add_nodes(inner_) : add_elements();
       if (const auto found = outermost ? fitted<2>(p) : fitted<P>(p)) return *found;
     }
-    near_.clear();
     add_elements();
     return fitted<1>(p).value_or(mean());
+  }
+
+  void start_layers() {
+    grown_ = 0;
+    grown_nodes_.clear();
   }
 
   /// Of elements of the same material.
@@ -201,6 +252,7 @@ class StressRecovery {
   }
 
   void add_elements() {
+    near_.clear();
     const std::size_t count = points().size();
     for (const Index e : patch_) {
       const auto first = samples_.begin() + static_cast<Offset>(e * count);
@@ -208,18 +260,21 @@ class StressRecovery {
     }
   }
 
-  void add_nodes() {
+  /// @param chosen which ones, per node
+  void add_nodes(const std::vector<char>& chosen) {
+    near_.clear();
     near_nodes_.clear();
     for (const Index e : patch_)
       for (const Index p : nodes_.of(elements_[e]))
-        if (!boundary_[p]) near_nodes_.add(p);
+        if (chosen[p]) near_nodes_.add(p);
     for (const Index p : near_nodes_) near_.push_back({nodes_.at(p), recovered_[p]});
   }
 
-  /// Of a node on planes of symmetry the samples beyond them.
+  /// Of a node on planes of symmetry the samples beyond them. The axis of a body of revolution is such a plane of its
+  /// meridian: there, too, stresses are even functions of the distance, and shear is odd.
   void add_images(Index p) {
     constexpr int shear[3][2] = {{3, 5}, {3, 4}, {4, 5}};  // those that change their sign
-    for (const Mirror& mirror : nodes_.mesh().mirrors) {
+    for (const Mirror& mirror : mirrors_) {
       if (!lies_on<D>(mirror, nodes_.at(p))) continue;
       for (std::size_t k = 0, count = near_.size(); k < count; ++k) {
         if (lies_on<D>(mirror, near_[k].x)) continue;
@@ -232,19 +287,19 @@ class StressRecovery {
   }
 
   template <int Degree>
-  std::optional<Stress> fitted(Index p) {
+  std::optional<Stress> fitted(Index p, double amplified = most_amplified) {
     add_images(p);
     for (auto& sample : near_)
       for (int i = 0; i < D; ++i) sample.x[i] -= nodes_.at(p)[i];
-    return fit<Degree>(p);
+    return fit<Degree>(p, amplified);
   }
 
   /// Of what is near, seen from the node.
   template <int Degree>
-  std::optional<Stress> fit(Index p) {
+  std::optional<Stress> fit(Index p, double amplified = most_amplified) {
     if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
     const PolynomialFit<Degree, D, 6> fit(near_);
-    const auto found = fit.at({}, most_amplified);
+    const auto found = fit.at({}, amplified);
     if constexpr (P == 2 && Degree == 2)
       if (found && !is_midpoint(p) && !between_materials_[p]) add_at_midpoints(p, fit);
     return found;
@@ -262,6 +317,9 @@ class StressRecovery {
   const ElementsAround<D, P> around_;
   std::vector<Sample<D, 6>> samples_;               // of all elements
   std::vector<char> boundary_, between_materials_;  // per node; the latter ones are on the boundary, too
+  std::vector<Mirror> mirrors_;                     // the axis of a body of revolution among them
+  std::vector<char> mirrored_;                      // per node: whether it lies on one
+  std::vector<char> inner_, regular_;               // per node: not on the boundary; see find_regular()
   std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
   std::vector<Index> midpoint_;                     // of edges, by their ends
   std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials

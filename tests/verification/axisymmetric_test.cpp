@@ -306,6 +306,38 @@ TEST(AxisymmetricQuadratic, OrdersOfLamesTube) {
         most =
             std::max({most, std::abs(recovered[v][0] - exact.radial(at)), std::abs(recovered[v][2] - exact.hoop(at))});
       }
+/// Stresses on the axis see the body beyond it. u = (0.3 r^3 + 0.7 r z, -0.4 z^3 + 0.9 r^2 z) is held by its values and
+/// what it takes.
+TEST(AxisymmetricQuadratic, OrderOfStressesOnTheAxis) {
+  constexpr double a = 0.3, b = 0.7, c = -0.4, d = 0.9;
+  const std::string body =
+      rectangle_body("[0, -0.3]", "[1.3, 0.8]", "[3, 4]") +
+      fixed("on = \"boundary\"", "[\"0.3*x^3+0.7*x*y\", \"-0.4*y^3+0.9*x^2*y\"]") +
+      loaded("", fmt::format("[\"-{}*x\", \"-{}-{}*y\"]", lambda * (8 * a + 2 * d) + mu * (16 * a + 2 * d),
+                             2 * b * (lambda + mu), 6 * c * (lambda + 2 * mu) + 4 * d * mu)) +
+      "[solver]\ntolerance = 1e-11\n";
+  for (const int order : {1, 2}) {
+    Errors error;
+    for (int k = 2; k <= 4; ++k) {
+      const auto r = run<2, 2>(order == 1 ? body : quadratic(body), {uniform(k)});
+      const auto recovered = nodal_stress(r.nodes(), r.model, r.u());
+      double most = 0;
+      for (Index v = 0; v < r.mesh().vertices(); ++v) {
+        const auto [radius, z] = r.mesh().points[v];
+        if (radius > 0 || z < 0 || z > 0.5) continue;
+        const double radial = b * z, along = 3 * c * z * z, trace = 2 * radial + along;
+        most = std::max({most, std::abs(recovered[v][0] - (lambda * trace + 2 * mu * radial)),
+                         std::abs(recovered[v][1] - (lambda * trace + 2 * mu * along)),
+                         std::abs(recovered[v][2] - (lambda * trace + 2 * mu * radial)), std::abs(recovered[v][3])});
+      }
+      error.add(most);
+      show("order {}: stress on the axis {:.2e} order {:.2f}\n", order, most, error.last_order());
+    }
+    EXPECT_GE(error.last_order(), order == 1 ? 1.0 : 1.95);
+    EXPECT_LT(error.value.back(), order == 1 ? 1.1e-3 : 1.2e-4);
+  }
+}
+
       stress.add(most / Tube::p);
       show(
           "quadratic tube: displacement {:.2e} order {:.2f}, energy {:.2e} order {:.2f}, largest stress {:.2e} order "

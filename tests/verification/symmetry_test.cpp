@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/base/error.hpp"
+#include "core/fem/stress.hpp"
 #include "core/mesh/build.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/simplex.hpp"
@@ -121,6 +122,40 @@ TEST(Symmetry, HalvesInThePlane) {
       SCOPED_TRACE(std::string(material) + type);
       expect_same(solved(half, material, rest + planes(mirrors)), solved(whole, material, rest), 2, 1e-9, 0.01);
     }
+}
+
+/// Stresses on the plane of symmetry are those that the whole body has there.
+template <int D>
+void expect_stresses_of_the_whole(const Mesh<D>& part, const std::string& rest) {
+  const std::vector<Mirror> mirrors{{.axis = 0, .at = 0}};
+  const TemporaryFolder folder;
+  for (const int order : {1, 2}) {
+    const auto recovered = [&](const Mesh<D>& mesh, const char* name, const std::string& planes) {
+      const std::string text = fmt::format(
+          "[[body]]\nname = \"b\"\nmesh = \"{}\"\ngeometry = \"facets\"\norder = {}\nyoung = 1\npoisson = 0.3\n{}{}",
+          folder.write(name, msh(mesh, Motion<D>())), order, planes, rest);
+      const auto r = run<D, D>(text, {"solver.tolerance=1e-12"});
+      const std::vector<Stress> stress = nodal_stress(r.nodes(), r.model, r.u());
+      std::map<Point<D>, Stress> out;
+      for (Index v = 0; v < r.mesh().vertices(); ++v)
+        if (lies_on<D>(mirrors[0], r.mesh().points[v])) out[r.mesh().points[v]] = stress[v];
+      return out;
+    };
+    const auto of_part = recovered(part, "part.msh", planes(mirrors));
+    const auto of_whole = recovered(whole_of(part, mirrors), "whole.msh", "");
+    ASSERT_EQ(of_part.size(), of_whole.size());
+    for (const auto& [x, stress] : of_part)
+      for (int k = 0; k < 6; ++k) EXPECT_NEAR(stress[k], of_whole.at(x)[k], 1e-8) << "order " << order << ", " << k;
+  }
+}
+
+TEST(Symmetry, StressesOnPlanes) {
+  expect_stresses_of_the_whole<2>(rectangle({0, 0}, {1, 1}, {5, 5}),
+                                  "[[fix]]\nbody = \"b\"\non = \"bottom\"\nvalue = [0, 0]\n"
+                                  "[[load]]\nbody = \"b\"\non = \"top\"\nvalue = [\"-x\", \"x^2-1\"]\n");
+  expect_stresses_of_the_whole<3>(box({0, 0, 0}, {1, 1, 1}, {3, 3, 3}),
+                                  "[[fix]]\nbody = \"b\"\non = \"bottom\"\nvalue = [0, 0, 0]\n"
+                                  "[[load]]\nbody = \"b\"\non = \"top\"\nvalue = [\"-x\", \"y\", \"x^2-1\"]\n");
 }
 
 TEST(Symmetry, HalvesOfRubber) {
