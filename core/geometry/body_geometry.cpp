@@ -11,6 +11,7 @@
 #include "core/geometry/recognise.hpp"
 #include "core/mesh/bends.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/element_map.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/separate.hpp"
 #include "core/mesh/simplex.hpp"
@@ -22,17 +23,40 @@ namespace {
 constexpr double rounding = 1e-6, flat = 1e-9, near = 1e-3;
 
 template <int D>
-Point<D> unit_normal(const Mesh<D>& mesh, const Face<D>& face) {
-  const auto& p = mesh.points;
-  const Point<D> u = difference<D>(p[face.vertices[1]], p[face.vertices[0]]);
-  Point<D> n;
-  if constexpr (D == 2)
-    n = {u[1], -u[0]};
-  else
-    n = cross(u, difference<D>(p[face.vertices[2]], p[face.vertices[0]]));
+Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
+  Point<D> n = area_normal(corner);
   const double size = length<D>(n);
   for (double& x : n) x /= size;
   return n;
+}
+
+template <int D>
+Point<D> unit_normal(const Mesh<D>& mesh, const Face<D>& face) {
+  std::array<Point<D>, D> corner;
+  for (int i = 0; i < D; ++i) corner[i] = mesh.points[face.vertices[i]];
+  return unit_normal<D>(corner);
+}
+
+/// Of the edge between two corners of a face, which are counted within it.
+template <int D>
+const Point<D>& bend(const Mesh<D>& mesh, const Face<D>& face, int i, int j) {
+  const Simplex<D>& element = mesh.elements[face.element];
+  const auto at = [&](int k) {
+    return static_cast<int>(std::ranges::find(element, face.vertices[k]) - element.begin());
+  };
+  return mesh.bends[face.element][edge_between<D>(at(i), at(j))];
+}
+
+/// Of a face, which may be curved, at a corner.
+template <int D>
+Point<D> corner_normal(const Mesh<D>& mesh, const Face<D>& face, int corner) {
+  if (mesh.bends.empty()) return unit_normal(mesh, face);
+  std::array<Point<D>, D> tangent_face;
+  for (int i = 0; i < D; ++i) {
+    tangent_face[i] = mesh.points[face.vertices[i]];
+    for (int k = 0; k < D && i != corner; ++k) tangent_face[i][k] += 4 * bend(mesh, face, corner, i)[k];
+  }
+  return unit_normal<D>(tangent_face);
 }
 
 /// Of curved elements: see JointNormal. With the bends c of the edges, the derivative along edge ab at its end a is
@@ -40,13 +64,7 @@ Point<D> unit_normal(const Mesh<D>& mesh, const Face<D>& face) {
 template <int D>
 Point<D> curved_normal(const Mesh<D>& mesh, std::size_t f, int tip) {
   const Face<D>& face = mesh.boundary[f];
-  const Simplex<D>& element = mesh.elements[face.element];
-  const auto bend = [&](int i, int j) {
-    const auto at = [&](int k) {
-      return static_cast<int>(std::ranges::find(element, face.vertices[k]) - element.begin());
-    };
-    return mesh.bends[face.element][edge_between<D>(at(i), at(j))];
-  };
+  const auto bend = [&](int i, int j) { return geometry::bend(mesh, face, i, j); };
   const auto p = [&](int i) { return mesh.points[face.vertices[i]]; };
   const auto plus = [](Point<D> a, double factor, const Point<D>& b) {
     for (int k = 0; k < D; ++k) a[k] += factor * b[k];
@@ -352,21 +370,21 @@ class Chooser {
     return kind == cylinder ? "cylinder" : kind == cone ? "cone" : "torus";
   }
 
-  /// Whether faces lie along the shape, and it does not turn far over one: points alone may be on shapes that they do
-  /// not stand for.
+  /// Whether faces lie along the shape, and it does not turn far over one, or a curved one turns with it: points alone
+  /// may be on shapes that they do not stand for.
   bool is_along(const Curve<D>& curve, const std::vector<Index>& piece) const {
     const double cosine = std::cos((D == 2 ? 0.6 : 0.8) * crease_);  // of a side, and of a triangle's longest
     int side = 0;
     return std::ranges::all_of(piece, [&](Index f) {
-      const Point<D> n = unit_normal(mesh_, mesh_.boundary[f]);
-      return std::ranges::all_of(faces_[f], [&](Index v) {
-        const auto off = height<D>(curve, mesh_.points[v]);
+      for (int i = 0; i < D; ++i) {
+        const auto off = height<D>(curve, mesh_.points[faces_[f][i]]);
         if (!off) return false;
-        const double along = dot(off->normal, n);
+        const double along = dot(off->normal, corner_normal(mesh_, mesh_.boundary[f], i));
         const int here = along > 0 ? 1 : -1;
         if (side == 0) side = here;
-        return here == side && std::abs(along) >= cosine;
-      });
+        if (here != side || std::abs(along) < cosine) return false;
+      }
+      return true;
     });
   }
 

@@ -316,6 +316,41 @@ TEST(BodyGeometry, SecondOrderElementsAreTheGeometryUnlessToldOtherwise) {
   EXPECT_EQ(std::ranges::count(hierarchy(facets, 1).finest().points, raw.points[3]), 0);
 }
 
+/// A fan of n triangles around the middle of a unit circle.
+/// @param curved whether the outer edges have their midpoints on the circle
+Mesh<2> fan(Index n, bool curved) {
+  RawMesh<2> raw;
+  const auto on_circle = [n](double i) {
+    const double angle = 2 * std::numbers::pi * i / n;
+    return Point<2>{std::cos(angle), std::sin(angle)};
+  };
+  for (Index i = 0; i < n; ++i) raw.points.push_back(on_circle(i));
+  raw.points.push_back({0, 0});
+  for (Index i = 0; i < n; ++i) {
+    raw.elements.push_back({n, i, (i + 1) % n});
+    if (!curved) continue;
+    auto& middle = raw.middle.emplace_back();
+    middle.fill(-1);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (simplex_edges<2>()[k] == std::array{1, 2}) middle[k] = static_cast<Index>(raw.points.size());
+    raw.points.push_back(on_circle(i + 0.5));
+  }
+  return build_mesh<2>(raw, "test");
+}
+
+// However long its elements are, a circle is one where they bend along it; polygons keep their corners.
+TEST(BodyGeometry, LongSecondOrderElementsOnACircleStandForIt) {
+  for (const Index n : {4, 5, 6, 8, 10, 12}) {
+    Mesh<2> circle = fan(n, true), polygon = fan(n, false);
+    give_geometry(circle, Surfaces::automatic);
+    EXPECT_EQ(kinds(circle), std::multiset<std::string>{"circle"}) << n;
+    EXPECT_LT(off_unit_sphere(circle), 1e-14) << n;
+    if (n > 10) continue;  // more than 35 degrees
+    give_geometry(polygon, Surfaces::automatic);
+    EXPECT_EQ(kinds(polygon).count("line"), static_cast<std::size_t>(n));
+  }
+}
+
 // Refinement then goes on along the circle, not along the parabolas of the elements.
 TEST(BodyGeometry, SecondOrderElementsWhoseNodesAreOnAShapeStandForIt) {
   const Mesh<2> flat = without_geometry(meshed<2>(geometry::Shape2(geometry::Disk{{0, 0}, 1}), 0.5));
