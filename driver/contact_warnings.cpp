@@ -18,6 +18,8 @@
 namespace signorini {
 namespace {
 
+static_assert(largest_turn == geometry::default_crease);
+
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements where contact is
 constexpr double coarse = 0.1;       // of these, between nodes

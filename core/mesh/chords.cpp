@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6, edge = std::numbers::pi / 6, widest = 1.01 * std::numbers::pi / 3;  // angles
+constexpr double rounding = 1e-6, widest = 1.01 * std::numbers::pi / 3;  // angles
 constexpr double same = 0.05, same_direction = 1e-3;
 constexpr std::size_t round = 5;  // directions of faces
 
@@ -119,7 +119,9 @@ void each_marked_joint(const MeshHierarchy<D>& hierarchy, std::vector<bool> mark
 
 }  // namespace
 
-double sagitta(double angle, double across) { return angle > rounding && angle < edge ? angle * across / 8 : 0; }
+double sagitta(double angle, double across) {
+  return angle > rounding && angle <= largest_turn ? angle * across / 8 : 0;
+}
 
 template <int D>
 Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked) {
@@ -131,7 +133,8 @@ Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked
     const Point<D> here = across(mesh, one, a.tip), there = across(mesh, other, b.tip);
     const double size = std::min(length<D>(here), length<D>(there)), angle = turn<D>(here, there);
     if (const double off = sagitta(angle, size); off > largest.sagitta) largest = {off, angle};
-    if (angle >= edge && angle <= widest) wide.push_back({angle, size, {direction(mesh, one), direction(mesh, other)}});
+    if (angle > largest_turn && angle <= widest)
+      wide.push_back({angle, size, {direction(mesh, one), direction(mesh, other)}});
   });
   const Chords wider = widest_chords(wide);
   return wider.sagitta > largest.sagitta ? wider : largest;

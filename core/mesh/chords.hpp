@@ -1,12 +1,16 @@
 #pragma once
+#include <numbers>
 #include <vector>
 
 #include "core/mesh/mesh.hpp"
 
 namespace signorini {
 
+/// Flat faces that meet at more (radians) meet at an edge: the angle that bodies have their creases by.
+inline constexpr double largest_turn = 35 * std::numbers::pi / 180;
+
 /// How far flat faces with this angle (radians) between them are from the curve through their vertices that they may
-/// stand for; 0 where the angle is so large, more than 30 degrees, that there is an edge, or nothing but rounding.
+/// stand for; 0 where the angle is so large, more than largest_turn, that there is an edge, or nothing but rounding.
 /// @param across extent of the smaller face across what both have in common
 double sagitta(double angle, double across);
 
@@ -16,8 +20,9 @@ struct Chords {
 };
 
 /// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a
-/// vertex) in common and are not on a curve that the mesh knows. 0 where there is no finer mesh. Faces at more than 30
-/// and up to 60 degrees count where they look like a round: five and more directions, one angle between them.
+/// vertex) in common and are not on a curve that the mesh knows. 0 where there is no finer mesh. Faces at more than
+/// largest_turn and up to 60 degrees count where they look like a round: five and more directions, one angle between
+/// them.
 /// @param marked vertices of the finest mesh; on coarser ones those are that they were made from
 template <int D>
 Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked);

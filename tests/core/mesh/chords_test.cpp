@@ -48,6 +48,13 @@ TEST(Chords, SagittaIsThatOfTheArcsThroughTheVertices) {
     }
 }
 
+/// Up to the angle that bodies have their creases by.
+TEST(Chords, OfThirtyDegreesCount) {
+  const double exact = 2 * (1 - std::cos(pi / 12));
+  EXPECT_NEAR(sagitta_everywhere(arch(3), 1), exact, 0.02 * exact);
+  EXPECT_NEAR(sagitta_everywhere(arch_3d(3), 1), exact, 0.02 * exact);
+}
+
 TEST(Chords, PolyhedraAndMeshesThatAreNotRefinedHaveNone) {
   EXPECT_EQ(sagitta_everywhere(rectangle({0, 0}, {3, 1}, {4, 3}), 2), 0);
   EXPECT_EQ(sagitta_everywhere(box({0, 0, 0}, {3, 1, 2}, {2, 3, 2}), 1), 0);
