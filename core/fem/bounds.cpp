@@ -25,6 +25,9 @@ std::string position(const Nodes<D>& nodes, Index p) {
   return fmt::format("({})", fmt::join(nodes.at(p), ", "));
 }
 
+/// Of a unit vector what is across prescribed directions.
+bool is_oblique(double length) { return length > same_direction && length < 1 - same_direction; }
+
 // The nodes an obstacle may touch; on the boundary with normals of the faces it may touch.
 template <int D>
 struct Candidates {
@@ -155,10 +158,10 @@ class Collector {
     bound.lower *= part;
     bound.upper *= part;
     bound.gap *= part;
+    bound.part = part;
     const double length = normalise(bound.direction);
     const std::string& origin = model_.obstacles[obstacle_].origin;
     if (!(std::fabs(length - 1) < same_direction))
-    bound.part = part;
       input_error(origin, fmt::format("direction of length {} at {}, expected a unit vector", length,
                                       position(nodes_, vertex)));
     if (std::isnan(bound.lower) || std::isnan(bound.upper))
@@ -269,7 +272,7 @@ template <int D, int B>
 void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>* last) {
   functional_ = nullptr;
   for (const Bound<B>* bound = first; bound != last; ++bound) {
-    if (bound->data < 0) continue;
+    if (bound->data < 0 || is_friction_on_axis(*bound)) continue;
     if (functional_)
       input_error(model_.obstacles[bound->obstacle].origin,
                   fmt::format("acts at {} together with {}, and two obstacles with a functional (such as friction) at "
@@ -277,6 +280,13 @@ void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>*
                               position(nodes_, bound->vertex), model_.obstacles[functional_->obstacle].origin));
     functional_ = bound;
   }
+}
+
+/// Where nothing can slide, for the radial displacement is prescribed, and the obstacle's direction is oblique to it.
+template <int D, int B>
+bool BoundCombiner<D, B>::is_friction_on_axis(const Bound<B>& bound) const {
+  if (B != D || model_.plane != Plane::axisymmetric || nodes_.at(bound.vertex)[0] != 0) return false;
+  return model_.obstacles[bound.obstacle].obstacle->friction() && is_oblique(std::fabs(bound.direction[B - 1]));
 }
 
 // A functional that has coordinates of its own counts on all of them.
@@ -308,8 +318,7 @@ void BoundCombiner<D, B>::reduce(const Bound<B>& bound, const FixedDirections<B>
     prescribed += c * fixed->value[k];
   }
   const double length = normalise(out.direction);
-  const bool oblique = length > same_direction && length < 1 - same_direction;
-  if (&bound == functional_ && oblique && fixed->count < B)
+  if (&bound == functional_ && is_oblique(length) && fixed->count < B)
     input_error(model_.obstacles[bound.obstacle].origin,
                 fmt::format("meets a direction prescribed at {} that is neither along its normal nor across it, which "
                             "is not available in this version",

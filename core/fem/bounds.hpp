@@ -59,7 +59,8 @@ class BoundCombiner {
   /// is prescribed and that what is prescribed there touches are appended to `held`. Error(Exit::no_solution): bounds
   /// that are violated whatever the free components are, or that leave nothing admissible. An obstacle with a
   /// functional rules its vertex: its directions alone are coordinates, in its order; others are faces.
-  /// Error(Exit::input): two functionals at one vertex, or one whose direction is neither free nor prescribed.
+  /// Error(Exit::input): two functionals at one vertex, or one whose direction is neither free nor prescribed. Friction
+  /// of such a direction on the axis of an axisymmetric body, which has no area there, is left out instead.
   const std::vector<CombinedBound<B>>& combine(const Bound<B>* first, const Bound<B>* last,
                                                const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
 
@@ -85,6 +86,7 @@ class BoundCombiner {
   bool rules(const Reduced& bound) const { return functional_ && bound.from->obstacle == functional_->obstacle; }
 
   void find_functional(const Bound<B>* first, const Bound<B>* last);
+  bool is_friction_on_axis(const Bound<B>& bound) const;
   void refuse_fixed_coordinates(const Bound<B>* first, const Bound<B>* last, const FixedDirections<B>& fixed) const;
   void reduce(const Bound<B>& bound, const FixedDirections<B>* fixed, std::vector<Bound<B>>& held);
   void merge(const Reduced& bound);

@@ -283,29 +283,29 @@ double quadratic_error(const Run<2, B>& r, const ExactValue<2, B>& exact) {
   return std::sqrt(error / size);
 }
 
+/// A cylinder pressed on a cone whose tip is on its axis: the normal there is oblique to the radial displacement, which
+/// is zero. Friction acts around the tip, and not at it.
+TEST(Axisymmetric, FrictionAroundTheTipOfACone) {
+  const std::string body = rectangle_body("[0, 0]", "[1, 0.8]", "[5, 4]") + fixed("on = \"top\"", "[0, -0.02]"),
+                    cone = "body = \"b\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0.1, 1]\n";
+  const auto smooth = run<2, 2>(body + "[[obstacle]]\ntype = \"contact\"\n" + cone, {uniform(2)});
+  const double force = smooth.contact().force[1];
+  for (const std::string law :
+       {"type = \"coulomb\"\nfriction = 0", "type = \"coulomb\"\nfriction = 1e-6", "type = \"tresca\"\nbound = 1e-9"}) {
+    const auto r = run<2, 2>(body + "[[obstacle]]\n" + law + "\n" + cone, {uniform(2)});
+    EXPECT_NEAR(r.contact().force[1] / force, 1, 1e-4) << law;
+  }
+  const auto rough = run<2, 2>(body + "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.25\n" + cone, {uniform(2)});
+  EXPECT_LT(std::abs(rough.contact().tangential_force[1]), 0.25 * rough.contact().force[1]);
+  EXPECT_GT(rough.contact().slip_nodes, 0);
+  EXPECT_NEAR(rough.contact().force[1] / force, 1, 0.1);
+}
+
 std::string quadratic(std::string text) {
   const std::string before = "plane = \"axisymmetric\"\n";
   return text.replace(text.find(before), before.size(), before + "order = 2\n");
 }
 
-TEST(AxisymmetricQuadratic, OrdersOfLamesTube) {
-  for (const bool held : {false, true}) {
-    const Tube exact(held);
-    Errors displacement, energy, stress, force;
-    for (int k = 0; k <= 3; ++k) {
-      const auto r = run<2, 2>(quadratic(tube(held)), {uniform(k), "solver.tolerance=1e-12"});
-      displacement.add(quadratic_error<2>(r, [&](const Point<2>& x) {
-        return std::array{exact.displacement(x[0]), 0.0};
-      }));
-      const double of_load = -0.5 * Tube::p * exact.displacement(1) * 2 * pi;
-      energy.add(std::sqrt(std::abs(r.summary().energy / of_load - 1)));  // in the energy norm
-      double most = 0;
-      const auto recovered = nodal_stress(r.nodes(), r.model, r.u());
-      for (Index v = 0; v < r.mesh().vertices(); ++v) {
-        const double at = r.mesh().points[v][0];
-        most =
-            std::max({most, std::abs(recovered[v][0] - exact.radial(at)), std::abs(recovered[v][2] - exact.hoop(at))});
-      }
 /// Stresses on the axis see the body beyond it. u = (0.3 r^3 + 0.7 r z, -0.4 z^3 + 0.9 r^2 z) is held by its values and
 /// what it takes.
 TEST(AxisymmetricQuadratic, OrderOfStressesOnTheAxis) {
@@ -338,6 +338,24 @@ TEST(AxisymmetricQuadratic, OrderOfStressesOnTheAxis) {
   }
 }
 
+TEST(AxisymmetricQuadratic, OrdersOfLamesTube) {
+  for (const bool held : {false, true}) {
+    const Tube exact(held);
+    Errors displacement, energy, stress, force;
+    for (int k = 0; k <= 3; ++k) {
+      const auto r = run<2, 2>(quadratic(tube(held)), {uniform(k), "solver.tolerance=1e-12"});
+      displacement.add(quadratic_error<2>(r, [&](const Point<2>& x) {
+        return std::array{exact.displacement(x[0]), 0.0};
+      }));
+      const double of_load = -0.5 * Tube::p * exact.displacement(1) * 2 * pi;
+      energy.add(std::sqrt(std::abs(r.summary().energy / of_load - 1)));  // in the energy norm
+      double most = 0;
+      const auto recovered = nodal_stress(r.nodes(), r.model, r.u());
+      for (Index v = 0; v < r.mesh().vertices(); ++v) {
+        const double at = r.mesh().points[v][0];
+        most =
+            std::max({most, std::abs(recovered[v][0] - exact.radial(at)), std::abs(recovered[v][2] - exact.hoop(at))});
+      }
       stress.add(most / Tube::p);
       show(
           "quadratic tube: displacement {:.2e} order {:.2f}, energy {:.2e} order {:.2f}, largest stress {:.2e} order "
