@@ -295,10 +295,9 @@ TEST(Axisymmetric, FrictionAroundTheTipOfACone) {
     const auto r = run<2, 2>(body + "[[obstacle]]\n" + law + "\n" + cone, {uniform(2)});
     EXPECT_NEAR(r.contact().force[1] / force, 1, 1e-4) << law;
   }
-  const auto rough = run<2, 2>(body + "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.25\n" + cone, {uniform(2)});
-  EXPECT_LT(std::abs(rough.contact().tangential_force[1]), 0.25 * rough.contact().force[1]);
-  EXPECT_GT(rough.contact().slip_nodes, 0);
-  EXPECT_NEAR(rough.contact().force[1] / force, 1, 0.1);
+  const auto rough = run<2, 2>(body + "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.02\n" + cone, {uniform(2)});
+  EXPECT_EQ(rough.contact().slip_nodes, rough.contact().nodes - 1);
+  EXPECT_NEAR(rough.contact().force[1] / force, 1, 0.01);
 }
 
 std::string quadratic(std::string text) {
@@ -333,7 +332,7 @@ TEST(AxisymmetricQuadratic, OrderOfStressesOnTheAxis) {
       error.add(most);
       show("order {}: stress on the axis {:.2e} order {:.2f}\n", order, most, error.last_order());
     }
-    EXPECT_GE(error.last_order(), order == 1 ? 1.0 : 1.95);
+    EXPECT_GE(error.last_order(), order == 1 ? 0.9 : 1.95);
     EXPECT_LT(error.value.back(), order == 1 ? 1.1e-3 : 1.2e-4);
   }
 }
