@@ -21,8 +21,10 @@ struct Interval {
 
 double bend(double a, double middle, double b) { return a - 2 * middle + b; }
 
-/// Of an edge, as far as its parts agree.
-double limited(double whole, const std::array<double, 3>& parts) {
+/// Of an edge, as far as its parts agree, which are known up to `doubt`.
+double limited(double whole, std::array<double, 3> parts, double doubt) {
+  for (double& part : parts)
+    if (std::isfinite(part)) part += std::clamp(whole - part, -doubt, doubt);
   double size = std::fabs(whole);
   for (const double part : parts) {
     if (!std::isfinite(part) || whole * part <= 0) return 0;
@@ -111,6 +113,16 @@ class EdgeBends {
     return out;
   }
 
+  /// How far a parabola may be off the curve that its three nodes are on, and halfway() with it: of a circle a fifth of
+  /// this.
+  double off_curve(Index m) const {
+    const auto [a, b] = nodes_.ends(m);
+    const Point<D>& end = nodes_.at(a);
+    const Point<D> middle = midpoint<D>(end, nodes_.at(b));
+    const double bulge = length<D>(difference<D>(nodes_.at(m), middle)), half = length<D>(difference<D>(end, middle));
+    return half > 0 ? bulge * bulge * bulge / (half * half) : 0;
+  }
+
   void find_normals(Index obstacle) {
     const ObstacleTerm<B>& term = model_.obstacles[obstacle];
     const Surface<D> surface = term.on ? signorini::surface(nodes_, select_faces(nodes_.mesh(), *term.on, model_.t))
@@ -146,9 +158,10 @@ class EdgeBends {
 
   /// Both halves of the edge, and what is between their middles. What is half as long bends by a quarter.
   void limit(const Edge& edge, const Interval& near_a, const Interval& near_b) {
+    const double doubt = 8 * off_curve(bounds_[edge.bound].vertex);
     const auto limited_to = [&](double whole, double Interval::*side) {
       const double a = edge.a.*side, p = near_a.*side, m = edge.middle.*side, q = near_b.*side, b = edge.b.*side;
-      return limited(whole, {4 * bend(a, p, m), 4 * bend(p, m, q), 4 * bend(m, q, b)});
+      return limited(whole, {4 * bend(a, p, m), 4 * bend(p, m, q), 4 * bend(m, q, b)}, doubt);
     };
     BoundBend& out = out_[edge.bound];
     out = {limited_to(out.lower, &Interval::lower), limited_to(out.upper, &Interval::upper)};
