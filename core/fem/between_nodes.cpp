@@ -115,21 +115,6 @@ class Points {
   std::vector<std::array<double, B>> value_;
 };
 
-/// Where two bodies overlap most, which is not at nodes.
-template <int D>
-double deepest_overlap(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const std::vector<double>& u) {
-  const auto deepest = couple_displaced(nodes, model, obstacle, u).deepest;
-  if (deepest.slave_face < 0) return 0;
-  SurfaceVertex at{};
-  at.gap = -deepest.depth;
-  std::ranges::copy(deepest.place, at.position);
-  at.away[0] = 1;  // whichever: what counts is the distance along it
-  LocalConstraint<D> constraint;
-  Status status;
-  model.obstacles[obstacle].obstacle->assemble(&at, 1, &constraint, status);
-  return status.ok() ? violation<D>(constraint, {}) : unknown;
-}
-
 }  // namespace
 
 template <int D, int B>
@@ -137,7 +122,7 @@ double violation_between_nodes(const Nodes<D>& nodes, const Model<B>& model, Ind
                                const ContactState<B>& state, const std::vector<double>& u) {
   const ObstacleTerm<B>& term = model.obstacles[obstacle];
   if constexpr (B == D)
-    if (term.other) return deepest_overlap(nodes, model, obstacle, u);
+    if (term.other) return couple_displaced(nodes, model, obstacle, u).deepest.depth;
   const bool in_body = B == 1 && !term.on;
   if ((B > 1 && !term.shape) || (in_body && nodes.order() == 1)) return unknown;
   Points<D, B> points(nodes, obstacle, state, u);

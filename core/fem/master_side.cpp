@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fem/added_gap.hpp"
 #include "core/fem/contact_surface.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
@@ -52,7 +53,8 @@ class Master {
       for (Offset j = found.row[k]; j < found.row[k + 1]; ++j)
         for (int i = 0; i < D; ++i)
           jump[i] -= found.value[j] * u[static_cast<std::size_t>(Offset{nodes_.of_vertex(found.column[j])} * D + i)];
-      node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) + offset(node.vertex, found.normal[k]);
+      node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) +
+                 added_gap<D>(term, nodes_.at(node.vertex), found.normal[k]);
       for (int i = 0; i < D; ++i) node.direction[i] = -found.normal[k][i];
       node.covered = found.covered[k];
       out_.push_back(node);
@@ -73,22 +75,6 @@ class Master {
       if (force.friction) sticking[static_cast<std::size_t>(node - out_.data())] += force.sticks ? size : -size;
     }
     for (std::size_t k = 0; k < out_.size(); ++k) out_[k].sticks = out_[k].friction && sticking[k] > 0;
-  }
-
-  /// What the obstacle adds to the distance of bodies, as it would at a node of a slave: its bound where these touch.
-  double offset(Index p, const Point<D>& normal) const {
-    SurfaceVertex v{};
-    v.measure = 1;
-    v.vertex = nodes_.vertex(p);
-    std::copy_n(nodes_.at(p).data(), D, v.position);
-    for (int i = 0; i < D; ++i) {
-      v.normal[i] = normal[i];
-      v.away[i] = -normal[i];
-    }
-    LocalConstraint<D> constraint{};
-    Status status;
-    model_.obstacles[obstacle_].obstacle->assemble(&v, 1, &constraint, status);
-    return status.ok() && constraint.directions == 1 && std::isfinite(constraint.lower[0]) ? -constraint.lower[0] : 0;
   }
 
   ContactNode<D>* at(Index node) {

@@ -8,6 +8,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/added_gap.hpp"
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
@@ -21,13 +22,29 @@ namespace {
 /// a curved surface may be inclined at a plane of symmetry.
 constexpr double nearly_across = 0.985;
 
+/// Where the bodies of an obstacle overlap most at the start, with what its option `gap` adds to their distance. What
+/// is deep is known by the nearest faces; how far `gap` presses bodies that are apart, by the pairs.
+template <int D>
+Overlap<D> start_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides, double t,
+                         const DeepestOverlap<D>& of_pairs) {
+  const auto added = [&](const Point<D>& place, Index slave_face) {
+    Point<D> normal = area_normal(mesh, mesh.boundary[slave_face]);
+    normalise(normal);
+    return added_gap<D>(term, place, normal);
+  };
+  const auto overlap = overlap_of_sides<D>(mesh, term, sides, t, mesh.points, added);
+  if (of_pairs.slave_face < 0) return overlap.value_or(Overlap<D>{});
+  const Index face = sides.slave[of_pairs.slave_face];
+  const bool pressed = added(of_pairs.place, face) < 0;
+  if (!overlap || (pressed && of_pairs.depth > overlap->depth)) return {of_pairs.depth, of_pairs.place, face};
+  return *overlap;
+}
+
 /// More than an element of the coarsest mesh: what is admitted does not depend on refinement.
 template <int D>
-void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const std::vector<Index>& slave,
-                 const DeepestOverlap<D>& deepest) {
-  if (deepest.slave_face < 0 || term.resolve) return;
-  const Face<D>& face = mesh.boundary[slave[deepest.slave_face]];
-  if (deepest.depth <= std::ldexp(longest_edge(mesh, face), mesh.refinements)) return;
+void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Overlap<D>& deepest) {
+  if (deepest.slave_face < 0) return;
+  if (deepest.depth <= std::ldexp(longest_edge(mesh, mesh.boundary[deepest.slave_face]), mesh.refinements)) return;
   input_error(term.origin,
               fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
                           "element of the coarsest mesh; expected bodies apart from each other, or touching, or "
@@ -54,7 +71,8 @@ class Coupler {
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
     const MortarCoupling<D> found =
         couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
-    if (shift_.empty()) refuse_deep<D>(mesh, term, faces.slave, found.deepest);
+    if (shift_.empty() && !term.resolve)
+      refuse_deep<D>(mesh, term, start_overlap<D>(mesh, term, faces, model_.t, found.deepest));
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
     if (found.nodes() > 0 && rows_.size() == before)
@@ -111,10 +129,13 @@ class Coupler {
     }
   }
 
+  /// All of the slave's body is moved, for what is inside it is looked for; of a body that touches itself its side.
   std::vector<Point<D>> shifted_points(Index obstacle, const std::vector<Index>& slave) const {
     if (shift_.empty()) return {};
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
+    const auto moved = of_one_body(term) ? slave : faces_of_body(nodes_.mesh(), *term.on, model_.t);
     std::vector<Point<D>> points = nodes_.mesh().points;
-    for (const Index f : slave)
+    for (const Index f : moved)
       for (const Index v : nodes_.mesh().boundary[f].vertices)
         for (int i = 0; i < D; ++i) points[v][i] = nodes_.mesh().points[v][i] + shift_[obstacle][i];
     return points;

@@ -9,6 +9,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/added_gap.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/join.hpp"
 
@@ -17,6 +18,10 @@ namespace {
 
 /// What is left of a normal of less than this length is rounding.
 constexpr double rounding = 1e-6;
+/// Along a normal it is at most so many times as deep as to the nearest face: those 60 degrees from opposite pair.
+constexpr double along_normal = 2;
+/// Depths of less than this part of the mesh are rounding.
+constexpr double no_depth = 1e-9;
 
 template <int D>
 std::vector<std::array<Index, D>> corners(const Mesh<D>& mesh, const std::vector<Index>& faces) {
@@ -70,6 +75,29 @@ PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, doubl
 }
 
 template <int D>
+bool of_one_body(const ObstacleTerm<D>& term) {
+  return body_of(term.on->part.value_or("")) == body_of(term.other->part.value_or(""));
+}
+
+template <int D>
+std::vector<Index> faces_of_body(const Mesh<D>& mesh, const Selection& some, double t) {
+  const std::string all = part_of(body_of(some.part.value_or("")), "boundary");
+  std::vector<Index> faces = select_faces(mesh, {.part = all, .where = {}, .origin = some.origin}, t);
+  std::ranges::sort(faces);
+  return faces;
+}
+
+template <int D>
+std::optional<Overlap<D>> overlap_of_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides,
+                                           double t, std::span<const Point<D>> points,
+                                           const std::function<double(const Point<D>&, Index)>& added) {
+  if (of_one_body(term)) return {};
+  std::vector<Index> slave = faces_of_body(mesh, *term.on, t), master = faces_of_body(mesh, *term.other, t);
+  if (!std::ranges::binary_search(slave, sides.slave.front())) slave.swap(master);  // looked at the other way round
+  return find_overlap<D>(mesh, points, {sides.slave, std::move(slave)}, {sides.master, std::move(master)}, added);
+}
+
+template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                const std::vector<Index>& slave, const std::vector<Index>& master,
                                std::span<const Point<D>> points) {
@@ -78,8 +106,12 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
   const auto of_slave = corners(mesh, slave), of_master = corners(mesh, master);
   CoupleOptions options{
       .pairing = term.pairing, .reach = extent<D>(points), .axisymmetric = model.plane == Plane::axisymmetric};
-  if (!term.resolve && body_of(term.on->part.value_or("")) == body_of(term.other->part.value_or("")))
+  if (const auto overlap = overlap_of_sides<D>(mesh, term, {slave, master}, model.t, points))
+    options.depth = along_normal * overlap->depth + no_depth * options.reach;
+  else if (!term.resolve)
     options.depth = coarsest_length(mesh, slave);
+  const std::vector<double> added = added_gaps(nodes, term, slave);
+  options.added_gap = added;
   return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()},
                    options);
 }
@@ -145,6 +177,16 @@ template std::optional<FreeNormal<2>> free_normal<2>(const std::vector<FixedDire
 template std::optional<FreeNormal<3>> free_normal<3>(const std::vector<FixedDirections<3>>&, Index, const Point<3>&);
 template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
+template bool of_one_body(const ObstacleTerm<2>&);
+template bool of_one_body(const ObstacleTerm<3>&);
+template std::vector<Index> faces_of_body(const Mesh<2>&, const Selection&, double);
+template std::vector<Index> faces_of_body(const Mesh<3>&, const Selection&, double);
+template std::optional<Overlap<2>> overlap_of_sides<2>(const Mesh<2>&, const ObstacleTerm<2>&, const PairedFaces&,
+                                                       double, std::span<const Point<2>>,
+                                                       const std::function<double(const Point<2>&, Index)>&);
+template std::optional<Overlap<3>> overlap_of_sides<3>(const Mesh<3>&, const ObstacleTerm<3>&, const PairedFaces&,
+                                                       double, std::span<const Point<3>>,
+                                                       const std::function<double(const Point<3>&, Index)>&);
 template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double);
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
 template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,

@@ -5,6 +5,7 @@
 
 #include "core/fem/fixes.hpp"
 #include "core/fem/model.hpp"
+#include "core/fem/overlap.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/mortar/couple.hpp"
 
@@ -19,9 +20,25 @@ struct PairedFaces {
 template <int D>
 PairedFaces paired_faces(const Mesh<D>& mesh, const ObstacleTerm<D>& term, double t);
 
-/// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere; two of one
-/// body not through it, as a face and the one on its back would, farther than an element of the coarsest mesh. Its
-/// nodes are vertices of the mesh.
+/// Whether both sides are of the same body.
+template <int D>
+bool of_one_body(const ObstacleTerm<D>& term);
+
+/// The faces of the body that a selection is of, ascending.
+template <int D>
+std::vector<Index> faces_of_body(const Mesh<D>& mesh, const Selection& some, double t);
+
+/// How deep the bodies of an obstacle overlap; nothing where these are one and the same.
+/// @param points where the vertices of the mesh are
+/// @param added see find_overlap()
+template <int D>
+std::optional<Overlap<D>> overlap_of_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides,
+                                           double t, std::span<const Point<D>> points,
+                                           const std::function<double(const Point<D>&, Index)>& added = {});
+
+/// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere, but not
+/// through a body, as a face and the one on its back would: not deeper than the bodies overlap, two of one body not
+/// deeper than an element of the coarsest mesh. Its nodes are vertices of the mesh.
 /// @param points where the vertices of the mesh are; none: as the mesh has them
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,

@@ -29,6 +29,9 @@ struct CoupleOptions {
   /// less than a tenth.
   double least_cover = 1e-10;
   bool axisymmetric = false;  ///< the first coordinate is the radius of bodies of revolution (D = 2)
+  /// Per point what counts as more distance of the slave there, in between linearly; of what comes out only the deepest
+  /// overlap does. None: nothing.
+  std::span<const double> added_gap{};
 };
 
 /// Where slave and master overlap most.
@@ -88,8 +91,8 @@ struct MortarCoupling {
 /// with mortar contact formulations using dual Lagrange multipliers, 2011): rows of M̂ reproduce linear functions on
 /// flat interfaces, overhanging ones included.
 ///
-/// Faces pair whose normals are within 60 degrees of opposite; not through the master, out of which and into which the
-/// way back from the slave leads. Where both surfaces have the same points (the same
+/// Faces pair whose normals are within 60 degrees of opposite; not through the master, out of which the way back from
+/// the slave leads before. Where both surfaces have the same points (the same
 /// memory), as parts of one body have, faces that share a node do not pair, and nodes of both are left alone.
 ///
 /// The result does not depend on the number of threads; on the order of nodes and faces by rounding only.

@@ -133,13 +133,22 @@ FaceEntry<D, P>& FaceIntegrator<D, P>::entry(Index point, FaceIntegrals<D, P>& t
   return to.entries[place_[q]];
 }
 
+/// To the distance, at a point of the plane.
+template <int D, int P>
+double FaceIntegrator<D, P>::added(Index part, const Point<K>& y) const {
+  double sum = 0;
+  for (int i = 0; i < D && !added_gap_.empty(); ++i)
+    sum += finder_.frame().shape[i](y) * added_gap_[slave_.faces[part][i]];
+  return sum;
+}
+
 template <int D, int P>
 void FaceIntegrator<D, P>::note_overlap(Index part, DeepestOverlap<D>& deepest) const {
   const FaceFrame<D>& frame = finder_.frame();
   for (const Segment<D>& s : finder_.segments())
     for (int i = 0; i < s.piece.count; ++i) {
       const Point<D - 1>& y = s.piece.corner[i];
-      const double depth = -frame.size * s.gap(y);
+      const double depth = -frame.size * s.gap(y) - added(part, y);
       if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), part, s.master};
     }
 }

@@ -47,6 +47,7 @@ class FaceIntegrator {
         master_(master),
         along_normals_(options.pairing == Pairing::normal),
         axisymmetric_(options.axisymmetric),
+        added_gap_(options.added_gap),
         finder_(slave, master, tree, options, one_numbering),
         place_(master.node.size(), std::size_t{0}) {}
 
@@ -71,12 +72,14 @@ class FaceIntegrator {
   void look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to);
   void add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child, const ElementMap<D, K, P>& slave,
                   double scale);
+  double added(Index part, const Point<K>& y) const;
   void note_overlap(Index part, DeepestOverlap<D>& deepest) const;
   FaceEntry<D, P>& entry(Index point, FaceIntegrals<D, P>& to);
 
   const Side<D>& slave_;
   const Side<D>& master_;
   const bool along_normals_, axisymmetric_;
+  const std::span<const double> added_gap_;
   SegmentFinder<D> finder_;
   std::vector<std::size_t> place_;  // per node of the master that of its entry; of no meaning outside the record's
   std::vector<CoveredPoint<K>> covered_;

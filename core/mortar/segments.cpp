@@ -48,7 +48,7 @@ bool SegmentFinder<D>::find(Index face) {
 template <int D>
 void SegmentFinder<D>::look(Index face, const Point<D>& direction) {
   segments_.clear();
-  turned_.clear();
+  averted_.clear();
   frame_ = FaceFrame<D>(slave_.corner[face], direction);
   low_ = high_ = frame_.corner[0];
   for (const Point<K>& y : frame_.corner)
@@ -89,8 +89,10 @@ bool SegmentFinder<D>::shares_node(Index face, Index other) const {
 template <int D>
 void SegmentFinder<D>::consider(Index face, Index other) {
   const Point<D>& normal = master_.normal[other];
-  if (dot(normal, frame_.direction) > 0) turned_.push_back(other);
-  if (-dot(normal, slave_.normal[face]) < facing || -dot(normal, frame_.direction) < facing) return;
+  if (-dot(normal, slave_.normal[face]) < facing || -dot(normal, frame_.direction) < facing) {
+    averted_.push_back(other);
+    return;
+  }
   if (one_numbering_ && shares_node(face, other)) return;
   std::array<Point<K>, D> corner;
   std::array<double, D> height;
@@ -119,10 +121,10 @@ bool SegmentFinder<D>::in_reach() const {
   });
 }
 
-// What lies behind a slave face is an overlap, unless the way there leads out of the master and into it again.
+// What lies behind a slave face is an overlap, unless the way there leads out of the master before.
 template <int D>
 void SegmentFinder<D>::drop_hidden() {
-  if (turned_.empty()) return;
+  if (averted_.empty()) return;
   std::erase_if(segments_, [this](const Segment<D>& s) { return is_hidden(s); });
 }
 
@@ -133,7 +135,7 @@ bool SegmentFinder<D>::is_hidden(const Segment<D>& segment) const {
   for (int k = 0; k < K; ++k) middle[k] = m.first[k] / m.measure;
   const double behind = segment.gap(middle);
   if (behind >= 0) return false;
-  return std::ranges::any_of(turned_, [&](Index other) {
+  return std::ranges::any_of(averted_, [&](Index other) {
     std::array<Point<K>, D> corner;
     std::array<double, D> height;
     for (int i = 0; i < D; ++i) height[i] = frame_.map(master_.corner[other][i], corner[i]);

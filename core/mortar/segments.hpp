@@ -57,7 +57,7 @@ class SegmentFinder {
   double front_ = 0, behind_ = 0;
   bool layered_ = false;
   std::vector<Segment<D>> segments_, nearest_;
-  std::vector<Index> turned_;  // faces of the master that face the same way
+  std::vector<Index> averted_;  // faces of the master that do not face it
   std::vector<Piece<K>> rest_, next_;
   std::vector<Index> order_, sheet_;
   std::vector<double> away_;

@@ -356,5 +356,67 @@ TEST(Overlap, IsNotSeenThroughBodies) {
   EXPECT_GT(driver.report().last().contact[0].force[1], 0);
 }
 
+// Two blocks, the upper one this deep in the lower one, pressed on each other.
+std::string interference(double by, const std::string& on, const std::string& more = "") {
+  return block("below", "[0, 0]", "[1, 1]", "[4, 4]") +
+         block("above", fmt::format("[0.1, {}]", 1 - by), fmt::format("[0.9, {}]", 2 - by), "[5, 6]") +
+         fix("below", "bottom", "[0, 0]") + fix("above", "top", "[0, -0.02]") +
+         pair("above", on, "below", "boundary", more);
+}
+
+double force_of(const std::string& text) {
+  Driver driver(scene_of(text));
+  const Report& report = driver.solve();
+  EXPECT_TRUE(report.converged()) << report.reason();
+  return report.last().contact[0].force.back();
+}
+
+// Faces beside the overlap look across the bodies at those on the far side: these are no part of it.
+TEST(Overlap, OfWholeBoundariesIsThatOfTheFacesThatMeet) {
+  for (const double by : {1e-14, 0.05})
+    for (const char* more : {"", "pairing = \"closest\"\n", "slave = \"other\"\n", "resolve = true\n",
+                             "resolve = true\nslave = \"other\"\n"})
+      EXPECT_NEAR(force_of(interference(by, "boundary", more)), force_of(interference(by, "bottom", more)), 1e-8)
+          << by << ' ' << more;
+  const auto in_space = [](const char* on) {
+    return block("below", "[0, 0, 0]", "[1, 1, 1]", "[3, 3, 3]") +
+           block("above", "[0.1, 0.1, 0.9999999999]", "[0.9, 0.9, 2]", "[2, 2, 2]") +
+           fix("below", "bottom", "[0, 0, 0]") + fix("above", "top", "[0, 0, -0.02]") +
+           pair("above", on, "below", "boundary");
+  };
+  EXPECT_NEAR(force_of(in_space("boundary")), force_of(in_space("bottom")), 1e-9);
+}
+
+TEST(Overlap, HasTheDepthToTheNearestFace) {
+  const std::string blocks = block("below", "[0, 0]", "[2, 1]", "[8, 4]") + fix("below", "bottom", "[0, 0]") +
+                             block("above", "[0.6, 0.6]", "[1.4, 1.6]", "[4, 4]") + fix("above", "top", "[0, 0]");
+  for (const char* pairing : {"normal", "closest"}) {
+    const std::string more = fmt::format("pairing = \"{}\"\n", pairing);
+    for (const char* other_on : {"boundary", "top"})
+      expect_error(blocks + pair("above", "boundary", "below", other_on, more), Exit::input, "by 0.4 at (");
+    expect_error(blocks + pair("above", "boundary", "below", "boundary", more), Exit::input, ", 0.6)");
+  }
+}
+
+// What the obstacle adds to the distance counts.
+TEST(Overlap, IsWhatTheGapLeavesOfIt) {
+  EXPECT_NEAR(force_of(interference(0.4, "bottom", "gap = 0.4\n")), force_of(interference(0, "bottom")), 1e-9);
+  EXPECT_GT(force_of(interference(0.4, "bottom", "gap = \"0.38+0.01*x\"\n")), 0);
+  expect_error(interference(0.4, "bottom", "gap = 0.1\n"), Exit::input, "overlap at the start, by 0.3 at (");
+  expect_error(interference(0, "bottom", "gap = -5\n"), Exit::input, "overlap at the start, by 5 at (");
+  EXPECT_GT(force_of(interference(0, "bottom", "gap = -0.3\nresolve = true\n")), 0);
+}
+
+TEST(Overlap, BetweenNodesCountsTheGap) {
+  const auto depth = [](double by, const std::string& more) {
+    Driver driver(scene_of(interference(by, "bottom", more)));
+    return driver.solve().last().contact[0].penetration_between_nodes;
+  };
+  EXPECT_GT(depth(0, ""), 1e-5);
+  EXPECT_NEAR(depth(0, "gap = -0.01\n"), depth(0.01, ""), 0.02 * depth(0.01, ""));
+  EXPECT_NEAR(depth(0.01, "gap = 0.01\n"), depth(0, ""), 0.02 * depth(0, ""));
+  EXPECT_GT(depth(0, "gap = \"0.01*x^2\"\n"), 1e-5);
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -92,6 +92,15 @@ TYPED_TEST(Pairs, TheFarSideIsNotSeenThroughBodies) {
   EXPECT_NEAR(deep.deepest.depth, 0.1, 1e-14);
 }
 
+// Nor past a steep slope of the master, which no face of the slave faces: the way back leaves the master there.
+TEST(PlanePairs, TheFarSideIsNotSeenThroughASlope) {
+  const Surface<2> slave{{{0.25, 0}, {0.35, 0}}, {{0, 1}}};
+  Surface<2> master{{{1, 1}, {0, 1}}, {{0, 1}}};
+  EXPECT_GT(couple<2>(slave.side(), master.side(), within(2)).nodes(), 0);
+  master.add({{{0.4, 0.9}, {0.2, 0.1}}, {{0, 1}}});
+  EXPECT_EQ(couple<2>(slave.side(), master.side(), within(2)).nodes(), 0);
+}
+
 // A sheet without thickness between two surfaces: there is no direction for its nodes.
 TYPED_TEST(Pairs, NodesWithoutADirectionAreLeftAlone) {
   constexpr int D = TypeParam::value;
