@@ -45,9 +45,20 @@ double left_over(const BalanceReport& balance, bool radial) {
   return size(sum);
 }
 
+/// The largest force that one obstacle exerts on a body: those from above and from below balance each other.
+double largest_contact(const StepReport& report, const std::string& body) {
+  double largest = 0;
+  for (const ContactReport& contact : report.contact) {
+    if (contact.body == body) largest = std::max(largest, size(contact.force));
+    if (contact.pair && contact.body != body && (contact.pair->slave == body || contact.pair->master == body))
+      largest = std::max(largest, size(contact.pair->force));
+  }
+  return largest;
+}
+
 /// The largest of loads, reactions and contact.
-double most_acting(const BalanceReport& balance) {
-  return std::max({size(balance.applied), size(balance.reactions), size(balance.contact)});
+double most_acting(const StepReport& report, const BalanceReport& balance) {
+  return std::max({size(balance.applied), size(balance.reactions), largest_contact(report, balance.body)});
 }
 
 }  // namespace
@@ -63,7 +74,8 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
     const double left = left_over(report.balance[part], whole.axisymmetric && B == D);
     const double loads = whole.copies * size_of<B>(load, nodes_of_part(scene, body, part, nodes));
     // Without contact what acts where nothing is loaded may be rounding of a rigid motion.
-    const double acting = most_acting(report.balance[part]), contact = size(report.balance[part].contact);
+    const double acting = most_acting(report, report.balance[part]);
+    const double contact = largest_contact(report, report.balance[part].body);
     if (loads == 0 && left > uneven * acting && contact > noticeable * acting)
       warnings.push_back(
           fmt::format("body '{}': forces balance up to {:.2g}, where {:.2g} acts: some of them are not "
@@ -82,7 +94,7 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
 double imbalance(const StepReport& report) {
   double worst = 0;
   for (const BalanceReport& balance : report.balance) {
-    const double acting = most_acting(balance);
+    const double acting = most_acting(report, balance);
     const double left = left_over(balance, report.bodies.front().axisymmetric && balance.applied.size() > 1);
     if (acting > 0) worst = std::max(worst, left / acting);
   }

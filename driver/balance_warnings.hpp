@@ -15,8 +15,8 @@ template <int D, int B>
 std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
                                           const std::vector<double>& load, const StepReport& report);
 
-/// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or contact: the
-/// largest of its parts.
+/// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or an obstacle:
+/// the largest of its parts.
 /// @param report of this body alone, with its parts
 double imbalance(const StepReport& report);
 

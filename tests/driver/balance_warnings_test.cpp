@@ -67,5 +67,18 @@ TEST(BalanceWarnings, for_the_body_whose_loads_are_lost) {
   EXPECT_THAT(told, Not(warns_of("upper")));
 }
 
+// What presses on a block from above and from below cancels, up to rounding, and is what acts there.
+TEST(BalanceWarnings, not_for_a_body_between_two_others) {
+  const std::string stack =
+      tables::block("b0", "[0, 0]", "[1, 1]", "[3, 3]") + tables::block("b1", "[0, 1]", "[1, 2]", "[4, 3]") +
+      tables::block("b2", "[0, 2]", "[1, 3]", "[5, 3]") + tables::fix("b0", "bottom", "[0, 0]") +
+      tables::load("b2", "[0, -0.01]", "top") +
+      "[[obstacle]]\ntype = 'elastic_coulomb'\nfriction = 0.3\nbody = 'b0'\non = 'top'\nother = 'b1'\n"
+      "other_on = 'bottom'\n"
+      "[[obstacle]]\ntype = 'elastic_coulomb'\nfriction = 0.3\nbody = 'b1'\non = 'top'\nother = 'b2'\n"
+      "other_on = 'bottom'\n";
+  EXPECT_THAT(warnings(stack), Not(Contains(HasSubstr("forces balance up to"))));
+}
+
 }  // namespace
 }  // namespace signorini::test
