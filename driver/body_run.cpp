@@ -119,6 +119,7 @@ template <int D, int B>
 Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model) {
   if constexpr (D == B)
     if (is_paired(model) && scene_.solver.bodies == "dirichlet-neumann") {
+      check_turns(scene_, body_, model);
       if (!turns_)
         turns_ = std::make_unique<DirichletNeumann<D>>(scene_, body_, hierarchy_, registry_, progress_, times_);
       return turns_->solve(model);

@@ -28,6 +28,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.force = list(contact.force);
   report.max_pressure = contact.max_pressure;
   report.resolved = contact.resolved;
+  report.peaks_at_edge = contact.peaks_at_edge;
   report.slip_nodes = contact.slip_nodes;
   report.stick_nodes = contact.stick_nodes;
   report.normal_force = report.force;

@@ -162,6 +162,11 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
           "the contact may be off by a third or more, or depend on the mesh where an edge or a corner touches; "
           "expected smaller elements there",
           origin, c.nodes == 1 ? "1 node" : fmt::format("{} nodes", c.nodes)));
+    else if (c.peaks_at_edge)
+      warnings.push_back(
+          fmt::format("{}: the largest pressure is where an edge or a corner touches: there it grows with smaller "
+                      "elements, and is not to be relied on",
+                      origin));
     const StepReport& past = worst(report, k, beyond);
     if (const ContactReport& c = past.contact[k]; beyond(c) > many)
       warnings.push_back(fmt::format(

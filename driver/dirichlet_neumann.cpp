@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/contact.hpp"
+#include "core/fem/paired_sides.hpp"
 #include "core/mesh/join.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"
@@ -22,7 +23,13 @@ namespace signorini {
 namespace {
 
 /// The first damping, and the bounds of later ones.
-constexpr double first_damping = 0.5, least_damping = 0.05, most_damping = 1;
+constexpr double first_damping = 0.5, least_damping = 1e-4, most_damping = 1;
+/// A step after which nothing touches any more was too long: it is cut to this part, so many times in a row at most.
+constexpr double cut = 0.1;
+constexpr int most_cuts = 4;
+/// Turns end where in so many of them the surfaces' motion has not come below this part of the least one before.
+constexpr int patience_of_turns = 20;
+constexpr double progress_of_turns = 0.9;
 
 Scene scene_of_parts(const Scene& scene, std::size_t body) {
   Scene out = scene;
@@ -62,13 +69,57 @@ class Damping {
     last_ = change;
     return factor_;
   }
+  /// Of the last step only a part is taken.
+  double shorter() { return factor_ *= cut; }
 
  private:
   double factor_ = first_damping;
   std::vector<double> last_;
 };
 
+/// Tells when turns lead nowhere.
+class Patience {
+ public:
+  bool lost(double change) {
+    since_ = change < progress_of_turns * least_ ? 0 : since_ + 1;
+    least_ = std::min(least_, change);
+    return since_ >= patience_of_turns;
+  }
+
+ private:
+  double least_ = infinity;
+  int since_ = 0;
+};
+
+/// Rounding of one turn is none of the next one: before bodies press a master may be moved as it is.
+bool may_go_on(Outcome outcome) {
+  return outcome == Outcome::converged || outcome == Outcome::rounding || outcome == Outcome::inaccurate;
+}
+
 }  // namespace
+
+template <int D>
+void check_turns(const Scene& scene, std::size_t body, const Model<D>& model) {
+  if (scene.solver.bodies != "dirichlet-neumann" || !is_paired(model)) return;
+  for (const Scene::Body& part : scene.bodies[body].parts)
+    if (part.order != 1)
+      input_error(part.source.of(part.source.given("order") ? "order" : "poisson"),
+                  "quadratic elements are not available with bodies = \"dirichlet-neumann\"; expected order = 1");
+  for (const ObstacleTerm<D>& term : model.obstacles) {
+    if (!term.other) continue;
+    if (term.obstacle->functional())
+      input_error(term.origin,
+                  "friction between bodies is not available with bodies = \"dirichlet-neumann\"; "
+                  "expected \"jumps\"");
+    if (of_one_body(term))
+      input_error(term.origin,
+                  "a body that touches itself is not available with bodies = \"dirichlet-neumann\"; "
+                  "expected \"jumps\"");
+  }
+}
+
+template void check_turns(const Scene&, std::size_t, const Model<2>&);
+template void check_turns(const Scene&, std::size_t, const Model<3>&);
 
 template <int D>
 DirichletNeumann<D>::Part::Part(const Scene& scene, std::size_t number, const Registry& registry,
@@ -135,10 +186,6 @@ void DirichletNeumann<D>::number_nodes(const MeshHierarchy<D>& joint) {
 /// A pair is an obstacle of the slave alone.
 template <int D>
 void DirichletNeumann<D>::build_models(const Model<D>& model) {
-  for (const Scene::Body& body : scene_.bodies)
-    if (body.order != 1)
-      input_error(body.source.of(body.source.given("order") ? "order" : "poisson"),
-                  "quadratic elements are not available with bodies = \"dirichlet-neumann\"; expected order = 1");
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     Part& part = *parts_[k];
     part.model = build_model<D>(scene_, D, registry_, model.t, k);
@@ -148,15 +195,7 @@ void DirichletNeumann<D>::build_models(const Model<D>& model) {
     for (Index j = 0; j < std::ssize(model.obstacles); ++j) {
       const ObstacleTerm<D>& term = model.obstacles[j];
       if (!term.other) continue;
-      if (term.obstacle->functional())
-        input_error(term.origin,
-                    "friction between bodies is not available with bodies = \"dirichlet-neumann\"; "
-                    "expected \"jumps\"");
       const std::string slave = body_of(*term.on->part), master = body_of(*term.other->part);
-      if (slave == master)
-        input_error(term.origin,
-                    "a body that touches itself is not available with bodies = \"dirichlet-neumann\"; "
-                    "expected \"jumps\"");
       part.is_master = part.is_master || master == scene_.bodies[k].name;
       if (slave != scene_.bodies[k].name) continue;
       part.is_slave = true;
@@ -273,6 +312,12 @@ Solution<D> DirichletNeumann<D>::solve_alone(Index number) {
 template <int D>
 void DirichletNeumann<D>::solve_part(Index number, const std::vector<Vector>& moved, Vector& forces, Summary& all) {
   Part& part = *parts_[number];
+  const int left = scene_.solver.max_iterations - all.iterations;
+  if (left < 1) {
+    all.outcome = Outcome::iteration_limit;
+    return;
+  }
+  part.solver->limit_iterations(left);
   // What slaves press with comes back on the masters.
   Vector back = forces;
   transform_forces(*levels_.back().pairs->jumps, back);
@@ -289,7 +334,7 @@ void DirichletNeumann<D>::solve_part(Index number, const std::vector<Vector>& mo
   part.u = to_global(solution.discretization.problem, solution.x);
   if (part.is_slave) take_forces(number, solution, forces);
   all.iterations += solution.summary.iterations;
-  if (!solution.summary.converged()) {
+  if (!solution.summary.converged() && may_go_on(all.outcome)) {
     all.outcome = solution.summary.outcome;
     all.reason = fmt::format("body '{}': {}", scene_.bodies[number].name, solution.summary.reason);
   }
@@ -323,23 +368,28 @@ Solution<D> DirichletNeumann<D>::solve(const Model<D>& model) {
   Vector u(nodes_.back().size() * std::size_t{D}), forces(u.size()), taken = u;
   in_contact_.assign(nodes_.back().size(), 0);
   Damping damping;
+  Patience patience;
   Summary all;
   all.options = options;
   all.options.method = "dirichlet-neumann";
   std::vector<double> changes;
-  int turn = 0;
+  Vector start, step;  // of the masters, where they last touched
+  int turn = 0, cuts = 0;
   double change = infinity;
+  bool lost = false;
   all.outcome = Outcome::converged;
-  while (change > options.tolerance && turn < options.max_iterations && all.outcome == Outcome::converged) {
+  while (change > options.tolerance && may_go_on(all.outcome) && !lost) {
     ++turn;
     progress_.phase(fmt::format("turn {}", turn));
+    all.outcome = Outcome::converged;
+    all.reason.clear();
     for (const Index k : order_) {
       std::vector<Vector> moved;
       const std::vector<Vector> on_all = on_all_meshes(taken);
       for (std::size_t l = 0; l < levels_.size(); ++l) moved.push_back(mean_of_masters(levels_[l], on_all[l]));
       solve_part(k, moved, forces, all);
       const Part& part = *parts_[k];
-      for (Index p = 0; p < part.nodes().size(); ++p)
+      for (Index p = 0; p < std::ssize(part.u) / D; ++p)
         std::copy_n(part.u.begin() + Offset{p} * D, D, u.begin() + Offset{part.joint.back()[p]} * D);
     }
     const Level& finest = levels_.back();
@@ -348,15 +398,36 @@ Solution<D> DirichletNeumann<D>::solve(const Model<D>& model) {
     for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= before[k];
     change = largest(u) > 0 ? largest(difference) / largest(u) : 0;
     changes.push_back(change);
-    const double factor = damping.factor(difference);
-    for (std::size_t k = 0; k < u.size(); ++k) taken[k] += factor * (u[k] - taken[k]);
+    lost = patience.lost(change);
+    const bool too_long = largest(forces) == 0 && !step.empty() && cuts < most_cuts;
+    if (!too_long) {
+      start = taken;
+      step.resize(u.size());
+      for (std::size_t k = 0; k < u.size(); ++k) step[k] = u[k] - taken[k];
+    }
+    cuts = too_long ? cuts + 1 : 0;
+    const double factor = too_long ? damping.shorter() : damping.factor(difference);
+    for (std::size_t k = 0; k < u.size(); ++k) taken[k] = start[k] + factor * step[k];
   }
   Solution<D> out = joint_solution(model, u);
-  if (all.outcome == Outcome::converged && change > options.tolerance) all.outcome = Outcome::iteration_limit;
+  if (may_go_on(all.outcome) && change > options.tolerance) {
+    all.outcome = Outcome::iteration_limit;
+    all.reason.clear();
+  }
+  if (all.iterations >= options.max_iterations && all.outcome == Outcome::iteration_limit)
+    all.reason = fmt::format(
+        "limit of {} cycles of all bodies (max_iterations), in turn {}, where the masters' surfaces "
+        "have moved by {:.2g} of the largest displacement",
+        options.max_iterations, turn, change);
   if (all.reason.empty())
-    all.reason =
-        fmt::format("in turn {} the masters' surfaces have moved by {:.2g} of the largest displacement, {} {:g}", turn,
-                    change, change <= options.tolerance ? "at most" : "above", options.tolerance);
+    all.reason = fmt::format(
+        "in turn {} the masters' surfaces have moved by {:.2g} of the largest displacement, {} {:g}{}", turn, change,
+        change <= options.tolerance ? "at most" : "above", options.tolerance,
+        lost
+            ? fmt::format(", and in {} turns it has not become less: turns do not come to rest where masters are soft; "
+                          "expected the softer body as the slave ('slave'), or bodies = \"jumps\"",
+                          patience_of_turns)
+            : "");
   if (changes.size() > 1) all.rate = std::pow(changes.back() / changes.front(), 1.0 / double(changes.size() - 1));
   all.residual = all.algebraic_error = change;
   all.energy = energy(out.discretization.problem, out.x);

@@ -7,6 +7,12 @@
 
 namespace signorini {
 
+/// Error(Exit::input) for what bodies = "dirichlet-neumann" does not know, where the scene has it: friction between
+/// bodies, quadratic elements, a body that touches itself.
+/// @param scene as it is solved
+template <int D>
+void check_turns(const Scene& scene, std::size_t body, const Model<D>& model);
+
 /// Bodies that touch each other, solved in turns by what solves one body: a nonlinear Dirichlet-Neumann iteration (R.
 /// Krause, B. Wohlmuth: A Dirichlet-Neumann type algorithm for contact problems with friction, Comput. Vis. Sci. 5,
 /// 2002). A slave has the surface of its masters as an obstacle, where these have come to; a master feels the slave's
@@ -21,7 +27,8 @@ class DirichletNeumann {
   DirichletNeumann(const Scene& scene, std::size_t body, const MeshHierarchy<D>& joint, const Registry& registry,
                    const Progress& progress, Times& times);
 
-  /// Error(Exit::input) where there is friction between bodies, or a body touches itself; others as of NestedSolver.
+  /// All cycles of all bodies count for `max_iterations`. Turns that lead nowhere end before. Errors as of
+  /// NestedSolver.
   /// @param model of all; of each pair `on` is the slave's side
   Solution<D> solve(const Model<D>& model);
 

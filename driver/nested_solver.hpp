@@ -72,6 +72,9 @@ class NestedSolver {
   /// each mesh, B per node, beside the model's loads.
   void take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs, std::vector<std::vector<double>> forces);
 
+  /// Of all methods together, in one solve from now on.
+  void limit_iterations(int most) { options_.max_iterations = most; }
+
   /// Interpolation between the meshes `level` and `level` + 1.
   const Prolongation& from_mesh(std::size_t level) const { return matrices_.above(level); }
 

@@ -15,6 +15,7 @@
 #include "driver/build_model.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
+#include "driver/dirichlet_neumann.hpp"
 #include "driver/mesh_levels.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
@@ -150,6 +151,7 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
       if constexpr (D == B) {
         if (slaves.empty()) slaves = choose_slaves(Nodes(hierarchy.levels.front()), now);
         exchange_sides(slaves, now);
+        check_turns(scene, body, now);
       }
       if (discretization.problem.A.size() == 0)
         discretization = discretize<D, B>(nodes, now);

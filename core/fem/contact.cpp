@@ -431,6 +431,7 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
+    summary.peaks_at_edge = recovered.peaks_at_edge;
     for (const ContactNode<B>& node : state.nodes)
       if (node.obstacle == obstacle) totals.add(node);
   }

@@ -54,17 +54,13 @@ class Recovery {
   }
 
   bool resolved() const {
-    bool all_inside = true;
-    Index top = unreachable;  // where the largest pressure is
-    for (Index k = 0; k < faces_.size(); ++k) {
-      if (!faces_.pressed(k) || faces_.node(k).hardly_covered()) continue;
-      all_inside = all_inside && inside_[k];
-      if (top == unreachable || faces_.node(k).recovered > faces_.node(top).recovered) top = k;
-    }
-    if (all_inside) return true;
-    const auto some = samples(top);
-    return inside_[top] && some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(top);
+    if (all_inside()) return true;
+    const Index k = top();
+    const auto some = samples(k);
+    return some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(k);
   }
+
+  bool peaks_at_edge() const { return !all_inside() && !inside_[top()]; }
 
   double area() const {
     double sum = 0;
@@ -98,11 +94,31 @@ class Recovery {
 
   using Place = std::array<double, D - 1>;
 
+  /// No node is at the edge.
+  /// Whether it is pressed, and says something of the pressure.
+  bool tells(Index k) const { return faces_.pressed(k) && !faces_.node(k).hardly_covered(); }
+
+  bool all_inside() const {
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (tells(k) && !inside_[k]) return false;
+    return true;
+  }
+
+  /// Where the largest pressure is.
+  Index top() const {
+    Index out = unreachable;
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (tells(k) && (out == unreachable || faces_.node(k).recovered > faces_.node(out).recovered)) out = k;
+    return out;
+  }
+
   double way_to_neighbours(Index k) const {
     double way = 0;
     const TangentPlane<D> plane = samples_.plane_at(k);
-    for (const Index other : faces_.around(k))
+    for (const Index other : faces_.around(k)) {
+      if (other == unreachable) continue;
       for (const double x : plane(nodes_.at(faces_.node(other).vertex))) way = std::max(way, std::abs(x));
+    }
     return way;
   }
 
@@ -265,7 +281,7 @@ RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
   recover_traction(nodes, surface, faces);
-  return {recovery.area(), recovery.resolved()};
+  return {recovery.area(), recovery.resolved(), recovery.peaks_at_edge()};
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                        \

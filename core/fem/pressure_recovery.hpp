@@ -22,10 +22,11 @@ namespace signorini {
 /// @return `area`, the measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where
 /// it does not fall towards the edge, as under a punch, contact goes on half way to the next node. `resolved`: where
 /// the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no node
-/// is at its edge.
+/// is at its edge. `peaks_at_edge`: the largest pressure is at its edge, as where an edge or a corner of a body
+/// touches: smaller elements find larger ones.
 struct RecoveredPressure {
   double area;
-  bool resolved;
+  bool resolved, peaks_at_edge;
 };
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,

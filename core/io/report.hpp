@@ -29,6 +29,7 @@ struct ContactReport {
   std::vector<double> force;  ///< exerted on the body, one entry per unknown of a vertex
   double max_pressure = 0;
   bool resolved = true;                                ///< nodes enough for pressures, see recover_pressure()
+  bool peaks_at_edge = false;                          ///< likewise
   Index slip_nodes = 0, stick_nodes = 0;               ///< of those in contact, where there is friction
   std::vector<double> normal_force, tangential_force;  ///< the parts of `force` along the obstacle's normal, and across
   /// Of an elastic body: of `force` about the point `moment_about`, with the undeformed positions: about the z-axis in

@@ -59,6 +59,17 @@ TEST_F(Bodies, AreCheckedOneByOne) {
   EXPECT_THAT(ended.out, HasSubstr("obstacle 1: contact, 5 candidate"));
 }
 
+TEST_F(Bodies, CheckRefusesWhatTurnsDoNotKnow) {
+  write("turns.toml", tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
+                          tables::block("upper", "[0, 1]", "[1, 1.5]", "[4, 4]") +
+                          tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.01]") +
+                          "[[obstacle]]\ntype = 'elastic_coulomb'\nfriction = 0.1\nbody = 'upper'\non = 'bottom'\n"
+                          "other = 'lower'\nother_on = 'top'\n[solver]\nbodies = 'dirichlet-neumann'\n");
+  const Ended checked = signorini({"check", "turns.toml"});
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err, HasSubstr("friction between bodies is not available"));
+}
+
 TEST_F(Bodies, WhichIsTheSlaveIsPrintedAndReported) {
   write("press.toml", "title = 'press'\n" + tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
                           tables::block("upper", "[0, 1]", "[1, 1.5]", "[4, 4]", "young = 5\npoisson = 0.3\n") +

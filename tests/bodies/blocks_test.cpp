@@ -302,6 +302,25 @@ TEST(Apart, BodiesAreNamedThatNeverTouch) {
   EXPECT_TRUE(touching.warnings.empty());
 }
 
+// Pressures grow at an edge that touches, on any mesh; where the contact itself has nodes enough that is what is said.
+TEST(Edges, ThatTouchAreNotTakenForTooFewNodes) {
+  const auto told = [](const std::string& uniform) {
+    Driver driver(scene_of(block("below", "[0, 0]", "[1, 1]", "[4, 4]") +
+                           block("above", "[0.2, 1]", "[1.2, 2]", "[7, 7]") + fix("below", "bottom", "[0, 0]") +
+                           fix("above", "top", "[0, -0.01]") + pair("above", "bottom", "below", "top") +
+                           "[refine]\nuniform = " + uniform + "\n"));
+    const Report& report = driver.solve();
+    EXPECT_TRUE(report.last().contact[0].resolved);
+    return report.warnings;
+  };
+  for (const char* uniform : {"1", "2", "3"})
+    EXPECT_THAT(told(uniform),
+                testing::AllOf(testing::Contains(
+                                   HasSubstr("obstacle.0: the largest pressure is where an edge or a corner touches")),
+                               testing::Not(testing::Contains(HasSubstr("too few")))))
+        << uniform;
+}
+
 TEST(Overlap, OfMoreThanAnElementIsNamed) {
   const auto overlapping = [](double by) {
     return block("below", "[0, 0]", "[2, 1]", "[8, 4]") +

@@ -18,7 +18,7 @@ std::string solver(const std::string& more, double tolerance = 1e-9) {
 
 /// @return turns
 int expect_same(const std::string& text) {
-  Driver jumps(scene_of(text + solver(""))), turns(scene_of(text + solver(in_turns)));
+  Driver jumps(scene_of(text + solver(""))), turns(scene_of(text + solver(in_turns + "max_iterations = 1000\n")));
   EXPECT_TRUE(jumps.solve().converged()) << jumps.report().reason();
   EXPECT_TRUE(turns.solve().converged()) << turns.report().reason();
   const std::vector<double> u = turns.solution(), expected = jumps.solution();
@@ -94,6 +94,40 @@ TEST(Turns, KnowNoFriction) {
   std::string text = pressed(1, 0);
   text = text.substr(0, text.find("[[obstacle]]")) + friction + solver(in_turns);
   expect_error(text, Exit::input, "friction between bodies is not available with bodies = \"dirichlet-neumann\"");
+}
+
+Report report_of_turns(const std::string& text, const std::string& more) {
+  Driver driver(scene_of(text + solver(in_turns + more)));
+  return driver.solve();
+}
+
+TEST(Turns, KeepTheLimitOfCyclesTogether) {
+  const Report report = report_of_turns(pressed(1, 1), "max_iterations = 20\n");
+  EXPECT_FALSE(report.converged());
+  EXPECT_LE(report.last().summary.iterations, 20);
+  EXPECT_EQ(report.last().summary.outcome, Outcome::iteration_limit);
+  EXPECT_NE(report.reason().find("limit of 20 cycles of all bodies"), std::string::npos) << report.reason();
+}
+
+TEST(Turns, ComeToRestWhereTheMasterIsSofter) { expect_same(pressed(0.1, 0, "slave = \"body\"\n")); }
+
+// In the first turn the ball, a master, is moved as it is: rounding is all that deforms it.
+TEST(Turns, GoOnFromAMasterThatNothingDeformsYet) {
+  const Report report =
+      report_of_turns("[[body]]\nname = \"ball\"\nshape = \"half_ball\"\ncenter = [0, 0, 1]\nradius = 1\nsize = 0.4\n" +
+                          material(1) + block("block", "[-1, -1, -1]", "[1, 1, 0]", "[8, 8, 4]", material(1)) +
+                          fix("ball", "flat", "[0, 0, -0.05]") + fix("block", "bottom", "[0, 0, 0]") +
+                          pair("ball", "curved", "block", "top", "slave = \"other\"\n") + "[symmetry]\nx = 0\ny = 0\n",
+                      "");
+  EXPECT_TRUE(report.converged()) << report.reason();
+  EXPECT_GT(report.last().contact[0].force[2], 0);
+}
+
+TEST(Turns, EndWhereTheyLeadNowhere) {
+  const Report report = report_of_turns(pressed(0.001, 0, "slave = \"body\"\n"), "max_iterations = 100000\n");
+  EXPECT_FALSE(report.converged());
+  EXPECT_LT(report.last().summary.iterations, 2000);
+  EXPECT_NE(report.reason().find("expected the softer body as the slave"), std::string::npos) << report.reason();
 }
 
 TEST(Turns, NeedMastersThatFixesHold) {
