@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
@@ -13,6 +14,7 @@
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
 #include "core/fem/select.hpp"
+#include "core/mesh/join.hpp"
 #include "core/mesh/mirror.hpp"
 
 namespace signorini {
@@ -169,16 +171,34 @@ class Coupler {
     return out;
   }
 
+  /// Between the same two bodies one obstacle does for both; else the sides have to be others.
+  [[noreturn]] void refuse_node(Index p, Index obstacle, Index taken, bool twice) const {
+    const ObstacleTerm<D>&term = model_.obstacles[obstacle], &before = model_.obstacles[taken];
+    if (between_the_same(term, before))
+      input_error(term.origin,
+                  fmt::format("at ({}) is between the same two bodies as {}, which is not available in this version; "
+                              "expected one obstacle with the faces of both ('where', 'other_where'), or faces apart "
+                              "from each other",
+                              fmt::join(nodes_.at(p), ", "), before.origin));
+    input_error(term.origin,
+                fmt::format("at ({}) {} lets the same body touch another one, {}, which is not available in this "
+                            "version; expected faces apart from each other{}",
+                            fmt::join(nodes_.at(p), ", "), before.origin,
+                            twice ? "as the slave both times" : "as the slave there and the master here, or so",
+                            twice ? "" : ", or the two bodies of one of them exchanged"));
+  }
+
+  static bool between_the_same(const ObstacleTerm<D>& a, const ObstacleTerm<D>& b) {
+    const auto bodies = [](const ObstacleTerm<D>& term) {
+      return std::set{body_of(term.on->part.value_or("")), body_of(term.other->part.value_or(""))};
+    };
+    return bodies(a) == bodies(b);
+  }
+
   /// A node is on one slave side, or on master sides.
   void take_side(std::vector<Index>& side, const std::vector<Index>& other, Index p, Index obstacle) {
     const bool twice = &side == &slave_of_ && side[p] >= 0 && side[p] != obstacle;
-    if (twice || other[p] >= 0)
-      input_error(model_.obstacles[obstacle].origin,
-                  fmt::format("at ({}) {} lets the same body touch another one, {}, which is not available in this "
-                              "version; expected faces apart from each other{}",
-                              fmt::join(nodes_.at(p), ", "), model_.obstacles[twice ? side[p] : other[p]].origin,
-                              twice ? "as the slave both times" : "as the slave there and the master here, or so",
-                              twice ? "" : ", or the two bodies of one of them exchanged"));
+    if (twice || other[p] >= 0) refuse_node(p, obstacle, twice ? side[p] : other[p], twice);
     side[p] = obstacle;
   }
 

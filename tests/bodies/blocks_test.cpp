@@ -321,6 +321,13 @@ TEST(Edges, ThatTouchAreNotTakenForTooFewNodes) {
         << uniform;
 }
 
+TEST(Corner, BetweenTwoBodiesIsOneObstacle) {
+  const std::string seat = block("seat", "[0, 0]", "[2, 1]", "[8, 4]") + block("wall", "[0, 1]", "[2, 2]", "[8, 4]") +
+                           fix("seat", "bottom", "[0, 0]") + fix("wall", "top", "[0, -0.01]");
+  expect_error(seat + pair("wall", "bottom", "seat", "top") + pair("wall", "bottom", "seat", "top"), Exit::input,
+               "expected one obstacle with the faces of both");
+}
+
 TEST(Overlap, OfMoreThanAnElementIsNamed) {
   const auto overlapping = [](double by) {
     return block("below", "[0, 0]", "[2, 1]", "[8, 4]") +
