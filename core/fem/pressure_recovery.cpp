@@ -94,10 +94,10 @@ class Recovery {
 
   using Place = std::array<double, D - 1>;
 
-  /// No node is at the edge.
   /// Whether it is pressed, and says something of the pressure.
   bool tells(Index k) const { return faces_.pressed(k) && !faces_.node(k).hardly_covered(); }
 
+  /// No node is at the edge.
   bool all_inside() const {
     for (Index k = 0; k < faces_.size(); ++k)
       if (tells(k) && !inside_[k]) return false;
