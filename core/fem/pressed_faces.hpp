@@ -34,6 +34,7 @@ class PressedFaces {
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
     add_strangers(nodes, obstacle);
     connect(nodes);
+    find_mirrors(nodes, surface.plane());
   }
 
   Index size() const { return static_cast<Index>(node_.size()); }
@@ -45,6 +46,8 @@ class PressedFaces {
   /// Nodes that share faces with one, in ascending order; without those that another body is hardly in front of, where
   /// a contact ends as at an edge of the body.
   const std::vector<Index>& around(Index k) const { return around_[k]; }
+  /// Whether another body ends beside a node.
+  bool at_end(Index k) const { return at_end_[k]; }
   /// One of the faces at a node that has neighbours.
   Index face_at(Index k) const { return face_at_[k]; }
   /// How far to go from a node in search of samples: so many rings of neighbours, more where they are few.
@@ -52,23 +55,38 @@ class PressedFaces {
     int rings, most;
     std::size_t enough;
   };
-  /// Pressed nodes that are reached through pressed ones, and that count.
+  /// A node, or its image beyond planes of symmetry or the axis of a body of revolution: a bit for each axis along
+  /// which it is mirrored.
+  struct Reached {
+    Index node;
+    unsigned image = 0;
+    bool operator==(const Reached&) const = default;
+  };
+  /// Pressed nodes that are reached through pressed ones, and that count: those of the whole body.
   template <class Counts>
-  std::vector<Index> around(Index from, const Reach& reach, const Counts& counts) const {
-    std::vector<Index> seen{from}, found;
-    if (counts(from)) found.push_back(from);
+  std::vector<Reached> around(Index from, const Reach& reach, const Counts& counts) const {
+    std::vector<Reached> seen{{from}}, found;
+    if (counts(from)) found.push_back({from});
     std::size_t first = 0;
     for (int ring = 1; ring <= reach.rings || (found.size() < reach.enough && ring <= reach.most); ++ring) {
       const std::size_t last = seen.size();
       for (; first < last; ++first)
-        for (const Index other : around_[seen[first]]) {
-          if (!pressed(other) || std::ranges::find(seen, other) != seen.end()) continue;
-          seen.push_back(other);
-          if (counts(other)) found.push_back(other);
+        for (const Index other : around_[seen[first].node]) {
+          if (!pressed(other)) continue;
+          const Reached here = seen[first];
+          each_side(on_[here.node], [&](unsigned across) {
+            const Reached next{other, (here.image ^ across) & ~on_[other]};  // on a plane it is its own image
+            if (std::ranges::find(seen, next) != seen.end()) return;
+            seen.push_back(next);
+            if (counts(other)) found.push_back(next);
+          });
         }
     }
     return found;
   }
+
+  /// Planes of symmetry, and the axis of a body of revolution, each along another axis.
+  const std::vector<Mirror>& mirrors() const { return mirrors_; }
 
   /// Whether all neighbours are pressed, too.
   bool inside(Index k) const {
@@ -125,6 +143,7 @@ class PressedFaces {
   void connect(const Nodes<D>& nodes) {
     around_.resize(node_.size());
     face_at_.resize(node_.size());
+    at_end_.resize(node_.size());
     for (const Index face : faces_) {
       const auto vertices = nodes.of_face(face);
       const Point<D> normal = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
@@ -134,7 +153,10 @@ class PressedFaces {
         if (k == unreachable) continue;
         face_at_[k] = face;
         for (const Index other : corners)
-          if (other != k && goes_on(k, other)) around_[k].push_back(other);
+          if (other != k && goes_on(k, other))
+            around_[k].push_back(other);
+          else if (other != k)
+            at_end_[k] = true;
       }
     }
     for (std::vector<Index>& list : around_) {
@@ -143,9 +165,30 @@ class PressedFaces {
     }
   }
 
+  void find_mirrors(const Nodes<D>& nodes, Plane plane) {
+    mirrors_ = nodes.mesh().mirrors;
+    if (plane == Plane::axisymmetric) mirrors_.push_back({.axis = 0, .at = 0});
+    for (const ContactNode<B>* node : node_) {
+      unsigned& on = on_.emplace_back(0);
+      for (const Mirror& mirror : mirrors_)
+        if (lies_on<D>(mirror, nodes.at(node->vertex))) on |= 1u << mirror.axis;
+    }
+  }
+
+  /// Calls visit() for all subsets of axes.
+  template <class Visit>
+  static void each_side(unsigned axes, const Visit& visit) {
+    for (unsigned some = axes;; some = (some - 1) & axes) {
+      visit(some);
+      if (some == 0) return;
+    }
+  }
+
+  std::vector<Mirror> mirrors_;
+  std::vector<unsigned> on_;  // axes of those that a node lies on
   std::deque<ContactNode<B>> strangers_;
   std::vector<ContactNode<B>*> node_;
-  std::vector<bool> pressed_;
+  std::vector<bool> pressed_, at_end_;
   std::vector<Index> faces_, face_at_;
   std::vector<std::array<Index, D>> corners_;
   std::vector<std::vector<Index>> around_;
@@ -182,41 +225,25 @@ class SurfaceSamples {
     return {origin, tangents(normal)};
   }
 
-  /// At the middles of the nodes in `some`, seen from node k in the plane that touches there. Where these reach a plane
-  /// of symmetry, or the axis of a body of revolution, their mirror images count, too.
-  /// @param value value(node, mirrored): a bit for each axis along which the sample is mirrored
+  using Reached = typename PressedFaces<D, B>::Reached;
+
+  /// At the middles of what was reached, seen from node k in the plane that touches there.
+  /// @param value value(reached)
   template <class Value>
-  std::vector<Sample<D - 1>> around(Index k, const std::vector<Index>& some, const Value& value) const {
+  std::vector<Sample<D - 1>> around(Index k, const std::vector<Reached>& some, const Value& value) const {
     const TangentPlane<D> plane = plane_at(k);
-    const std::vector<Mirror> near = mirrors_near(some);
     std::vector<Sample<D - 1>> out;
-    for (const Index s : some)
-      for (unsigned image = 0; image < 1u << near.size(); ++image) {
-        Point<D> at = middle(s);
-        unsigned mirrored = 0;
-        bool again = false;  // on the plane it is its own image
-        for (std::size_t m = 0; m < near.size(); ++m) {
-          if (!(image >> m & 1u)) continue;
-          again = again || lies_on<D>(near[m], at);
-          at = reflected<D>(near[m], at);
-          mirrored |= 1u << near[m].axis;
-        }
-        if (again) continue;
-        out.push_back({plane(at), {value(s, mirrored)}});
-      }
+    out.reserve(some.size());
+    for (const Reached& s : some) {
+      Point<D> at = middle(s.node);
+      for (const Mirror& mirror : faces_.mirrors())
+        if (s.image >> mirror.axis & 1u) at = reflected<D>(mirror, at);
+      out.push_back({plane(at), {value(s)}});
+    }
     return out;
   }
 
  private:
-  std::vector<Mirror> mirrors_near(const std::vector<Index>& some) const {
-    std::vector<Mirror> out = nodes_.mesh().mirrors;
-    if (surface_.plane() == Plane::axisymmetric) out.push_back({.axis = 0, .at = 0});
-    std::erase_if(out, [&](const Mirror& mirror) {
-      return std::ranges::none_of(some, [&](Index s) { return lies_on<D>(mirror, nodes_.at(faces_.node(s).vertex)); });
-    });
-    return out;
-  }
-
   const Point<D>& middle(Index k) const {
     if (!middle_[k]) middle_[k] = surface_.middle(faces_.node(k));
     return *middle_[k];

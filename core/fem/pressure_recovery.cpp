@@ -18,6 +18,7 @@ constexpr int most_rings = 6;    // where there are few samples
 constexpr double excess = 1.25;  // over the means around a node: a linear pressure at a corner has less
 constexpr double at_edge =
     0.3;                       // of the next pressure inside is what a mean at the edge may have without any of its own
+constexpr double steep = 1.1;  // from a node to one beside which the other body ends: pressures peak there
 constexpr double falls = 0.5;  // from a node in contact to the next one: more is left under a punch
 constexpr double least_width = 0.4;  // of samples, over the way to the next node: two rows of them have 0.5
 // Samples that a fit looks for, and without which it does not go on to the edge.
@@ -60,7 +61,13 @@ class Recovery {
     return some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(k);
   }
 
-  bool peaks_at_edge() const { return !all_inside() && !inside_[top()]; }
+  bool peaks_at_edge() const {
+    if (!all_inside()) return !inside_[top()];
+    const Index k = top();
+    return k != unreachable && faces_.at_end(k) && std::ranges::none_of(faces_.around(k), [&](Index other) {
+             return faces_.pressed(other) && faces_.node(k).recovered < steep * faces_.node(other).recovered;
+           });
+  }
 
   double area() const {
     double sum = 0;
@@ -70,14 +77,14 @@ class Recovery {
 
  private:
   /// Nodes inside the contact within some rings of neighbours.
-  std::vector<Index> neighbourhood(Index from) const {
+  std::vector<typename PressedFaces<D, B>::Reached> neighbourhood(Index from) const {
     const int wanted = inside_[from] ? rings : rings_beyond;
     return faces_.around(from, {wanted, most_rings, enough<D>}, [&](Index k) -> bool { return inside_[k]; });
   }
 
   std::vector<Sample<D - 1>> samples(Index k) const {
-    return samples_.around(k, neighbourhood(k), [&](Index s, unsigned) {
-      const double pressure = inside_[k] ? at_middle_[s] : faces_.node(s).pressure;
+    return samples_.around(k, neighbourhood(k), [&](const auto& s) {
+      const double pressure = inside_[k] ? at_middle_[s.node] : faces_.node(s.node).pressure;
       return pressure * pressure;
     });
   }

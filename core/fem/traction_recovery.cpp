@@ -16,6 +16,7 @@ template <int D, int B>
 class TractionRecovery {
  public:
   using Vector = std::array<double, B>;
+  using Reached = typename PressedFaces<D, B>::Reached;
 
   TractionRecovery(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, const PressedFaces<D, B>& faces)
       : faces_(faces), samples_(nodes, surface, faces) {
@@ -49,7 +50,7 @@ class TractionRecovery {
 
   Vector traction(Index k) const {
     if (slips(k)) return all_it_bears(k);
-    const std::vector<Index> slipping =
+    const std::vector<Reached> slipping =
         faces_.around(k, {rings, rings, 0}, [this](Index other) { return slips(other); });
     if (slipping.empty()) return inside(k);
     const auto direction = common_direction(slipping);
@@ -71,10 +72,10 @@ class TractionRecovery {
   }
 
   /// Of slip. Nothing where it differs from node to node.
-  std::optional<Vector> common_direction(const std::vector<Index>& slipping) const {
+  std::optional<Vector> common_direction(const std::vector<Reached>& slipping) const {
     Vector sum{};
-    for (const Index other : slipping) {
-      const Vector t = mean(other);
+    for (const Reached& other : slipping) {
+      const Vector t = mean_at(other);
       const double length = std::sqrt(dot(t, t));
       for (int i = 0; i < B && length > 0; ++i) sum[i] += t[i] / length;
     }
@@ -84,17 +85,18 @@ class TractionRecovery {
     return sum;
   }
 
-  /// The same, as it is at a mirror image of the node.
-  Vector mean_at_image(Index k, unsigned mirrored) const {
-    Vector out = mean(k);
+  /// The same, at a mirror image of the node as well.
+  Vector mean_at(const Reached& place) const {
+    Vector out = mean(place.node);
     for (int i = 0; i < B; ++i)
-      if (mirrored >> i & 1u) out[i] = -out[i];
+      if (place.image >> i & 1u) out[i] = -out[i];
     return out;
   }
 
   /// How much less than friction bears there is along a direction of slip, as a mean around the node.
-  double left(Index k, const Vector& direction, unsigned mirrored = 0) const {
-    return slips(k) ? 0 : std::max(limit(k, faces_.node(k).pressure) - dot(mean_at_image(k, mirrored), direction), 0.0);
+  double left(const Reached& place, const Vector& direction) const {
+    const Index k = place.node;
+    return slips(k) ? 0 : std::max(limit(k, faces_.node(k).pressure) - dot(mean_at(place), direction), 0.0);
   }
 
   Vector near_edge(Index k, const Vector& direction) const {
@@ -102,14 +104,14 @@ class TractionRecovery {
         faces_.around(k, {rings_at_edge, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
     const Vector around = mean(k);
     if (some.size() < enough<D>) return around;
-    const PolynomialFit<1, D - 1> squares(samples_.around(k, some, [&](Index s, unsigned mirrored) {
-      const double value = left(s, direction, mirrored);
+    const PolynomialFit<1, D - 1> squares(samples_.around(k, some, [&](const Reached& s) {
+      const double value = left(s, direction);
       return value * value;
     }));
     const auto fit = squares.at({});
     if (!fit) return around;
     const double rest =
-        between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left(j, direction); });
+        between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left({j}, direction); });
     const double along = limit(k, faces_.node(k).recovered) - rest - dot(around, direction);
     Vector out = around;
     for (int i = 0; i < B; ++i) out[i] += along * direction[i];
@@ -124,9 +126,8 @@ class TractionRecovery {
     if (some.size() < enough<D>) return out;
     for (int i = 0; i < B; ++i) {
       const auto component = [&](Index j) { return mean(j)[static_cast<std::size_t>(i)]; };
-      const auto fit = fitted_value(samples_.around(k, some, [&](Index s, unsigned mirrored) {
-        return mean_at_image(s, mirrored)[static_cast<std::size_t>(i)];
-      }));
+      const auto fit = fitted_value(
+          samples_.around(k, some, [&](const Reached& s) { return mean_at(s)[static_cast<std::size_t>(i)]; }));
       if (fit) out[i] = between_means(k, *fit, component);
     }
     return out;
