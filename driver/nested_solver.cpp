@@ -162,13 +162,16 @@ void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t le
   times_.setup += watch.elapsed();
 }
 
-/// Without a coarser mesh a rough solution tells where bodies touch.
+/// Without a coarser mesh a rough solution tells where bodies touch. It need not be one: cycles may be slow with jumps all
+/// over, most where bodies are far apart, and whether they touch elsewhere is looked at afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
   constexpr double roughly = 1e-3;
+  constexpr int a_few = 30;
   if (!pairs_.may_narrow(first_)) return;
   SolverOptions options = options_;
   options.tolerance = std::max(options.tolerance, roughly);
+  options.max_iterations = std::min(options.max_iterations, a_few);
   solve_level(model, first_, options, nullptr, solution);
   dropped_.insert(dropped_.end(), solution.summary.stages.begin(), solution.summary.stages.end());
   narrow_first(model, solution);
