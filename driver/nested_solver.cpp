@@ -162,8 +162,8 @@ void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t le
   times_.setup += watch.elapsed();
 }
 
-/// Without a coarser mesh a rough solution tells where bodies touch. It need not be one: cycles may be slow with jumps all
-/// over, most where bodies are far apart, and whether they touch elsewhere is looked at afterwards.
+/// Without a coarser mesh a rough solution tells where bodies touch. It need not be one: cycles may be slow with jumps
+/// all over, most where bodies are far apart, and whether they touch elsewhere is looked at afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
   constexpr double roughly = 1e-3;

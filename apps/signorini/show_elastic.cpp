@@ -16,6 +16,9 @@
 namespace signorini {
 namespace {
 
+/// Cosine of the angle to the eye from which on a face shows nothing but its edge.
+constexpr double seen_from_the_side = 0.1;
+
 /// Largest edge of the box around a mesh.
 template <int D>
 double extent(const Mesh<D>& mesh) {
@@ -59,6 +62,8 @@ template <int D>
 struct ContactZone {
   Point<D> normal{}, middle{};
   double radius = 0;
+  double force = 0;            ///< about
+  std::vector<char> counts{};  ///< per vertex: whether an obstacle may reach it
 };
 
 /// Of the vertices that some obstacles may reach.
@@ -67,9 +72,9 @@ std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown, std::span<cons
   const Mesh<D>& mesh = shown.hierarchy.finest();
   ContactZone<D> zone;
   double total = 0;
-  std::vector<char> counts(mesh.points.size());
-  for (const auto& [v, obstacle] : reached) counts[v] = 1;
-  const auto pressed = [&](Index v) { return counts[v] && !shown.pressure.empty() && shown.pressure[v] > 0; };
+  zone.counts.assign(mesh.points.size(), 0);
+  for (const auto& [v, obstacle] : reached) zone.counts[v] = 1;
+  const auto pressed = [&](Index v) { return zone.counts[v] && !shown.pressure.empty() && shown.pressure[v] > 0; };
   for (const auto& face : mesh.boundary)
     for (const Index v : face.vertices)
       if (pressed(v)) {
@@ -81,12 +86,38 @@ std::optional<ContactZone<D>> contact_zone(const Shown<D>& shown, std::span<cons
           zone.middle[k] += weight * mesh.points[v][k];
         }
       }
-  if (!(total > 0) || !(normalise(zone.normal) > 1e-3 * total)) return std::nullopt;
+  zone.force = normalise(zone.normal);
+  if (!(total > 0) || !(zone.force > 1e-3 * total)) return std::nullopt;
   for (double& x : zone.middle) x /= total;
   for (const auto& [v, obstacle] : reached)
     if (pressed(v)) zone.radius = std::max(zone.radius, length<D>(difference<D>(mesh.points[v], zone.middle)));
   zone.radius = std::max(zone.radius, 0.01 * extent(mesh));
   return zone;
+}
+
+/// The contact with one obstacle.
+template <int D>
+struct Contact {
+  std::string name;  ///< of the obstacle; empty where it is the only one
+  ContactZone<D> zone;
+  std::span<const Reached> reached;
+};
+
+/// Of each obstacle that presses.
+template <int D>
+std::vector<Contact<D>> contacts_of(const Shown<D>& shown) {
+  std::vector<Contact<D>> out;
+  std::span<const Reached> rest = shown.reached;
+  while (!rest.empty()) {
+    const int obstacle = rest.front().obstacle;
+    const auto end = std::ranges::find_if(rest, [&](const Reached& r) { return r.obstacle != obstacle; });
+    const auto here = rest.first(static_cast<std::size_t>(end - rest.begin()));
+    rest = rest.subspan(here.size());
+    if (auto zone = contact_zone(shown, here))
+      out.push_back({fmt::format("obstacle {}", obstacle), std::move(*zone), here});
+  }
+  if (out.size() == 1) out.front().name.clear();
+  return out;
 }
 
 template <int D>
@@ -117,10 +148,21 @@ Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zon
   return panel;
 }
 
-/// Bodies cut open through the middle of the contact zone, so that its normal lies in the section, as upright as may
-/// be.
+/// The vertex in contact that is nearest to the middle: that itself may lie between places that touch.
+Point<3> nearest_to_middle(const Shown<3>& shown, const ContactZone<3>& zone) {
+  Point<3> best = zone.middle;
+  double least = infinity;
+  for (std::size_t v = 0; v < zone.counts.size(); ++v) {
+    if (!zone.counts[v] || !(shown.pressure[v] > 0)) continue;
+    const Point<3>& x = shown.hierarchy.finest().points[v];
+    if (const double away = length<3>(difference<3>(x, zone.middle)); away < least) least = away, best = x;
+  }
+  return best;
+}
+
+/// Bodies cut open through the contact zone, so that its normal lies in the section, as upright as may be.
 Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
-  Section section{zone.middle, tangents(zone.normal)[0], zone.normal};
+  Section section{nearest_to_middle(shown, zone), tangents(zone.normal)[0], zone.normal};
   const auto widest = std::ranges::max_element(section.up, {}, [](double c) { return std::abs(c); });
   if (*widest < 0)
     for (double& c : section.up) c = -c;
@@ -139,7 +181,7 @@ Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<s
   return panel;
 }
 
-/// The faces around the contact zone, seen along its normal.
+/// The faces around the contact zone that may touch, seen along its normal.
 /// @param add called as add(corners, vertices of the finest mesh, patches)
 template <class Add>
 std::vector<Patch> zone_patches(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes,
@@ -151,22 +193,31 @@ std::vector<Patch> zone_patches(const Shown<3>& shown, const ContactZone<3>& zon
       if (is_too_many(patches)) break;
       std::array<Point<2>, 3> corners;
       std::array<Index, 3> vertices;
-      bool inside = dot(area_normal(*drawn.mesh, face), zone.normal) > 0;
+      const Point<3> normal = area_normal(*drawn.mesh, face);
+      bool inside = dot(normal, zone.normal) > seen_from_the_side * length<3>(normal);
+      bool counts = false;
       for (int c = 0; c < 3 && inside; ++c) {
         const Point<3> d = difference<3>(drawn.mesh->points[face.vertices[c]], zone.middle);
         corners[c] = {dot(d, axes[0]), dot(d, axes[1])};
         vertices[c] = drawn.fine[face.vertices[c]];
         inside = length<3>(d) < 1.5 * zone.radius;
+        counts = counts || zone.counts[vertices[c]];
       }
-      if (inside) add(corners, vertices, patches);
+      if (inside && counts) add(corners, vertices, patches);
     }
     return patches;
   });
 }
 
-Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+std::string with_name(const char* title, const std::string& name) {
+  return name.empty() ? title : fmt::format("{}, {}", title, name);
+}
+
+Panel pressure_panel(const Shown<3>& shown, const Contact<3>& contact, std::vector<std::string>& notes) {
+  const ContactZone<3>& zone = contact.zone;
   Panel panel;
-  panel.title = panel.label = "contact pressure";
+  panel.label = "contact pressure";
+  panel.title = with_name("contact pressure", contact.name);
   panel.patches = zone_patches(shown, zone, notes, [&](const auto& corners, const auto& vertices, auto& patches) {
     Patch& patch = patches.emplace_back();
     for (int c = 0; c < 3; ++c) set_corner(patch, c, corners[c], shown.pressure[vertices[c]]);
@@ -177,9 +228,10 @@ Panel pressure_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vec
 Point<2> middle(const Point<2>& a, const Point<2>& b) { return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; }
 
 /// Where it slips and sticks: the third of a face next to a vertex has that one's colour.
-Panel friction_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+Panel friction_panel(const Shown<3>& shown, const Contact<3>& contact, std::vector<std::string>& notes) {
+  const ContactZone<3>& zone = contact.zone;
   Panel panel;
-  panel.title = "slip and stick";
+  panel.title = with_name("slip and stick", contact.name);
   panel.words = {"open", "no friction", "slip", "stick"};
   panel.patches = zone_patches(shown, zone, notes, [&](const auto& corners, const auto& vertices, auto& patches) {
     const Point<2> centre{(corners[0][0] + corners[1][0] + corners[2][0]) / 3,
@@ -214,21 +266,12 @@ Profile profile(const Shown<2>& shown, const ContactZone<2>& zone, std::span<con
   return out;
 }
 
-/// Of each obstacle that presses.
 std::vector<Profile> profiles(const Shown<2>& shown) {
   std::vector<Profile> out;
-  std::span<const Reached> rest = shown.reached;
-  while (!rest.empty()) {
-    const int obstacle = rest.front().obstacle;
-    const auto end = std::ranges::find_if(rest, [&](const Reached& r) { return r.obstacle != obstacle; });
-    const auto here = rest.first(static_cast<std::size_t>(end - rest.begin()));
-    rest = rest.subspan(here.size());
-    if (const auto zone = contact_zone(shown, here)) {
-      out.push_back(profile(shown, *zone, here));
-      out.back().name = fmt::format("obstacle {}", obstacle);
-    }
+  for (const Contact<2>& contact : contacts_of(shown)) {
+    out.push_back(profile(shown, contact.zone, contact.reached));
+    out.back().name = contact.name;
   }
-  if (out.size() == 1) out.front().name.clear();
   return out;
 }
 
@@ -295,12 +338,15 @@ void add_contact(const Shown<2>& shown, const std::optional<ContactZone<2>>&, st
   if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, contacts));
 }
 
-void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>& zone, std::vector<std::string>& notes,
+/// Of several contacts the one that presses most.
+void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>&, std::vector<std::string>& notes,
                  std::vector<Panel>& panels) {
-  if (!zone) return;
-  if (shown.two_bodies) panels.push_back(cut_panel(shown, *zone, notes));
-  panels.push_back(pressure_panel(shown, *zone, notes));
-  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, *zone, notes));
+  const std::vector<Contact<3>> contacts = contacts_of(shown);
+  if (contacts.empty()) return;
+  const Contact<3>& most = *std::ranges::max_element(contacts, {}, [](const auto& c) { return c.zone.force; });
+  if (shown.two_bodies) panels.push_back(cut_panel(shown, most.zone, notes));
+  panels.push_back(pressure_panel(shown, most, notes));
+  if (has_friction(shown.contact)) panels.push_back(friction_panel(shown, most, notes));
 }
 
 }  // namespace
