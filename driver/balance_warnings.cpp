@@ -91,10 +91,12 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
   return warnings;
 }
 
-double imbalance(const StepReport& report) {
-  double worst = 0;
+double imbalance(const StepReport& report, const std::vector<double>& u) {
+  double largest = 0, worst = 0;
+  for (const double v : u) largest = std::max(largest, std::fabs(v));
+  const double by_work = largest > 0 ? std::fabs(report.summary.energy) / largest : 0;
   for (const BalanceReport& balance : report.balance) {
-    const double acting = most_acting(report, balance);
+    const double acting = std::max(most_acting(report, balance), by_work);
     const double left = left_over(balance, report.bodies.front().axisymmetric && balance.applied.size() > 1);
     if (acting > 0) worst = std::max(worst, left / acting);
   }

@@ -16,8 +16,9 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
                                           const std::vector<double>& load, const StepReport& report);
 
 /// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or an obstacle:
-/// the largest of its parts.
+/// the largest of its parts. Forces that cancel within one of these are known by their work alone.
 /// @param report of this body alone, with its parts
-double imbalance(const StepReport& report);
+/// @param u its displacements
+double imbalance(const StepReport& report, const std::vector<double>& u);
 
 }  // namespace signorini

@@ -188,7 +188,7 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
   for (std::string& warning : balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.
-  const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report) : 0;
+  const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report, results_.u) : 0;
   if (lost > inaccurate) {
     report.summary.add_rounding(lost, 0);
     report.bodies.front().summary = report.summary;

@@ -136,13 +136,23 @@ class EdgeBends {
     const ObstacleTerm<B>& term = model_.obstacles[obstacle];
     for (std::size_t k = 0; term.other && k < places_.size(); ++k)
       std::ranges::copy(bounds_[edges_[k / 2].bound].direction, places_[k].away);
-    std::vector<LocalConstraint<B>> constraints(places_.size());
-    Status status;
-    term.obstacle->assemble(places_.data(), places_.size(), constraints.data(), status);
-    for (std::size_t k = 0; status.ok() && k < edges_.size(); ++k)
-      limit(edges_[k], between(constraints[2 * k], edges_[k]), between(constraints[2 * k + 1], edges_[k]));
+    if (!limit(*term.obstacle, 0, edges_.size()))  // then it fails at some of them
+      for (std::size_t k = 0; k < edges_.size(); ++k)
+        if (!limit(*term.obstacle, k, k + 1)) out_[edges_[k].bound] = {};
     edges_.clear();
     places_.clear();
+  }
+
+  /// The edges from `first` to `last`. @return false where the obstacle says nothing of one of them
+  bool limit(const Obstacle<B>& obstacle, std::size_t first, std::size_t last) {
+    std::vector<LocalConstraint<B>> constraints(2 * (last - first));
+    Status status;
+    obstacle.assemble(places_.data() + 2 * first, constraints.size(), constraints.data(), status);
+    for (std::size_t k = first; status.ok() && k < last; ++k) {
+      const std::size_t at = 2 * (k - first);
+      limit(edges_[k], between(constraints[at], edges_[k]), between(constraints[at + 1], edges_[k]));
+    }
+    return status.ok();
   }
 
   Interval between(const LocalConstraint<B>& constraint, const Edge& edge) const {

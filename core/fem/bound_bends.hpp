@@ -14,8 +14,8 @@ struct BoundBend {
 /// half of the edge and of the part between their middles (scaled by length), zero where these bend to different sides.
 /// Smooth bounds keep theirs, up to third order in the length where it changes its sign. It is zero as well where the
 /// same obstacle has no bound at an end along nearly the same direction, or an infinite one. What a curved edge itself
-/// is off its surface, of fourth order in its length, is no disagreement. Obstacles that cannot be asked between nodes
-/// are taken for smooth.
+/// is off its surface, of fourth order in its length, is no disagreement. It is zero where the
+/// obstacle says nothing between the nodes.
 /// @param bounds of collect_bounds()
 template <int D, int B>
 std::vector<BoundBend> bound_bends(const Nodes<D>& nodes, const Model<B>& model, const std::vector<Bound<B>>& bounds);

@@ -213,7 +213,8 @@ class StressRecovery {
     return fit<P>(p);
   }
 
-  /// From regular nodes around it, where these have it between them: their errors do not grow.
+  /// From regular nodes around it, where these have it between them, so that their errors do not grow; else from those
+  /// farther away as well: what makes the stresses of its own elements worse would spread to the boundary from there.
   std::optional<Stress> from_regular(Index p) {
     if (P == 2) return {};
     patch_.clear();
@@ -221,7 +222,11 @@ class StressRecovery {
     start_layers();
     add_layer();
     add_nodes(regular_);
-    return fitted<2>(p, 1);
+    const auto found = fitted<2>(p, 1);
+    if (found) return found;
+    add_layer();
+    add_nodes(regular_);
+    return fitted<2>(p);
   }
 
   Stress of_patch(Index p) {
