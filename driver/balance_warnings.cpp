@@ -45,13 +45,15 @@ double left_over(const BalanceReport& balance, bool radial) {
   return size(sum);
 }
 
-/// The largest force that one obstacle exerts on a body: those from above and from below balance each other.
+/// The largest force that one obstacle exerts on a body: those from above and from below balance each other. Those of
+/// one obstacle may do so, too: it is no less than what its largest pressure is on its area.
 double largest_contact(const StepReport& report, const std::string& body) {
   double largest = 0;
   for (const ContactReport& contact : report.contact) {
-    if (contact.body == body) largest = std::max(largest, size(contact.force));
-    if (contact.pair && contact.body != body && (contact.pair->slave == body || contact.pair->master == body))
-      largest = std::max(largest, size(contact.pair->force));
+    const bool on_other = contact.pair && (contact.pair->slave == body || contact.pair->master == body);
+    if (contact.body != body && !on_other) continue;
+    largest = std::max({largest, size(contact.body == body ? contact.force : contact.pair->force),
+                        contact.max_pressure * contact.area});
   }
   return largest;
 }

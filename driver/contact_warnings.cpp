@@ -114,6 +114,7 @@ template <int D, int B>
 std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, const Report& report,
                                         const Results<D, B>& results) {
   std::vector<std::string> warnings;
+  if (!report.converged()) return warnings;
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto touches = [&](const StepReport& step) { return step.contact[numbers[k]].nodes > 0; };

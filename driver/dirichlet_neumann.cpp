@@ -312,7 +312,7 @@ Solution<D> DirichletNeumann<D>::solve_alone(Index number) {
 template <int D>
 void DirichletNeumann<D>::solve_part(Index number, const std::vector<Vector>& moved, Vector& forces, Summary& all) {
   Part& part = *parts_[number];
-  const int left = scene_.solver.max_iterations - all.iterations;
+  const int left = most_cycles() - all.iterations;
   if (left < 1) {
     all.outcome = Outcome::iteration_limit;
     return;
@@ -396,7 +396,8 @@ Solution<D> DirichletNeumann<D>::solve(const Model<D>& model) {
     const Vector found = mean_of_masters(finest, u), before = mean_of_masters(finest, taken);
     Vector difference = found;
     for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= before[k];
-    change = largest(u) > 0 ? largest(difference) / largest(u) : 0;
+    const double size = std::max(largest(u), largest(taken));
+    change = size > 0 ? largest(difference) / size : 0;
     changes.push_back(change);
     lost = patience.lost(change);
     const bool too_long = largest(forces) == 0 && !step.empty() && cuts < most_cuts;
@@ -414,11 +415,11 @@ Solution<D> DirichletNeumann<D>::solve(const Model<D>& model) {
     all.outcome = Outcome::iteration_limit;
     all.reason.clear();
   }
-  if (all.iterations >= options.max_iterations && all.outcome == Outcome::iteration_limit)
+  if (all.iterations >= most_cycles() && all.outcome == Outcome::iteration_limit)
     all.reason = fmt::format(
-        "limit of {} cycles of all bodies (max_iterations), in turn {}, where the masters' surfaces "
+        "limit of {} cycles of all bodies ({} each, max_iterations), in turn {}, where the masters' surfaces "
         "have moved by {:.2g} of the largest displacement",
-        options.max_iterations, turn, change);
+        most_cycles(), options.max_iterations, turn, change);
   if (all.reason.empty())
     all.reason = fmt::format(
         "in turn {} the masters' surfaces have moved by {:.2g} of the largest displacement, {} {:g}{}", turn, change,

@@ -61,6 +61,7 @@ class DirichletNeumann {
   std::vector<std::shared_ptr<const PairedBodies<D>>> obstacles(Index part, const std::vector<Vector>& moved) const;
   std::vector<Vector> forces_on(Part& part, Vector forces) const;
   Solution<D> solve_alone(Index number);
+  int most_cycles() const { return scene_.solver.max_iterations * static_cast<int>(parts_.size()); }
   void solve_part(Index number, const std::vector<Vector>& moved, Vector& forces, Summary& all);
   void take_forces(Index number, const Solution<D>& solution, Vector& forces);
   Solution<D> joint_solution(const Model<D>& model, const Vector& u) const;

@@ -46,6 +46,24 @@ Balance forces(const DiscreteProblem<B>& problem, const std::vector<double>& x) 
   return balance(problem, x, r);
 }
 
+/// Nothing but rounding loads or bounds what has not moved.
+template <int B>
+bool rests(const DiscreteProblem<B>& problem, const Rest& rest) {
+  const Constraints<B>& c = problem.constraints;
+  return std::ranges::all_of(problem.b, [](double v) { return v == 0; }) &&
+         std::ranges::all_of(c.lower, [&](double v) { return rest(v, 0) <= 0; }) &&
+         std::ranges::all_of(c.upper, [&](double v) { return rest(v, 0) >= 0; }) &&
+         std::ranges::all_of(c.facet, [](const Facet<B>& f) { return f.lower <= 0 && f.upper >= 0; });
+}
+
+/// Whatever a start is there is rounding, too.
+template <int B>
+void stay(DiscreteProblem<B>& problem, std::vector<double>& x) {
+  std::ranges::fill(x, 0.0);
+  for (double& bound : problem.constraints.lower) bound = std::min(bound, 0.0);
+  for (double& bound : problem.constraints.upper) bound = std::max(bound, 0.0);
+}
+
 /// The right-hand side of the prescribed values of now.
 template <int B>
 void prescribe_anew(Discretization<B>& discretization) {
@@ -70,6 +88,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   prescribe_anew(discretization);
+  if (rests(problem, rest)) stay(problem, x);
   const std::vector<double> moved = to_global(problem, way_);
   problem.prescribed_work += dot(moved, discretization.load);
 }

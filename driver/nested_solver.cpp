@@ -35,7 +35,7 @@ namespace {
 constexpr int patience_with_matrix = 40, patience_with_friction = 100;
 
 /// Of Newton's method on each mesh, where cycles do not do.
-constexpr int most_newton_steps = 80;
+constexpr int most_newton_steps = 40;
 
 /// How often a load step is solved again because bodies have slid on in it.
 constexpr int most_slides = 4;

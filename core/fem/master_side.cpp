@@ -36,7 +36,12 @@ class Master {
     std::vector<std::array<double, D>> traction;
     for (const ContactNode<D>& node : out_) traction.push_back(node.traction);
     recover_pressure(nodes_, surface_, obstacle_, least, out_);
-    for (std::size_t k = 0; k < out_.size(); ++k) out_[k].traction = traction[k];
+    // Of the recovered pressure the part that friction is of the nodal one: so it stays within Coulomb's law.
+    for (std::size_t k = 0; k < out_.size(); ++k) {
+      out_[k].traction = traction[k];
+      const double part = out_[k].pressure > 0 ? std::min(out_[k].recovered / out_[k].pressure, 1.0) : 0;
+      for (double& t : out_[k].traction) t *= part;
+    }
     return std::move(out_);
   }
 

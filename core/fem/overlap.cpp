@@ -7,6 +7,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/fem/nearest_on_face.hpp"
+#include "core/fem/paired_sides.hpp"
 #include "core/mesh/point_tree.hpp"
 
 namespace signorini {
@@ -14,16 +15,12 @@ namespace {
 
 // Faces are equally near up to this part of the distance: those at an edge or a vertex that is the nearest point.
 constexpr double as_near = 1e-9;
+// A vertex is not behind a face whose nearest point is so much farther away than its plane: in the corner of a cube it
+// is farther by the square root of 3.
+constexpr double beside = 1.8;
 
 template <int D>
 using Box = typename PointTree<D>::Box;
-
-template <int D>
-double distance_to(const Box<D>& box, const Point<D>& x) {
-  Point<D> off;
-  for (int k = 0; k < D; ++k) off[k] = std::max({box.low[k] - x[k], x[k] - box.high[k], 0.0});
-  return length<D>(off);
-}
 
 /// Faces to be asked for the nearest one.
 template <int D>
@@ -54,14 +51,17 @@ class FaceTree {
   /// Of faces that are equally near the one that x is least beside: its side is the one that counts.
   Nearest nearest(const Point<D>& x) const {
     Nearest out;
-    tree_->search([&](const Box<D>& box) { return distance_to<D>(box, x) <= out.distance * (1 + as_near); },
-                  [&](Index k) {
-                    const double far = length<D>(difference<D>(x, nearest_on_face(corner_[k], x)));
-                    if (far > out.distance * (1 + as_near)) return;
-                    const double height = dot(difference<D>(x, corner_[k][0]), normal_[k]);
-                    if (far < out.distance * (1 - as_near) || std::abs(height) > std::abs(out.height))
-                      out = {faces_[k], std::min(far, out.distance), height};
-                  });
+    const auto near = [&](const Box<D>& box) {
+      const double limit = out.distance * (1 + as_near);
+      return PointTree<D>::squared_distance(box, x) <= limit * limit;
+    };
+    tree_->search_nearest(x, near, [&](Index k) {
+      const double far = length<D>(difference<D>(x, nearest_on_face(corner_[k], x)));
+      if (far > out.distance * (1 + as_near)) return;
+      const double height = dot(difference<D>(x, corner_[k][0]), normal_[k]);
+      if (far < out.distance * (1 - as_near) || std::abs(height) > std::abs(out.height))
+        out = {faces_[k], std::min(far, out.distance), height};
+    });
     return out;
   }
 
@@ -72,7 +72,7 @@ class FaceTree {
   std::optional<PointTree<D>> tree_;
 };
 
-/// Vertices of faces that are inside a box, each with a face that it is of.
+/// Vertices of faces that are inside a box, each with the longest face that it is of.
 template <int D>
 std::vector<std::pair<Index, Index>> vertices_inside(const Mesh<D>& mesh, std::span<const Point<D>> points,
                                                      const std::vector<Index>& faces,
@@ -93,7 +93,10 @@ std::vector<std::pair<Index, Index>> vertices_inside(const Mesh<D>& mesh, std::s
       for (int k = 0; k < D; ++k) inside = inside && points[v][k] > box.low[k] && points[v][k] < box.high[k];
       if (inside) out.emplace_back(v, f);
     }
-  std::ranges::sort(out);
+  const auto size = [&](Index f) { return longest_edge(mesh, mesh.boundary[f]); };
+  std::ranges::sort(out, [&](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first < b.first : size(a.second) > size(b.second);
+  });
   const auto same = std::ranges::unique(out, {}, &std::pair<Index, Index>::first);
   out.erase(same.begin(), same.end());
   return out;
@@ -113,7 +116,9 @@ Overlap<D> find_overlap(const Mesh<D>& mesh, std::span<const Point<D>> points, c
       if (body.nearest(points[v]).height >= 0) continue;
       const auto found = touching.nearest(points[v]);
       const Index slave_face = of_slave ? face : found.face;
-      const double depth = found.distance - (added ? added(points[v], slave_face) : 0);
+      // In a corner the faces that meet there count, not the way to the corner; and none that it is not behind.
+      if (found.distance > beside * std::abs(found.height)) continue;
+      const double depth = std::abs(found.height) - (added ? added(points[v], slave_face) : 0);
       if (depth > out.depth) out = {depth, points[v], slave_face};
     }
   };

@@ -16,7 +16,7 @@ struct BodyFaces {
 /// The vertex of a touching face that is deepest inside the other body.
 template <int D>
 struct Overlap {
-  double depth = 0;  ///< distance to the nearest touching face of the other body, less what is added; 0: nowhere
+  double depth = 0;  ///< behind the nearest touching face of the other body, less what is added; 0: nowhere
   Point<D> place{};
   Index slave_face = -1;  ///< the face that the vertex is of, or is nearest to
 };

@@ -17,9 +17,9 @@ constexpr int rings_beyond = 5;  // the same at the edge, where it goes on from 
 constexpr int most_rings = 6;    // where there are few samples
 constexpr double excess = 1.25;  // over the means around a node: a linear pressure at a corner has less
 constexpr double at_edge =
-    0.3;                       // of the next pressure inside is what a mean at the edge may have without any of its own
-constexpr double steep = 1.1;  // from a node to one beside which the other body ends: pressures peak there
-constexpr double falls = 0.5;  // from a node in contact to the next one: more is left under a punch
+    0.3;  // of the next pressure inside is what a mean at the edge may have without any of its own
+constexpr double steep = 1.05;       // from a node near the end of the other body to the next: pressures peak there
+constexpr double falls = 0.5;        // from a node in contact to the next one: more is left under a punch
 constexpr double least_width = 0.4;  // of samples, over the way to the next node: two rows of them have 0.5
 // Samples that a fit looks for, and without which it does not go on to the edge.
 template <int D>
@@ -55,8 +55,8 @@ class Recovery {
   }
 
   bool resolved() const {
-    if (all_inside()) return true;
     const Index k = top();
+    if (all_inside()) return !ends() || pressed_nodes() >= enough<D>;
     const auto some = samples(k);
     return some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(k);
   }
@@ -64,9 +64,14 @@ class Recovery {
   bool peaks_at_edge() const {
     if (!all_inside()) return !inside_[top()];
     const Index k = top();
-    return k != unreachable && faces_.at_end(k) && std::ranges::none_of(faces_.around(k), [&](Index other) {
-             return faces_.pressed(other) && faces_.node(k).recovered < steep * faces_.node(other).recovered;
-           });
+    if (k == unreachable) return false;
+    bool near_end = faces_.at_end(k), falls = false;
+    for (const Index other : faces_.around(k)) {
+      if (!faces_.pressed(other)) continue;
+      near_end = near_end || faces_.at_end(other);
+      falls = falls || faces_.node(k).recovered > steep * faces_.node(other).recovered;
+    }
+    return near_end && falls;
   }
 
   double area() const {
@@ -103,6 +108,19 @@ class Recovery {
 
   /// Whether it is pressed, and says something of the pressure.
   bool tells(Index k) const { return faces_.pressed(k) && !faces_.node(k).hardly_covered(); }
+
+  /// Whether another body ends within the contact.
+  bool ends() const {
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (faces_.pressed(k) && (faces_.at_end(k) || faces_.node(k).hardly_covered())) return true;
+    return false;
+  }
+
+  std::size_t pressed_nodes() const {
+    std::size_t count = 0;
+    for (Index k = 0; k < faces_.size(); ++k) count += tells(k);
+    return count;
+  }
 
   /// No node is at the edge.
   bool all_inside() const {

@@ -101,6 +101,7 @@ class StressRecovery {
   std::vector<Stress> run() {
     recovered_.resize(nodes_.size());
     find_midpoints();
+    find_neighbours();
     find_regular();
     const auto each = [this](const auto& chosen) {
       for (Index p = 0; p < nodes_.size(); ++p)
@@ -148,13 +149,13 @@ class StressRecovery {
 
   bool is_own_image(Index p) {
     constexpr double same = 0.1;  // of the way to a neighbour; where refinement follows a curve it is a part of h
-    near_nodes_.clear();
-    for (const Index e : around_.at(p))
-      for (const Index q : nodes_.of(elements_[e]))
-        if (q != p) near_nodes_.add(q);
-    return std::ranges::all_of(near_nodes_, [&](Index q) {
+    const auto around =
+        std::span(neighbour_)
+            .subspan(static_cast<std::size_t>(first_neighbour_[p]),
+                     static_cast<std::size_t>(first_neighbour_[p + std::size_t{1}] - first_neighbour_[p]));
+    return std::ranges::all_of(around, [&](Index q) {
       const Point<D> there = difference<D>(nodes_.at(q), nodes_.at(p));
-      return std::ranges::any_of(near_nodes_, [&](Index other) {
+      return std::ranges::any_of(around, [&](Index other) {
         Point<D> off = difference<D>(nodes_.at(other), nodes_.at(p));
         for (int i = 0; i < D; ++i) off[i] += there[i];
         return dot<D>(off, off) <= same * same * dot<D>(there, there);
@@ -217,16 +218,40 @@ class StressRecovery {
   /// farther away as well: what makes the stresses of its own elements worse would spread to the boundary from there.
   std::optional<Stress> from_regular(Index p) {
     if (P == 2) return {};
-    patch_.clear();
-    for (const Index e : around_.at(p)) patch_.add(e);
-    start_layers();
-    add_layer();
-    add_nodes(regular_);
-    const auto found = fitted<2>(p, 1);
-    if (found) return found;
-    add_layer();
-    add_nodes(regular_);
-    return fitted<2>(p);
+    near_nodes_.clear();
+    near_nodes_.add(p);
+    std::size_t first = 0;
+    for (int ring = 0; ring < 2; ++ring) add_ring(first);
+    for (const double amplified : {1.0, most_amplified}) {
+      if (amplified > 1) add_ring(first);
+      near_.clear();
+      for (const Index q : near_nodes_)
+        if (regular_[q]) near_.push_back({nodes_.at(q), recovered_[q]});
+      if (const auto found = fitted<2>(p, amplified)) return found;
+    }
+    return {};
+  }
+
+  /// Of nodes that share elements with those from `first` on, which becomes the first one of the ring; not across the
+  /// boundary, nor to another material.
+  void add_ring(std::size_t& first) {
+    const std::size_t last = near_nodes_.size();
+    for (; first < last; ++first)
+      if (const Index p = near_nodes_[first]; !boundary_[p])
+        for (Offset k = first_neighbour_[p]; k < first_neighbour_[p + std::size_t{1}]; ++k)
+          near_nodes_.add(neighbour_[k]);
+  }
+
+  /// Of linear elements.
+  void find_neighbours() {
+    first_neighbour_.assign(nodes_.size() + std::size_t{1}, 0);
+    for (Index p = 0; P == 1 && p < nodes_.size(); ++p) {
+      near_nodes_.clear();
+      for (const Index e : around_.at(p))
+        for (const Index q : nodes_.of(elements_[e]))
+          if (q != p && near_nodes_.add(q)) neighbour_.push_back(q);
+      first_neighbour_[p + std::size_t{1}] = std::ssize(neighbour_);
+    }
   }
 
   Stress of_patch(Index p) {
@@ -325,6 +350,8 @@ class StressRecovery {
   std::vector<Mirror> mirrors_;                     // the axis of a body of revolution among them
   std::vector<char> mirrored_;                      // per node: whether it lies on one
   std::vector<char> inner_, regular_;               // per node: not on the boundary; see find_regular()
+  std::vector<Offset> first_neighbour_;             // per node, one more: in neighbour_
+  std::vector<Index> neighbour_;                    // nodes that share elements with each, of linear ones
   std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
   std::vector<Index> midpoint_;                     // of edges, by their ends
   std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials

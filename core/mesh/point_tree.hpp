@@ -30,7 +30,25 @@ class PointTree {
   /// Calls visit(number) for every point of every leaf all of whose boxes up to the root pass `may_hold(box)`.
   template <class MayHold, class Visit>
   void search(const MayHold& may_hold, const Visit& visit) const {
-    if (!nodes_.empty()) search(0, may_hold, visit);
+    if (!nodes_.empty()) search(0, may_hold, visit, [](Index, Index) { return false; });
+  }
+
+  /// The same for the nearest to x: of two boxes the nearer one comes first, so that what is found there rules out most
+  /// of the others.
+  template <class MayHold, class Visit>
+  void search_nearest(const Point<D>& x, const MayHold& may_hold, const Visit& visit) const {
+    if (nodes_.empty()) return;
+    search(0, may_hold, visit, [&](Index left, Index right) { return far(right, x) < far(left, x); });
+  }
+
+  /// Squared distance of a box.
+  static double squared_distance(const Box& box, const Point<D>& x) {
+    double sum = 0;
+    for (int k = 0; k < D; ++k) {
+      const double off = std::max({box.low[k] - x[k], x[k] - box.high[k], 0.0});
+      sum += off * off;
+    }
+    return sum;
   }
 
  private:
@@ -70,16 +88,21 @@ class PointTree {
     return here;
   }
 
-  template <class MayHold, class Visit>
-  void search(Index n, const MayHold& may_hold, const Visit& visit) const {
+  double far(Index n, const Point<D>& x) const { return squared_distance(nodes_[n].box, x); }
+
+  /// @param right_first right_first(left, right): which of two children comes first
+  template <class MayHold, class Visit, class RightFirst>
+  void search(Index n, const MayHold& may_hold, const Visit& visit, const RightFirst& right_first) const {
     const Node& node = nodes_[n];
     if (!may_hold(node.box)) return;
     if (node.right < 0) {
       for (std::size_t i = node.first; i < node.last; ++i) visit(numbers_[i]);
       return;
     }
-    search(n + 1, may_hold, visit);
-    search(node.right, may_hold, visit);
+    Index first = n + 1, second = node.right;
+    if (right_first(first, second)) std::swap(first, second);
+    search(first, may_hold, visit, right_first);
+    search(second, may_hold, visit, right_first);
   }
 
   std::span<const Point<D>> points_, half_;

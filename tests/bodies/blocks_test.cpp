@@ -318,6 +318,39 @@ TEST(Edges, ThatTouchAreNotTakenForTooFewNodes) {
   EXPECT_THAT(told("3"), testing::Contains(HasSubstr("the largest pressure is where an edge or a corner touches")));
 }
 
+// A pin within one face of the slave: two nodes, and no pressure to speak of.
+TEST(Edges, OfAPinOnOneFaceLeaveNothingResolved) {
+  Driver driver(scene_of(block("lower", "[0, 0]", "[2, 1]", "[8, 4]") +
+                         block("pin", "[1.05, 1]", "[1.1, 1.5]", "[1, 6]") + fix("lower", "bottom", "[0, 0]") +
+                         fix("pin", "top", "[0, -0.01]") +
+                         pair("pin", "bottom", "lower", "top", "slave = \"other\"\n") + "[refine]\nuniform = 1\n"));
+  EXPECT_FALSE(driver.solve().last().contact[0].resolved);
+}
+
+// The vertex in the corner is deeper by the diagonal than along either wall, where less than an element is solved.
+TEST(Corner, IsAsDeepAsItsWalls) {
+  Driver driver(
+      scene_of("[[body]]\nname = \"ell\"\nshape = \"polygon\"\npoints = [[0, 0], [3, 0], [3, 1], [1, 1], "
+               "[1, 3], [0, 3]]\nsize = 0.2\n" +
+               material(1) + block("block", "[0.85, 0.85]", "[2, 2]", "[5, 5]") +
+               "[[fix]]\nbody = \"ell\"\nwhere = \"y == 0 || x == 0\"\nvalue = [0, 0]\n"
+               "[[fix]]\nbody = \"block\"\nwhere = \"y == 2 || x == 2\"\nvalue = [-0.01, -0.01]\n" +
+               pair("block", "boundary", "ell", "boundary")));
+  const Report& report = driver.solve();
+  ASSERT_TRUE(report.converged()) << report.reason();
+  EXPECT_NEAR(report.last().contact[0].force[0], report.last().contact[0].force[1], 0.05);
+}
+
+// Bodies at rest below one that is lifted off: nothing acts.
+TEST(Apart, NothingActsOnBodiesThatAreLeftAlone) {
+  Driver driver(scene_of(block("a", "[0, 0]", "[2, 1]", "[4, 2]") + block("b", "[0.2, 1]", "[1.8, 2]", "[5, 3]") +
+                         block("c", "[0.4, 2]", "[1.6, 3]", "[4, 3]") + fix("a", "bottom", "[0, 0]") +
+                         fix("b", "left", "[0, \"free\"]") + fix("b", "right", "[\"free\", 0]") +
+                         fix("c", "top", "[0, 0.1]") + pair("b", "bottom", "a", "top") +
+                         pair("c", "bottom", "b", "top") + "[refine]\nuniform = 1\n"));
+  EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+}
+
 TEST(Corner, BetweenTwoBodiesIsOneObstacle) {
   const std::string seat = block("seat", "[0, 0]", "[2, 1]", "[8, 4]") + block("wall", "[0, 1]", "[2, 2]", "[8, 4]") +
                            fix("seat", "bottom", "[0, 0]") + fix("wall", "top", "[0, -0.01]");

@@ -102,11 +102,19 @@ Report report_of_turns(const std::string& text, const std::string& more) {
 }
 
 TEST(Turns, KeepTheLimitOfCyclesTogether) {
-  const Report report = report_of_turns(pressed(1, 1), "max_iterations = 20\n");
+  const Report report = report_of_turns(pressed(1, 1), "max_iterations = 10\n");
   EXPECT_FALSE(report.converged());
   EXPECT_LE(report.last().summary.iterations, 20);
   EXPECT_EQ(report.last().summary.outcome, Outcome::iteration_limit);
   EXPECT_NE(report.reason().find("limit of 20 cycles of all bodies"), std::string::npos) << report.reason();
+}
+
+// Where the first turn goes too far nothing touches in the second one, and all bodies are at rest: no solution.
+TEST(Turns, GoOnWhereAnInterferenceIsLost) {
+  expect_same(block("lower", "[0, 0]", "[2, 1]", "[8, 4]", material(0.4)) +
+              block("upper", "[0.3, 1]", "[1.73, 1.5]", "[7, 3]", material(1)) + fix("lower", "bottom", "[0, 0]") +
+              fix("upper", "top", "[0, 0]") +
+              pair("upper", "bottom", "lower", "top", "gap = -0.01\nslave = \"body\"\n"));
 }
 
 TEST(Turns, ComeToRestWhereTheMasterIsSofter) { expect_same(pressed(0.1, 0, "slave = \"body\"\n")); }

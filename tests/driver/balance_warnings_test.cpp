@@ -38,6 +38,15 @@ TEST(BalanceWarnings, not_for_loads_that_cancel) {
   EXPECT_THAT(warnings(square + tables::load("block", "['0.1 * cos(pi * x)', 0]", "top")), Not(warns_of("block")));
 }
 
+// A prescribed boundary whose forces cancel, solved as far as rounding allows.
+TEST(BalanceWarnings, forces_that_cancel_are_not_lost) {
+  Driver driver(parse_scene(tables::block("block", "[-1, -1]", "[1, 1]", "[4, 4]") +
+                                tables::fix("block", "boundary", "['sin(x) * cos(y)', '0.5 * cos(x) * sin(y)']") +
+                                "[solver]\ntolerance = 1e-17\n" + refined,
+                            "test.toml", "."));
+  EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+}
+
 // The radial entry of a sum is none of forces that hold each other.
 TEST(BalanceWarnings, not_for_radial_forces_of_axisymmetric_bodies) {
   const std::string ring =

@@ -226,5 +226,18 @@ TEST(Quadratic, PenetrationBetweenNodesFalls) {
   }
 }
 
+// An expression that is no number between some nodes, far from where the bound jumps.
+TEST(Quadratic, BoundsThatAreUnknownBetweenNodesChangeNothingElsewhere) {
+  const auto energy = [](const char* strip) {
+    const std::string text =
+        "[[body]]\nname = \"m\"\nequation = \"diffusion\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\n"
+        "cells = [9, 9]\norder = 2\n[[fix]]\nbody = \"m\"\non = \"boundary\"\nvalue = 0\n[[obstacle]]\ntype = "
+        "\"scalar\"\nbody = \"m\"\nlower = \"" +
+        std::string(strip) + "x^2 + y^2 < 0.17 ? 0.4 : -1 - 0.1 * x^2\"\n[refine]\nuniform = 1\n";
+    return run<2, 1>(text).summary().energy;
+  };
+  EXPECT_NEAR(energy("x > 0.91 && x < 0.92 ? log(x - 2) : "), energy(""), 1e-9);
+}
+
 }  // namespace
 }  // namespace signorini::test

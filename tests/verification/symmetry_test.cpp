@@ -158,6 +158,24 @@ TEST(Symmetry, StressesOnPlanes) {
                                   "[[load]]\nbody = \"b\"\non = \"top\"\nvalue = [\"-x\", \"y\", \"x^2-1\"]\n");
 }
 
+// Quadratic displacements, which linear elements have exactly at the nodes of uniform meshes: linear stresses, up to
+// where the plane meets the boundary.
+TEST(Symmetry, LinearStressesOfAHalfAreExact) {
+  const double young = 3.7, nu = 0.3, mu = young / 2 / (1 + nu), lambda = young * nu / (1 + nu) / (1 - 2 * nu);
+  const std::string text =
+      "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]\nyoung = 3.7\n"
+      "poisson = 0.3\n[symmetry]\nx = 0\n[[fix]]\nbody = \"b\"\non = \"boundary\"\nvalue = [\"0.6 * x * y + 0.2 * "
+      "x\", \"-0.3 * x^2 + 0.45 * y^2\"]\n[[load]]\nbody = \"b\"\nvalue = [0, -5.763461538461538]\n[refine]\nuniform "
+      "= 2\n";
+  const auto r = run<2, 2>(text, {"solver.tolerance=1e-12"});
+  const std::vector<Stress> stress = nodal_stress(r.nodes(), r.model, r.u());
+  for (Index v = 0; v < r.mesh().vertices(); ++v) {
+    const double y = r.mesh().points[v][1], xx = 0.6 * y + 0.2, yy = 0.9 * y;
+    EXPECT_NEAR(stress[v][0], (lambda + 2 * mu) * xx + lambda * yy, 1e-8);
+    EXPECT_NEAR(stress[v][1], (lambda + 2 * mu) * yy + lambda * xx, 1e-8);
+  }
+}
+
 TEST(Symmetry, HalvesOfRubber) {
   const std::vector<Mirror> mirrors{{0, 0.0}};
   const Mesh<2> half = rectangle({0, 0}, {1, 1}, {4, 4}), whole = whole_of(half, mirrors);
