@@ -97,8 +97,8 @@ std::vector<std::pair<Index, Index>> vertices_inside(const Mesh<D>& mesh, std::s
   std::ranges::sort(out, [&](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : size(a.second) > size(b.second);
   });
-  const auto same = std::ranges::unique(out, {}, &std::pair<Index, Index>::first);
-  out.erase(same.begin(), same.end());
+  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };
+  out.erase(std::unique(out.begin(), out.end(), same), out.end());
   return out;
 }
 
