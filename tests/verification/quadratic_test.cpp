@@ -155,6 +155,25 @@ TEST(Quadratic, OrdersOfStressesAtNodes) {
   expect_orders_of_stresses<3>(3, 2);
 }
 
+// A square of irregular triangles that are refined uniformly: elements around vertices of the coarse mesh, and along
+// its edges, are not point symmetric.
+TEST(Quadratic, OrdersOfStressesOnIrregularMeshes) {
+  std::string text = smooth<2, 2>(4, 1);
+  const auto begin = text.find("shape"), end = text.find("order");
+  ASSERT_NE(end, std::string::npos) << text;
+  text.replace(begin, end - begin, "shape = \"polygon\"\npoints = [[0, 0], [1, 0], [1, 1], [0, 1]]\nsize = 0.3\n");
+  Errors inside, outside;
+  for (int k = 1; k <= 4; ++k) {
+    const auto [in, out] = stress_errors<2>(run<2, 2>(text, {uniform(k)}));
+    inside.add(in);
+    outside.add(out);
+    show("irregular: stress inside {:.3e} order {:.2f}, at the boundary {:.3e} order {:.2f}\n", in, inside.last_order(),
+         out, outside.last_order());
+  }
+  EXPECT_GE(inside.mean_order(), 1.3);
+  EXPECT_GE(outside.mean_order(), 1.9);
+}
+
 /// A block pressed on a parabola by its top.
 template <int D>
 SceneText pressed(int cells, int order) {
