@@ -67,7 +67,7 @@ double most_acting(const StepReport& report, const BalanceReport& balance) {
 
 template <int D, int B>
 std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
-                                          const std::vector<double>& load, const StepReport& report) {
+                                          const std::vector<double>& load, const StepReport& report, double rounding) {
   constexpr double noticeable = 0.01, uneven = 1e-3;
   std::vector<std::string> warnings;
   if (!report.summary.converged()) return warnings;
@@ -78,7 +78,7 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
     // Without contact what acts where nothing is loaded may be rounding of a rigid motion.
     const double acting = most_acting(report, report.balance[part]);
     const double contact = largest_contact(report, report.balance[part].body);
-    if (loads == 0 && left > uneven * acting && contact > noticeable * acting)
+    if (loads == 0 && acting > rounding && left > uneven * acting && contact > noticeable * acting)
       warnings.push_back(
           fmt::format("body '{}': forces balance up to {:.2g}, where {:.2g} acts: some of them are not "
                       "known; a smaller tolerance may help",
@@ -107,7 +107,7 @@ double imbalance(const StepReport& report, const std::vector<double>& u) {
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                           \
   template std::vector<std::string> balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&, \
-                                                           const std::vector<double>&, const StepReport&);
+                                                           const std::vector<double>&, const StepReport&, double);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -156,6 +157,17 @@ Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
 
 namespace {
 
+/// What rounding leaves of stiffness times displacement, summed over the nodes of a face.
+template <int B>
+double rounding_of_forces(const BlockMatrix<B>& A, const std::vector<double>& u) {
+  constexpr double terms = 64;
+  double stiffest = 0, farthest = 0;
+  for (Index p = 0; p < A.size(); ++p)
+    for (int k = 0; k < B; ++k) stiffest = std::max(stiffest, A.diagonal(p)[k * (B + 1)]);
+  for (const double v : u) farthest = std::max(farthest, std::abs(v));
+  return terms * std::numeric_limits<double>::epsilon() * stiffest * farthest;
+}
+
 void add_once(std::string warning, std::vector<std::string>& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
 }
@@ -185,7 +197,9 @@ StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
                     "are paired anew: take shorter steps",
                     model_.origin),
         warnings);
-  for (std::string& warning : balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report))
+  const double rounding = rounding_of_forces(solution.discretization.problem.A, results_.u);
+  for (std::string& warning :
+       balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report, rounding))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.
   const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report, results_.u) : 0;

@@ -349,6 +349,7 @@ TEST(Apart, NothingActsOnBodiesThatAreLeftAlone) {
                          fix("c", "top", "[0, 0.1]") + pair("b", "bottom", "a", "top") +
                          pair("c", "bottom", "b", "top") + "[refine]\nuniform = 1\n"));
   EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+  EXPECT_THAT(driver.report().warnings, testing::Not(testing::Contains(HasSubstr("forces balance"))));
 }
 
 TEST(Corner, BetweenTwoBodiesIsOneObstacle) {
