@@ -103,7 +103,7 @@ void check_turns(const Scene& scene, std::size_t body, const Model<D>& model) {
   if (scene.solver.bodies != "dirichlet-neumann" || !is_paired(model)) return;
   for (const Scene::Body& part : scene.bodies[body].parts)
     if (part.order != 1)
-      input_error(part.source.of(part.source.given("order") ? "order" : "poisson"),
+      input_error(part.source.of(part.source.given("order") ? "order" : "pressure"),
                   "quadratic elements are not available with bodies = \"dirichlet-neumann\"; expected order = 1");
   for (const ObstacleTerm<D>& term : model.obstacles) {
     if (!term.other) continue;

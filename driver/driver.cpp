@@ -13,6 +13,7 @@
 #include "core/scene/uses_t.hpp"
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
+#include "driver/fitting_order.hpp"
 #include "driver/merge.hpp"
 #include "driver/problem.hpp"
 #include "driver/touching_bodies.hpp"
@@ -57,11 +58,15 @@ void refuse_other_bodies(const Scene& kept, const Scene& scene) {
 
 /// The scene may have changed, but for its bodies.
 void Driver::prepare() {
+  choose_elements(scene_);
   check_scene(scene_, report_.scene);
   report_.plugins = load_plugins(scene_, registry_);
   if (bodies_.empty()) report_.dimension = scene_.dimension = dimension_of(scene_);  // files are not asked again
   Scene next = with_touching_bodies(scene_);
-  if (!bodies_.empty()) refuse_other_bodies(solved_, next);
+  if (!bodies_.empty()) {
+    keep_chosen_orders(solved_, next);
+    refuse_other_bodies(solved_, next);
+  }
   solved_ = std::move(next);
   if (bodies_.empty()) build_bodies();
 }
@@ -82,8 +87,10 @@ void Driver::build_bodies() {
     dispatch(
         solved_,
         [&]<int D, int B>() {
-          bodies_.emplace_back(std::make_unique<BodyRun<D, B>>(solved_, body, registry_, progress_, report_.time,
-                                                               mesh_warnings_, bodies > 1 ? &promised : nullptr));
+          bodies_.emplace_back(with_fitting_order(solved_, body, mesh_warnings_, [&] {
+            return std::make_unique<BodyRun<D, B>>(solved_, body, registry_, progress_, report_.time, mesh_warnings_,
+                                                   bodies > 1 ? &promised : nullptr);
+          }));
         },
         body);
   for (std::size_t body = 0; body < bodies; ++body)

@@ -168,7 +168,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
-                    plane_names(mirrors), whole.copies()}};
+                    plane_names(mirrors), whole.copies(), body.order, body.order_chosen}};
   report.balance = balances(scene, body, results, whole);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {

@@ -46,6 +46,7 @@ Scene::Body joined(std::vector<Scene::Body> parts) {
   body.equation = parts.front().equation;
   body.plane = parts.front().plane;
   body.order = parts.front().order;
+  body.order_chosen = std::ranges::all_of(parts, &Scene::Body::order_chosen);
   body.pressure = parts.front().pressure;
   body.source.table = parts.front().source.table;
   for (std::size_t k = 1; k < parts.size(); ++k) body.source.table += ", " + parts[k].source.table;

@@ -12,7 +12,7 @@
 namespace signorini::bench {
 namespace {
 
-std::string material(double young) { return fmt::format("young = {}\npoisson = 0.3\n", young); }
+std::string material(double young) { return fmt::format("order = 1\nyoung = {}\npoisson = 0.3\n", young); }
 
 std::string contact(const std::string& body, const std::string& other) {
   return fmt::format(

@@ -29,7 +29,7 @@ std::string refined(int refinements) { return fmt::format("refine.uniform={}", r
 Scene FrictionScene::with(double friction, const Overrides& more) const {
   Overrides all = joined(overrides, more);
   for (int k = 0; k < obstacles; ++k) all.push_back(fmt::format("obstacle.{}.friction={}", k, friction));
-  if (!file.empty()) return read_scene(scene_file(file), all);
+  if (!file.empty()) return linear_scene(file, std::move(all));
   return parse_scene(obstacles == 1 ? plane_block : corner_block, "block.toml", ".", all);
 }
 

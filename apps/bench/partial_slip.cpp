@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/bench/partial_slip_theory.hpp"
+#include "apps/bench/problems.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
@@ -32,8 +33,7 @@ Scene read(const PartialSlipScene& scene) {
     overrides.push_back(fmt::format("obstacle.0.friction=\"t < 0.6 ? 0 : {}\"", friction));
   }
   overrides.insert(overrides.end(), scene.overrides.begin(), scene.overrides.end());
-  return read_scene(std::filesystem::path(SIGNORINI_SCENES) / fmt::format("partial_slip_{}d.toml", scene.dimension),
-                    overrides);
+  return linear_scene(fmt::format("partial_slip_{}d.toml", scene.dimension), std::move(overrides));
 }
 
 double radius(double area, int dimension) { return dimension == 2 ? area / 2 : std::sqrt(area / pi); }

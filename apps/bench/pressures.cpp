@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "apps/bench/problems.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/contact_surface.hpp"
@@ -177,7 +178,7 @@ void measure(const BodyRun<D, D>& run, const Scene& scene, Measured& out) {
 
 Measured solve(const std::string& file, std::vector<std::string> overrides, int refinements) {
   overrides.push_back(fmt::format("refine.uniform={}", refinements));
-  Driver driver(read_scene(std::filesystem::path(SIGNORINI_SCENES) / file, overrides));
+  Driver driver(linear_scene(file, std::move(overrides)));
   const Stopwatch watch;
   driver.solve([] {});
   Measured out;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "amg/registration.hpp"
 #include "core/base/error.hpp"
 
@@ -9,8 +11,17 @@ namespace signorini::bench {
 
 std::filesystem::path scene_file(const std::string& name) { return std::filesystem::path(SIGNORINI_SCENES) / name; }
 
+Scene linear_scene(const std::string& file, std::vector<std::string> overrides) {
+  const bool refined = std::ranges::any_of(overrides, [](const auto& o) { return o.starts_with("refine.uniform="); });
+  overrides.insert(overrides.begin(), "body.0.order=1");
+  Scene scene = read_scene(scene_file(file), overrides);
+  const Scene::Body& body = scene.bodies[0];
+  if (!refined && body.order == 1 && body.equation == Scene::Equation::elasticity) ++scene.refine.uniform;
+  return scene;
+}
+
 Problem::Problem(std::string title, const std::string& file, std::vector<std::string> overrides)
-    : name(std::move(title)), scene(read_scene(scene_file(file), overrides)), registry(solver_components()) {
+    : name(std::move(title)), scene(linear_scene(file, std::move(overrides))), registry(solver_components()) {
   load_plugins(scene, registry);
 }
 

@@ -9,8 +9,9 @@ namespace signorini::tables {
 
 using Text = const std::string&;
 
-/// A rectangle or a box, elastic unless `material` says something else.
-inline std::string block(Text name, Text from, Text to, Text cells, Text material = "young = 1\npoisson = 0.3\n") {
+/// A rectangle or a box, elastic and of linear elements unless `material` says something else.
+inline std::string block(Text name, Text from, Text to, Text cells,
+                         Text material = "order = 1\nyoung = 1\npoisson = 0.3\n") {
   return fmt::format("[[body]]\nname = \"{}\"\nshape = \"{}\"\nfrom = {}\nto = {}\ncells = {}\n{}", name,
                      std::ranges::count(from, ',') == 1 ? "rectangle" : "box", from, to, cells, material);
 }

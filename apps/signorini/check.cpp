@@ -16,6 +16,7 @@
 #include "driver/components.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/dirichlet_neumann.hpp"
+#include "driver/fitting_order.hpp"
 #include "driver/mesh_levels.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
@@ -84,6 +85,13 @@ void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& 
                quadratic ? mesh.families.size() : mesh.elements.size(), quadratic ? "quadratic elements" : "elements",
                unknowns);
   }
+}
+
+template <int D>
+void print_memory(const MeshHierarchy<D>& hierarchy, int uniform, int order, int block) {
+  const HierarchySize size = hierarchy_size(hierarchy.levels.front(), uniform + order - 1);
+  fmt::print("memory: about {:.3g} GB will be needed, {:.3g} GB are available\n",
+             expected_memory(size, block, order == 1 ? 0 : D) / 1e9, available_memory() / 1e9);
 }
 
 /// Unknowns of the pressure of nearly incompressible material.
@@ -169,10 +177,11 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
 }
 
 template <int D, int B>
-void check(const Scene& scene, const Registry& registry, std::size_t body) {
+void check(Scene& scene, const Registry& registry, std::size_t body) {
   std::vector<std::string> warnings;
   const Console console(false);
-  const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, &warnings, console, body);
+  const MeshHierarchy<D> hierarchy =
+      with_fitting_order(scene, body, warnings, [&] { return build_hierarchy<D>(scene, B, &warnings, console, body); });
   console.phase("check the steps");
   const int order = scene.bodies[body].order;
   const Nodes<D> nodes = nodes_of(hierarchy, order).back();
@@ -182,7 +191,9 @@ void check(const Scene& scene, const Registry& registry, std::size_t body) {
   print_symmetry(hierarchy.finest().mirrors);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);
+  fmt::print("elements: {}\n", elements_text(order, scene.bodies[body].order_chosen));
   print_levels(hierarchy, order, model);
+  print_memory(hierarchy, scene.refine.uniform, order, B);
   const Index pressures = pressure_unknowns(nodes, model);
   if (pressures > 0)
     fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);

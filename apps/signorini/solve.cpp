@@ -132,6 +132,9 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
   fmt::print("{}\n", report.title);
   print_steps(report);
   print_summary(last.summary, report.converged(), report.reason());
+  for (const BodyReport& body : last.bodies)
+    fmt::print("elements{}: {}\n", last.bodies.size() > 1 ? fmt::format(" of {}", body.name) : "",
+               elements_text(body.order, body.order_chosen));
   for (const ContactReport& contact : last.contact) print_contact(contact);
   for (const ProbeReport& probe : last.probes) fmt::print("{}: ({:.9g})\n", probe.name, fmt::join(probe.value, ", "));
   const Times& time = report.time;

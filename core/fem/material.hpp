@@ -16,8 +16,9 @@ struct Material<1> {
   double diffusion;
 };
 
-/// lambda over mu above which material is nearly incompressible: that of Poisson's ratio 0.45.
-inline constexpr double nearly_incompressible = 9;
+/// lambda over mu above which material is nearly incompressible: that of Poisson's ratio 0.4, where a pressure with
+/// unknowns of its own begins to save cycles (docs/rubber.md).
+inline constexpr double nearly_incompressible = 4;
 /// The part of lambda, over mu, that stays with the displacements where the pressure has unknowns of its own: those
 /// carry the rest. More of it is worse for smoothers, less of it for the iteration of the pressures (docs/rubber.md).
 inline constexpr double lambda_of_displacements = 3;
@@ -26,7 +27,7 @@ inline constexpr double lambda_of_displacements = 3;
 /// @param material at the element's centroid
 template <int B>
 bool has_pressure(const Model<B>& model, const Material<B>& material) {
-  constexpr double above = 1 + 1e-9;  // Poisson's ratio 0.45 itself is not, whatever rounding makes of it
+  constexpr double above = 1 + 1e-9;  // Poisson's ratio 0.4 itself is not, whatever rounding makes of it
   return model.pressure != Pressure::none && !(B == 2 && model.plane == Plane::stress) &&
          material.lambda > above * nearly_incompressible * material.mu;
 }

@@ -123,6 +123,13 @@ std::string to_text(const RawValue& raw, std::string_view range) {
   return *text;
 }
 
+std::string to_choice(const RawValue& raw, std::string_view range) {
+  const auto* integer = std::get_if<std::int64_t>(&raw.value);
+  if (!integer) return to_text(raw, range);
+  if (!Range(range).contains(std::to_string(*integer))) wrong_type(raw, Range(range).expected("a text"));
+  return std::to_string(*integer);
+}
+
 Field to_field(const RawValue& raw, std::string_view range) {
   if (const std::optional<double> number = number_of(raw)) return checked(*number, raw, range);
   const auto* text = std::get_if<std::string>(&raw.value);

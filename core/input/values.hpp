@@ -17,6 +17,8 @@ std::int64_t to_integer(const RawValue& raw, std::string_view range = "");
 /// A number, or an expression without variables.
 double to_number(const RawValue& raw, std::string_view range = "");
 std::string to_text(const RawValue& raw, std::string_view range = "");
+/// A text or a whole number, as a text.
+std::string to_choice(const RawValue& raw, std::string_view range);
 /// A number or an expression. The range of an expression is checked at every evaluation.
 Field to_field(const RawValue& raw, std::string_view range = "");
 /// A list of numbers or expressions.

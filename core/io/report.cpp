@@ -110,7 +110,9 @@ Json body(const BodyReport& body) {
           {"axisymmetric", body.axisymmetric},
           {"axis_nodes", body.axis_nodes},
           {"symmetry", body.symmetry},
-          {"copies", body.copies}};
+          {"copies", body.copies},
+          {"order", body.order},
+          {"order_by", body.order_chosen ? "auto" : "scene"}};
 }
 
 Json solver(const SolverOptions& options) {
@@ -239,6 +241,10 @@ std::vector<double> BalanceReport::sum() const {
   for (const std::vector<double>* part : {&applied, &reactions, &contact})
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += (*part)[i];
   return sum;
+}
+
+std::string elements_text(int order, bool chosen) {
+  return fmt::format("{} (order {}{})", order == 2 ? "quadratic" : "linear", order, chosen ? ", chosen by auto" : "");
 }
 
 bool Report::converged() const {

@@ -73,7 +73,12 @@ struct BodyReport {
   /// copies of what is meshed; numbers of nodes and unknowns are those of one.
   std::vector<std::string> symmetry = {};
   int copies = 1;
+  int order = 1;              ///< of its elements
+  bool order_chosen = false;  ///< by the program, and not by the scene
 };
+
+/// "quadratic (order 2, chosen by auto)"
+std::string elements_text(int order, bool chosen);
 
 /// The solution at a point.
 struct ProbeReport {

@@ -5,53 +5,53 @@
 namespace signorini {
 namespace {
 
-/// Poisson's ratio above which linear elements lock, see nearly_incompressible.
-constexpr double locking = 0.45;
-
-bool locks(const std::optional<Field>& poisson) { return poisson && poisson->constant().value_or(0) > locking; }
-
-/// Elasticity in which a pressure may have unknowns.
-bool has_pressure(const Scene::Body& body) {
-  return body.equation == Scene::Equation::elasticity && body.plane != Plane::stress;
-}
-
-bool locks(const Scene& scene, const Scene::Body& body) {
-  return has_pressure(body) &&
-         (locks(body.poisson) || std::ranges::any_of(scene.materials, [&](const Scene::Material& material) {
-            return material.body == body.name && locks(material.poisson);
-          }));
-}
-
-/// A body that touches one with quadratic elements has them, too, and the same kind of pressure, unless the scene says
-/// otherwise.
+/// Bodies that touch each other have elements of one order, and one kind of pressure: what the scene says of one of
+/// them holds for those of which it says nothing.
 bool take_over(Scene::Body& body, const Scene::Body& other) {
-  const bool order = body.order < other.order && !body.source.given("order");
-  const bool pressure = !body.pressure && other.pressure.value_or(Pressure::none) != Pressure::none;
+  const bool order = body.order == 0 && other.order != 0, pressure = !body.pressure && other.pressure;
   if (order) body.order = other.order;
   if (pressure) body.pressure = other.pressure;
   return order || pressure;
 }
 
-void take_over_from_touching(Scene& scene) {
+template <class Visit>
+void for_touching(Scene& scene, const Visit& visit) {
   const auto named = [&](const std::string& name) { return std::ranges::find(scene.bodies, name, &Scene::Body::name); };
-  for (bool more = true; more;) {
-    more = false;
-    for (const Scene::Obstacle& obstacle : scene.obstacles) {
-      const auto body = named(obstacle.body), other = named(obstacle.other);
-      if (body == scene.bodies.end() || other == scene.bodies.end()) continue;
-      more = take_over(*body, *other) || take_over(*other, *body) || more;
-    }
+  for (const Scene::Obstacle& obstacle : scene.obstacles) {
+    const auto body = named(obstacle.body), other = named(obstacle.other);
+    if (body != scene.bodies.end() && other != scene.bodies.end()) visit(*body, *other);
   }
 }
+
+void take_over_from_touching(Scene& scene) {
+  for (bool more = true; more;) {
+    more = false;
+    for_touching(scene, [&](Scene::Body& body, Scene::Body& other) {
+      more = take_over(body, other) || take_over(other, body) || more;
+    });
+  }
+}
+
+/// Linear elements bend too little (docs/accuracy.md). Nothing bends where the unknown is scalar, and there linear ones
+/// keep bounds between nodes, too, and the maximum principle.
+int best_order(const Scene::Body& body) { return body.equation == Scene::Equation::elasticity ? 2 : 1; }
 
 }  // namespace
 
 void choose_elements(Scene& scene) {
-  for (Scene::Body& body : scene.bodies)
-    if (!body.pressure && !body.source.given("order") && locks(scene, body)) body.order = 2;
+  for (Scene::Body& body : scene.bodies) body.order_chosen = body.order_chosen || body.order == 0;
   take_over_from_touching(scene);
-  for (Scene::Body& body : scene.bodies)
-    if (!body.pressure) body.pressure = body.order == 2 && has_pressure(body) ? Pressure::linear : Pressure::none;
+  if (scene.solver.bodies == "dirichlet-neumann")  // which has linear elements alone
+    for_touching(scene, [](Scene::Body& body, Scene::Body& other) {
+      for (Scene::Body* touching : {&body, &other})
+        if (touching->order == 0) touching->order = 1;
+    });
+  for (Scene::Body& body : scene.bodies) {
+    if (body.order == 0) body.order = best_order(body);
+    if (body.order == 1 || body.equation == Scene::Equation::diffusion || body.plane == Plane::stress)
+      body.pressure = Pressure::none;
+    if (!body.pressure) body.pressure = Pressure::linear;
+  }
 }
 
 }  // namespace signorini

@@ -92,7 +92,7 @@ to know:
 - The bound counts on all picked faces, the field `tangential_traction` goes by the area of those that face the obstacle. At the
   edge of what is picked it may be larger than the bound.
 - What is negative by rounding alone counts as zero: `friction = "0.3 - 0.2 * x"` at x = 1.5.
-- With `order = 2` friction holds for the coefficients of nodes. A midpoint that sticks keeps its coefficient, and moves by a
+- With quadratic elements friction holds for the coefficients of nodes. A midpoint that sticks keeps its coefficient, and moves by a
   tenth of what each end of its edge does ([solver.md](solver.md), "Quadratic elements").
 - Nodes all of whose components are prescribed have no friction; they count in `nodes` alone.
 - With `coulomb` a fix must not prescribe the displacement along the obstacle's normal, and no other obstacle may hold the

@@ -97,9 +97,11 @@ void read_pressure(const TableReader& reader, Scene::Body& body) {
   const std::string& origin = reader.origin("pressure");
   if (body.plane == Plane::stress)
     input_error(origin, fmt::format("'{}' is for plane strain and 3D: in plane stress elements do not lock", kind));
-  if (reader.given("order") && body.order == 1)
-    input_error(origin,
-                fmt::format("'{}' is for quadratic elements, and the body has order = 1; expected order = 2", kind));
+  if (body.order == 1)
+    input_error(
+        origin,
+        fmt::format("'{}' is for quadratic elements, and the body has order = 1; expected order = 2 or \"auto\"",
+                    kind));
   body.order = 2;
   body.pressure = kind == "linear" ? Pressure::linear : Pressure::constant;
 }
@@ -144,7 +146,7 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   for (const char* key : {"geometry", "crease"})
     if (spec) reader.forbid(key, "beside 'shape': the program knows what it meshes");
   body.equation = reader.text("equation") == "diffusion" ? Scene::Equation::diffusion : Scene::Equation::elasticity;
-  if (reader.given("order")) body.order = reader.integer("order");
+  if (const std::string order = reader.choice("order"); order != "auto") body.order = order == "1" ? 1 : 2;
   body.plane = plane(reader.text("plane"));
   cut_at_axis(body);
   read_pressure(reader, body);

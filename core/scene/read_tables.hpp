@@ -17,7 +17,8 @@ Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& fold
 /// Dimension of a body by its shape; 0 when only the mesh file tells.
 int dimension_of(const Scene::Body& body);
 
-/// What bodies leave open: the elements of nearly incompressible ones.
+/// What bodies leave open: the order of their elements, and whether nearly incompressible material has a pressure of
+/// its own.
 void choose_elements(Scene& scene);
 
 /// Everything that concerns more than one table: names, what holds the body.

@@ -17,6 +17,8 @@ const char* type_name(KeyType type) {
       return "number";
     case KeyType::text:
       return "text";
+    case KeyType::choice:
+      return "text or whole number";
     case KeyType::texts:
       return "text or list of texts";
     case KeyType::file:
@@ -52,7 +54,7 @@ std::string escaped(std::string_view text) {
 std::string default_of(const KeySpec& key) {
   if (!key.fallback) return "required";
   if (!*key.fallback) return "";
-  const bool word = key.type == KeyType::text && *key.fallback != '"';
+  const bool word = (key.type == KeyType::text || key.type == KeyType::choice) && *key.fallback != '"';
   return word ? fmt::format("`\"{}\"`", key.fallback) : fmt::format("`{}`", key.fallback);
 }
 

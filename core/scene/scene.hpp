@@ -58,7 +58,8 @@ struct Scene {
     Field young = 1, poisson = 0;      ///< elasticity
     Field diffusion = 1;               ///< diffusion
     Plane plane = Plane::strain;       ///< 2D
-    int order = 1;                     ///< of the elements
+    int order = 0;                     ///< of the elements, 1 or 2; 0: what choose_elements() takes
+    bool order_chosen = false;         ///< by it, and not by the scene
     std::optional<Pressure> pressure;  ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
     std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/touching_bodies.hpp

@@ -22,11 +22,11 @@ constexpr KeySpec body[] = {
     {"plane", text, "strain", "strain | stress | axisymmetric", "",
      "what holds across the plane, 2D only; axisymmetric: x is the radius and y the axis, scalar bodies too"},
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
-    {"order", integer, "", "[1, 2]", "",
+    {"order", choice, "auto", "auto | 1 | 2", "",
      "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more. "
-     "Where not given 1, but 2 where a constant `poisson` of the body is above 0.45 and `pressure` is not none"},
+     "auto: 2 for elastic bodies, 1 for scalar ones; see docs/solver.md, \"Quadratic elements\""},
     {"pressure", text, "auto", "auto | linear | constant | none", "",
-     "of quadratic elements where `poisson` is above 0.45, but in plane stress: pressures as unknowns of their own, so "
+     "of quadratic elements where `poisson` is above 0.4, but in plane stress: pressures as unknowns of their own, so "
      "that these do not lock. linear: continuous, the default; constant: one per element; none: displacements alone. "
      "See docs/rubber.md"},
     {"geometry", text, "auto", "auto | smooth | fit | facets", "",

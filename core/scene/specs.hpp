@@ -11,6 +11,7 @@ enum class KeyType {
   integer,
   number,  ///< or an expression without variables
   text,
+  choice,     ///< one of several texts or whole numbers
   texts,      ///< one text or a list of them
   file,       ///< an existing file, relative to the scene's folder
   condition,  ///< an expression that picks boundary faces

@@ -150,6 +150,7 @@ int TableReader::integer(std::string_view key) const {
 }
 double TableReader::number(std::string_view key) const { return to_number(value(spec(key)), spec(key).range); }
 std::string TableReader::text(std::string_view key) const { return to_text(value(spec(key)), spec(key).range); }
+std::string TableReader::choice(std::string_view key) const { return to_choice(value(spec(key)), spec(key).range); }
 std::vector<std::string> TableReader::texts(std::string_view key) const { return to_texts(value(spec(key))); }
 Field TableReader::field(std::string_view key) const { return to_field(value(spec(key)), spec(key).range); }
 std::vector<Field> TableReader::fields(std::string_view key) const {

@@ -40,6 +40,8 @@ class TableReader {
   int integer(std::string_view key) const;
   double number(std::string_view key) const;
   std::string text(std::string_view key) const;
+  /// Whole numbers as texts.
+  std::string choice(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
   std::filesystem::path file(std::string_view key) const;
   Field field(std::string_view key) const;

@@ -71,11 +71,12 @@ TEST_F(Bodies, CheckRefusesWhatTurnsDoNotKnow) {
 }
 
 TEST_F(Bodies, WhichIsTheSlaveIsPrintedAndReported) {
-  write("press.toml", "title = 'press'\n" + tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
-                          tables::block("upper", "[0, 1]", "[1, 1.5]", "[4, 4]", "young = 5\npoisson = 0.3\n") +
-                          tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.01]") +
-                          "[[obstacle]]\ntype = 'elastic'\nbody = 'upper'\non = 'bottom'\nother = 'lower'\n"
-                          "other_on = 'top'\n");
+  write("press.toml",
+        "title = 'press'\n" + tables::block("lower", "[0, 0]", "[1, 1]", "[4, 4]") +
+            tables::block("upper", "[0, 1]", "[1, 1.5]", "[4, 4]", "order = 1\nyoung = 5\npoisson = 0.3\n") +
+            tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.01]") +
+            "[[obstacle]]\ntype = 'elastic'\nbody = 'upper'\non = 'bottom'\nother = 'lower'\n"
+            "other_on = 'top'\n");
   const Ended checked = signorini({"check", "press.toml"});
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("the slave is lower (softer: modulus 1 beside 5)"));

@@ -118,6 +118,20 @@ TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
   EXPECT_THAT(ended.out, HasSubstr(report("o").at("unknowns").dump() + " unknowns"));
 }
 
+TEST_F(CommandLine, CheckSolveAndReportSayWhichElementsThereAre) {
+  write("punch.toml", punch);
+  for (const auto& [given, order, by, text] :
+       {std::tuple("1", 1, "scene", "linear (order 1)"), std::tuple("2", 2, "scene", "quadratic (order 2)"),
+        std::tuple("auto", 2, "auto", "quadratic (order 2, chosen by auto)")}) {
+    const std::string set = std::string("body.0.order=") + given;
+    EXPECT_THAT(signorini({"check", "punch.toml", "--set", set}).out, HasSubstr(std::string("elements: ") + text));
+    const Ended solved = signorini({"solve", "punch.toml", "--out", "o", "--set", set});
+    EXPECT_THAT(solved.out, HasSubstr(std::string("elements: ") + text));
+    EXPECT_EQ(report("o").at("bodies").at(0).at("order"), order);
+    EXPECT_EQ(report("o").at("bodies").at(0).at("order_by"), by);
+  }
+}
+
 TEST_F(CommandLine, CheckPrintsTheRulesThatAreInForce) {
   write("membrane.toml", membrane);
   const auto checked = [&](const char* option) {

@@ -134,6 +134,7 @@ shape = "box"
 from = [0, 0, 0]
 to = [1, 1, 1]
 cells = [2, 2, 2]
+order = 1
 young = 1.0
 poisson = 0.25
 [[fix]]

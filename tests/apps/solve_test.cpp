@@ -227,7 +227,7 @@ TEST_F(Solve, IterationLimitWritesResultsMarkedAsNotConverged) {
 
 /// A block that slides along walls, pressed on a plane under it.
 const std::string block_on_plane =
-    tables::block("b", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]", "young = 1.0\npoisson = 0.25\n") + R"(
+    tables::block("b", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]", "order = 1\nyoung = 1.0\npoisson = 0.25\n") + R"(
 [[fix]]
 body = "b"
 where = "x == 0 || x == 1"

@@ -69,7 +69,7 @@ TEST(MasterSide, KnowsWhatTheSceneAddsToTheDistance) {
 
 std::string disk_on_block(const char* moved) {
   return "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\nsize = \"0.03 + 0.3 * "
-         "sqrt(x^2 + y^2)\"\nyoung = 1\npoisson = 0.3\n" +
+         "sqrt(x^2 + y^2)\"\norder = 1\nyoung = 1\npoisson = 0.3\n" +
          tables::block("block", "[-1, -1]", "[1, 0]", "[64, 32]") + tables::fix("disk", "flat", moved) +
          tables::fix("block", "bottom", "[0, 0]") + "[refine]\nuniform = 2\n";
 }

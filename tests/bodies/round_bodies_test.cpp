@@ -52,7 +52,7 @@ std::string cylinders(const Round& scene) {
   const auto body = [](const char* name, const char* shape, double middle, const Body& of) {
     return fmt::format(
         "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, {}]\nradius = {}\nsize = \"0.01 + 0.3 * sqrt(x^2 + "
-        "y^2)\"\nyoung = {}\npoisson = {}\n",
+        "y^2)\"\norder = 1\nyoung = {}\npoisson = {}\n",
         name, shape, middle, of.radius, of.young, of.poisson);
   };
   return body("upper", "half_disk", scene.upper.radius, scene.upper) +
@@ -94,7 +94,7 @@ std::string spheres(const Round& scene) {
   const auto body = [](const char* name, const char* shape, double middle, const Body& of) {
     return fmt::format(
         "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, 0, {}]\nradius = {}\nsize = \"0.05 + 0.4 * sqrt(x^2 + "
-        "y^2 + z^2)\"\nyoung = {}\npoisson = {}\n",
+        "y^2 + z^2)\"\norder = 1\nyoung = {}\npoisson = {}\n",
         name, shape, middle, of.radius, of.young, of.poisson);
   };
   return body("upper", "half_ball", scene.upper.radius, scene.upper) +

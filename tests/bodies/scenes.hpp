@@ -19,7 +19,7 @@ inline std::string pair(const std::string& body, const std::string& on, const st
 }
 
 inline std::string material(double young, double poisson = 0.3) {
-  return fmt::format("young = {}\npoisson = {}\n", young, poisson);
+  return fmt::format("order = 1\nyoung = {}\npoisson = {}\n", young, poisson);
 }
 
 inline Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml", "."); }

@@ -111,7 +111,7 @@ TEST(Slave, IsTheOneThatTheSceneNames) {
 
 // What counts is the material where the bodies touch.
 TEST(Slave, IsJudgedNextToTheOtherBody) {
-  const std::string soft_on_top = "young = \"1 + 100 * (1 - y)^4\"\npoisson = 0.3\n";
+  const std::string soft_on_top = "order = 1\nyoung = \"1 + 100 * (1 - y)^4\"\npoisson = 0.3\n";
   const PairReport found = pair_of({.lower_cells = "[16, 16]", .lower = soft_on_top, .upper = material(3)});
   EXPECT_EQ(found.slave, "lower");
   EXPECT_THAT(found.reason, StartsWith("softer: modulus 1"));

@@ -49,9 +49,10 @@ TEST(BalanceWarnings, forces_that_cancel_are_not_lost) {
 
 // The radial entry of a sum is none of forces that hold each other.
 TEST(BalanceWarnings, not_for_radial_forces_of_axisymmetric_bodies) {
-  const std::string ring =
-      tables::block("ring", "[1, 0]", "[2, 1]", "[4, 4]", "plane = 'axisymmetric'\nyoung = 1\npoisson = 0.3\n") +
-      tables::fix("ring", "top", "['free', 0]") + tables::plane("ring", "bottom", "[0, 0]", "[0, 1]");
+  const std::string ring = tables::block("ring", "[1, 0]", "[2, 1]", "[4, 4]",
+                                         "plane = 'axisymmetric'\norder = 1\nyoung = 1\npoisson = 0.3\n") +
+                           tables::fix("ring", "top", "['free', 0]") +
+                           tables::plane("ring", "bottom", "[0, 0]", "[0, 1]");
   EXPECT_THAT(warnings(ring + tables::load("ring", "[0.05, 0]", "left")), Not(warns_of("ring")));
 }
 

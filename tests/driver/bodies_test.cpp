@@ -29,7 +29,7 @@ const Part film{
     tables::fix("film", "boundary", "0"), tables::load("film", "'-20 * t'"), tables::floor("film", "-0.2"),
     tables::probe("middle", "film", "[2.5, 0.5, 0.5]")};
 
-const Part soft{tables::block("soft", "[0, 2, 0]", "[2, 3, 1]", "[4, 2, 2]", "young = 0.1\npoisson = 0.2\n"),
+const Part soft{tables::block("soft", "[0, 2, 0]", "[2, 3, 1]", "[4, 2, 2]", "order = 1\nyoung = 0.1\npoisson = 0.2\n"),
                 tables::fix("soft", "left", "[0, 0, 0]"), tables::load("soft", "[0, 0, -0.001]"),
                 tables::plane("soft", "bottom", "[0, 0, -0.01]", "[0, 0, 1]"),
                 tables::probe("end", "soft", "[2, 2, 0]")};

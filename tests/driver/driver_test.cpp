@@ -286,12 +286,13 @@ void expect_refused(const std::string& text, const Refused& refused) {
 TEST(Driver, moves_bodies_that_touch_nothing) {
   for (const double by : {-0.02, -0.01, -0.0625, 0.3, -1.7}) {
     SCOPED_TRACE(by);
-    Driver driver(parse_scene(fmt::format("[[body]]\nname = 'box'\nshape = 'box'\nfrom = [-0.5, -0.5, 0]\n"
-                                          "to = [0.5, 0.5, 0.5]\ncells = [8, 8, 4]\nyoung = 1\npoisson = 0.3\n"
-                                          "[[fix]]\nbody = 'box'\non = 'top'\nvalue = [0, 0, {}]\n"
-                                          "[refine]\nuniform = 1\n",
-                                          by),
-                              "test.toml", "."));
+    Driver driver(
+        parse_scene(fmt::format("[[body]]\nname = 'box'\nshape = 'box'\nfrom = [-0.5, -0.5, 0]\n"
+                                "to = [0.5, 0.5, 0.5]\ncells = [8, 8, 4]\norder = 1\nyoung = 1\npoisson = 0.3\n"
+                                "[[fix]]\nbody = 'box'\non = 'top'\nvalue = [0, 0, {}]\n"
+                                "[refine]\nuniform = 1\n",
+                                by),
+                    "test.toml", "."));
     const Report& report = driver.solve();
     EXPECT_TRUE(report.converged()) << report.reason();
     for (const double force : report.last().reactions[0].force) EXPECT_NEAR(force, 0, 1e-13);

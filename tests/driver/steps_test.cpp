@@ -133,11 +133,11 @@ TEST(ObstacleForces, MomentsAreThoseOfTheMiddle) {
   const auto side = [](const char* on, double shear) {
     return tables::load("block", fmt::format("[0, 0, {}]", shear), on);
   };
-  const std::string scene = tables::block("block", "[0, 0, 0]", "[2, 1, 1]", "[4, 2, 2]", "young = 1\npoisson = 0\n") +
-                            tables::fix("block", "top", fmt::format("[0.02, 0.01, {}]", -p)) + side("right", gx) +
-                            side("left", -gx) + side("back", gy) + side("front", -gy) +
-                            friction_plane(fmt::format("{}", g), "[0.5, 0.25, 0]", "[0, 0, 1]") +
-                            "[solver]\ntolerance = 1e-11\n";
+  const std::string scene =
+      tables::block("block", "[0, 0, 0]", "[2, 1, 1]", "[4, 2, 2]", "order = 1\nyoung = 1\npoisson = 0\n") +
+      tables::fix("block", "top", fmt::format("[0.02, 0.01, {}]", -p)) + side("right", gx) + side("left", -gx) +
+      side("back", gy) + side("front", -gy) + friction_plane(fmt::format("{}", g), "[0.5, 0.25, 0]", "[0, 0, 1]") +
+      "[solver]\ntolerance = 1e-11\n";
   Driver driver(scene_of(scene));
   driver.solve();
   const ContactReport& contact = driver.report().last().contact[0];

@@ -25,6 +25,7 @@ shape = "rectangle"
 from = [0, 0]
 to = [{length}, {height}]
 cells = [{cells}, 1]
+order = 1
 young = {young}
 poisson = 0
 plane = "stress"

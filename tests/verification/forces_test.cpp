@@ -43,14 +43,14 @@ TEST(Forces, balance_in_scenes_of_all_kinds) {
 
 TEST(Forces, balance_where_fixes_in_normal_frames_meet_an_oblique_plane) {
   const auto solved = run<3, 3>(
-      SceneText{
-          .body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [3, 3, 3]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"left\"\nframe = \"normal\"\nvalue = [0.01, \"free\", \"free\"]",
-                    "on = \"top\"\nvalue = [\"free\", 0, \"-0.05 + 0.01 * x\"]"},
-          .loads = {"value = [0, 0.01, \"-0.1 * z\"]", "on = \"right\"\nvalue = [\"0.1 * y\", 0, 0.02]"},
-          .obstacle =
-              "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0.2, 0.1, 1]",
-          .refinements = 1},
+      SceneText{.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [3, 3, 3]\norder = 1\nyoung = "
+                        "1\npoisson = 0.3",
+                .fixes = {"on = \"left\"\nframe = \"normal\"\nvalue = [0.01, \"free\", \"free\"]",
+                          "on = \"top\"\nvalue = [\"free\", 0, \"-0.05 + 0.01 * x\"]"},
+                .loads = {"value = [0, 0.01, \"-0.1 * z\"]", "on = \"right\"\nvalue = [\"0.1 * y\", 0, 0.02]"},
+                .obstacle =
+                    "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0.2, 0.1, 1]",
+                .refinements = 1},
       {exact});
   EXPECT_GT(solved.contact().nodes, 3);
   expect_balance<3>("oblique plane", solved.results.forces);
@@ -61,7 +61,8 @@ TEST(Forces, balance_where_fixes_in_normal_frames_meet_an_oblique_plane) {
 template <int D>
 void expect_confined_block(const std::string& body, const std::vector<std::string>& sides, const std::string& bottom,
                            const std::string& press, const std::string& plane) {
-  SceneText scene{.body = body + "\nyoung = 3\npoisson = 0.3", .loads = {press}, .obstacle = plane, .refinements = 1};
+  SceneText scene{
+      .body = body + "\norder = 1\nyoung = 3\npoisson = 0.3", .loads = {press}, .obstacle = plane, .refinements = 1};
   const std::string slide = D == 2 ? "[0, \"free\"]" : "[0, \"free\", \"free\"]";
   for (const std::string& side : sides)
     scene.fixes.push_back("on = \"" + side + "\"\nframe = \"normal\"\nvalue = " + slide);

@@ -20,24 +20,27 @@ std::string with_friction(const char* where, const std::string& bound) {
 std::string frictionless(const char* where) { return std::string(where) + "\ntype = \"contact\""; }
 
 SceneText block2(const std::string& obstacle, int refinements) {
-  return {.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"},
-          .obstacle = obstacle,
-          .refinements = refinements};
+  return {
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
 }
 
 SceneText block3(const std::string& obstacle, int refinements) {
-  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"top\"\nvalue = [0.02, 0.01, -0.03]"},
-          .obstacle = obstacle,
-          .refinements = refinements};
+  return {
+      .body =
+          "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.02, 0.01, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
 }
 
 // Uniform shear g and pressure p, sliding everywhere: u_x = s + g y / G, which linear elements have exactly.
 TEST(Tresca, UniformSlipIsExact) {
   const double g = 0.004, young = 1, shear = young / 2;
   const SceneText scene{
-      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0",
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0",
       .fixes = {"on = \"top\"\nvalue = [0.02, -0.03]"},
       .loads = {fmt::format("on = \"right\"\nvalue = [0, {}]", g), fmt::format("on = \"left\"\nvalue = [0, {}]", -g)},
       .obstacle = with_friction(on_plane, fmt::format("{}", g)),
@@ -108,7 +111,7 @@ TEST(Tresca, ScenesMayBeTurnedAndScaled) {
     motion.scale = scale;
     const std::string file = folder.write(fmt::format("{}.msh", scale), msh(mesh, motion));
     const Point<2> lowered = motion.turned({0.02 * scale, -0.03 * scale});
-    return SceneText{.body = fmt::format("mesh = \"{}\"\nyoung = {}\npoisson = 0.3", file, stress),
+    return SceneText{.body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = {}\npoisson = 0.3", file, stress),
                      .fixes = {"on = \"top\"\nvalue = " + text(lowered)},
                      .obstacle = fmt::format("type = \"tresca\"\nbound = {}\non = \"bottom\"\nshape = \"plane\"\n"
                                              "point = [0, 0]\nnormal = {}",
@@ -201,7 +204,8 @@ TEST(Tresca, VeryLittleFrictionHoldsABlockAsFast) {
   for (const int refinements : {0, 1, 3})
     for (const char* bound : {"1e-3", "1e-5", "1e-6"}) {
       SceneText scene = block2(with_friction(on_plane, bound), refinements);
-      scene.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [10, 2]\nyoung = 1\npoisson = 0.3";
+      scene.body =
+          "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [10, 2]\norder = 1\nyoung = 1\npoisson = 0.3";
       scene.fixes = {"on = \"top\"\nvalue = [\"free\", -0.04]"};
       EXPECT_LE((run<2, 2>(scene).summary().iterations), 25) << refinements << " refinements, bound " << bound;
       const auto exact = run<2, 2>(scene, {"solver.tolerance=1e-10"});

@@ -40,7 +40,7 @@ Mesh<2> quarter_ring() {
 /// Under an internal pressure of 0.01 in a rigid bore that leaves it some room.
 SceneText ring_in_bore(const std::string& file, const std::string& keys, double room) {
   return {
-      .body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3\n{}", file, keys),
+      .body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = 1\npoisson = 0.3\n{}", file, keys),
       .fixes = {"on = \"bottom\"\nvalue = [\"free\", 0]", "on = \"left\"\nvalue = [0, \"free\"]"},
       .loads = {"on = \"inner\"\nvalue = [\"-0.01*nx\", \"-0.01*ny\"]"},
       .obstacle = fmt::format("type = \"contact\"\non = \"outer\"\nshape = \"sphere\"\ncenter = [0, 0]\nradius = {}\n"
@@ -94,7 +94,7 @@ TEST(Geometry, AnImportedHalfBallIsTheOneThatTheProgramMeshes) {
   const TemporaryFolder folder;
   const Mesh<3> mesh = geometry::engine().mesh(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1, true}),
                                                [](const Point<3>&) { return 0.3; });
-  const std::string rest = "young = 1\npoisson = 0.3\n";
+  const std::string rest = "order = 1\nyoung = 1\npoisson = 0.3\n";
   SceneText scene{.body = "shape = \"half_ball\"\ncenter = [0, 0, 0]\nradius = 1\nsize = 0.3\n" + rest,
                   .fixes = {"on = \"flat\"\nvalue = [0, 0, -0.02]"},
                   .obstacle =
@@ -157,7 +157,8 @@ std::string sphere_off(int divisions) {
 /// A block pressed on a ball from above.
 SceneText block_on(const std::string& obstacle) {
   return {.body =
-              "shape = \"box\"\nfrom = [-0.24, -0.24, 0]\nto = [0.24, 0.24, 0.24]\ncells = [4, 4, 2]\nyoung = 1\n"
+              "shape = \"box\"\nfrom = [-0.24, -0.24, 0]\nto = [0.24, 0.24, 0.24]\ncells = [4, 4, 2]\norder = 1\nyoung "
+              "= 1\n"
               "poisson = 0.3",
           .fixes = {"on = \"top\"\nvalue = [0, 0, -0.01]"},
           .obstacle = "type = \"contact\"\non = \"bottom\"\n" + obstacle,
@@ -222,7 +223,7 @@ TEST(Geometry, AShellThatTouchesItsBoreAllOverWantsTheTrueSphere) {
   const auto off = [&](Index cells, const std::string& geometry, int refinements) {
     const std::string file = folder.write("shell.msh", msh(shell(cells)));
     const auto r = run<3, 3>(with_octant(
-        {.body = fmt::format("mesh = \"{}\"\ngeometry = \"{}\"\nyoung = 1\npoisson = 0.3", file, geometry),
+        {.body = fmt::format("mesh = \"{}\"\ngeometry = \"{}\"\norder = 1\nyoung = 1\npoisson = 0.3", file, geometry),
          .obstacle = "type = \"contact\"\non = \"outer\"\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.99\n"
                      "inside = true",
          .refinements = refinements}));

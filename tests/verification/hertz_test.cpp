@@ -25,6 +25,7 @@ shape = "{}"
 center = [{}, 0]
 radius = 1
 size = "{}"
+order = 1
 young = 1
 poisson = 0.3)",
                               plane ? "half_disk" : "half_ball", zeros, size),

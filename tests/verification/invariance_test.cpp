@@ -37,7 +37,9 @@ struct Frame {
     for (double& v : y) v *= modulus;
     return text(y);
   }
-  std::string body() const { return fmt::format("mesh = \"{}\"\nyoung = {:.17g}\npoisson = 0.3", file, modulus); }
+  std::string body() const {
+    return fmt::format("mesh = \"{}\"\norder = 1\nyoung = {:.17g}\npoisson = 0.3", file, modulus);
+  }
 };
 
 /// A half ball pushed obliquely on a sphere, with a load on its flat side's rim.
@@ -215,12 +217,12 @@ SceneText pressed(const MeshedShape& shape, double l) {
   // Small below the body.
   const std::string size = fmt::format("\"{:.17g} + 0.3*sqrt({}({} + {:.17g})^2)\"", (D == 2 ? 0.03 : 0.15) * l,
                                        D == 2 ? "x^2 + " : "x^2 + y^2 + ", up, -shape.low * l);
-  return {
-      .body = fmt::format("shape = \"{}\"\n{}\nsize = {}\nyoung = 2e5\npoisson = 0.3", shape.name, shape.keys(l), size),
-      .fixes = {fmt::format("where = \"{} > {:.17g}\"\nvalue = {}", up, shape.held * l, text(down))},
-      .obstacle = fmt::format("type = \"contact\"\non = \"boundary\"\nshape = \"plane\"\npoint = {}\nnormal = {}",
-                              text(point), text(normal)),
-      .refinements = 1};
+  return {.body = fmt::format("shape = \"{}\"\n{}\nsize = {}\norder = 1\nyoung = 2e5\npoisson = 0.3", shape.name,
+                              shape.keys(l), size),
+          .fixes = {fmt::format("where = \"{} > {:.17g}\"\nvalue = {}", up, shape.held * l, text(down))},
+          .obstacle = fmt::format("type = \"contact\"\non = \"boundary\"\nshape = \"plane\"\npoint = {}\nnormal = {}",
+                                  text(point), text(normal)),
+          .refinements = 1};
 }
 
 /// The mesh has the same elements, and the solution is the same.

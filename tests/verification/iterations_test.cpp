@@ -34,6 +34,7 @@ shape    = "ball"
 center   = [0, 0, 0]
 radius   = 1.0
 size     = 0.25
+order = 1
 young    = 1.0
 poisson  = 0.3)",
                      .fixes = {"where = \"z > 0.5\"\nvalue = [0, 0, -0.02]"},
@@ -102,7 +103,7 @@ TEST(Iterations, StepsTakeNoMoreCyclesThanFreshSolves) {
   for (const int count : {4, 16})
     for (const int refinements : {2, 4}) {
       const std::vector<std::string> settings{uniform(refinements)};
-      const Scene scene = read_scene(shipped_scenes / "disk_in_bed_steps.toml", settings);
+      const Scene scene = shipped("disk_in_bed_steps.toml", settings);
       Registry registry = solver_components();
       load_plugins(scene, registry);
       const Progress quiet;
@@ -150,7 +151,7 @@ int cycles_of_membrane(Point<D> size, int cells, int refinements) {
 template <int D>
 int cycles_of_body(Point<D> size, int cells, int refinements) {
   const double load = -1e-4 / std::pow(size[0], 3);
-  SceneText scene{.body = block<D>(size, cells) + "young = 1\npoisson = 0.3", .refinements = refinements};
+  SceneText scene{.body = block<D>(size, cells) + "order = 1\nyoung = 1\npoisson = 0.3", .refinements = refinements};
   if (D == 2) {
     scene.fixes = {"on = \"top\"\nvalue = [0, 0]"};
     scene.loads = {fmt::format("value = [0, {}]", load)};

@@ -95,6 +95,7 @@ title = "resting"
 [[body]]
 name = "b"
 mesh = "{}"
+order = 1
 young = 1
 poisson = {}
 [[load]]
@@ -253,6 +254,7 @@ shape = "{}"
 from = {}
 to = {}
 cells = {}
+order = 1
 young = 1
 poisson = 0.3
 [[load]]
@@ -348,6 +350,7 @@ title = "bowl"
 [[body]]
 name = "b"
 {}
+order = 1
 young = 1
 poisson = {}
 [[load]]
@@ -405,6 +408,7 @@ std::string beam_on_rounds(const std::string& mesh) {
 [[body]]
 name = "beam"
 mesh = "{}"
+order = 1
 young = 1
 poisson = 0.3
 [[load]]
@@ -491,7 +495,7 @@ TEST(LooseBody, MovesLeastWhicheverWayTheSceneIsTurned) {
         folder.write("beam.msh", msh<3>(box({-0.3, -0.27, -0.85}, {0.3, 0.27, 0.85}, {3, 2, 2}), motion));
     const auto r =
         run<3, 3>("[[body]]\nname = \"b\"\nmesh = \"" + file +
-                  "\"\nyoung = 1\npoisson = 0.22\n"
+                  "\"\norder = 1\nyoung = 1\npoisson = 0.22\n"
                   "[[fix]]\nbody = \"b\"\non = \"top\"\nframe = \"normal\"\nvalue = [0, \"free\", \"free\"]\n"
                   "[[load]]\nbody = \"b\"\nvalue = " +
                   text(motion.turned({2e-9, 0, 2e-3})) +

@@ -96,7 +96,7 @@ std::string refusal(const std::string& scene) {
 TEST_F(Materials, ThatAreWrongAreNamed) {
   obstacle = "type = \"contact\"\non = \"right\"\nshape = \"plane\"\npoint = [3.1, 0]\nnormal = [-1, 0]";
   const auto with = [&](const std::string& keys) {
-    return refusal(scene("young = 10\npoisson = 0.3", "[[material]]\nbody = \"b\"\n" + keys, "0, 0"));
+    return refusal(scene("order = 1\nyoung = 10\npoisson = 0.3", "[[material]]\nbody = \"b\"\n" + keys, "0, 0"));
   };
   const auto expect = [](const std::string& message, const char* place, const char* what) {
     EXPECT_NE(message.find(place), std::string::npos) << message;

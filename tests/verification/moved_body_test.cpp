@@ -12,8 +12,9 @@ TEST(MovedBody, IsPushedAsideByARoundHoweverStiffItIs) {
   const Point<2> center = {0.4, -4.1};
   for (const auto& [young, aside, down] : {std::array{2.1e5, -1e-6, -7.7e-5}, std::array{1e7, -1e-4, -0.01}}) {
     const SceneText scene{
-        .body = fmt::format("shape = \"half_disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.5\nyoung = {}\npoisson = 0.3",
-                            young),
+        .body = fmt::format(
+            "shape = \"half_disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.5\norder = 1\nyoung = {}\npoisson = 0.3",
+            young),
         .fixes = {"on = \"flat\"\nvalue = [\"free\", -0.01]"},
         .loads = {fmt::format("value = [{}, {}]", aside, down)},
         .obstacle = "type = \"contact\"\non = \"boundary\"\nshape = \"sphere\"\ncenter = [0.4, -4.1]\nradius = 3",
@@ -42,7 +43,7 @@ TEST(MovedBody, StandsOnTwoRoundsHoweverFarItHasCome) {
   };
   const SceneText scene{.body =
                             "shape = \"rectangle\"\nfrom = [-0.05, -1]\nto = [0.05, 1]\ncells = [1, 60]\n"
-                            "young = 1e6\npoisson = 0.3",
+                            "order = 1\nyoung = 1e6\npoisson = 0.3",
                         .loads = {"value = [0, -0.003]"},
                         .obstacle = round("[-0.015098, -2.3173]", "1.3273") + "[[obstacle]]\nbody = \"b\"\n" +
                                     round("[0.01066, -2.78558]", "1.98558")};
@@ -66,7 +67,8 @@ TEST(MovedBody, IsCompressedWithoutMovingAside) {
   for (const double young : {1e3, 9e7, 2.1e11}) {
     const SceneText scene{
         .body = fmt::format(
-            "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [1, 1]\nyoung = {}\npoisson = 0", young),
+            "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [1, 1]\norder = 1\nyoung = {}\npoisson = 0",
+            young),
         .fixes = {"on = \"top\"\nvalue = [\"free\", -0.01]"},
         .obstacle = "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]"};
     const auto r = run<2, 2>(scene);
@@ -82,7 +84,7 @@ TEST(MovedBody, IsMovedAsAWholeAtOnce) {
     const SceneText scene{
         .body =
             "shape = \"rectangle\"\nfrom = [-0.05, -1]\nto = [0.05, 1]\ncells = [4, 60]\n"
-            "young = 1e9\npoisson = 0.45",
+            "order = 1\nyoung = 1e9\npoisson = 0.45",
         .fixes = {"on = \"top\"\nvalue = [\"free\", -0.01]"},
         .obstacle = "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, -1.3]\nnormal = [0, 1]",
         .refinements = refinements};

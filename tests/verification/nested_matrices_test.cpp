@@ -17,8 +17,7 @@ struct TwoMeshes {
   DiscreteProblem<B> coarse, fine;
   std::vector<Prolongation> P;
 
-  TwoMeshes(const char* file, std::vector<std::string> overrides)
-      : TwoMeshes(read_scene(shipped_scenes / file, overrides)) {}
+  TwoMeshes(const char* file, std::vector<std::string> overrides) : TwoMeshes(shipped(file, std::move(overrides))) {}
   explicit TwoMeshes(const Scene& scene) {
     load_plugins(scene, registry);
     meshes = build_hierarchy<D>(scene, B);

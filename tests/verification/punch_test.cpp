@@ -47,7 +47,7 @@ SceneText punch(const std::string& file, const Motion<D>& motion) {
   for (const std::string& wall : walls)
     fixes.push_back(
         fmt::format("on = \"{}\"\nframe = \"normal\"\nvalue = [0, \"free\"{}]", wall, D == 3 ? ", \"free\"" : ""));
-  return {.body = fmt::format("mesh = \"{}\"\nyoung = 1.0\npoisson = {}", file, nu),
+  return {.body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = 1.0\npoisson = {}", file, nu),
           .fixes = fixes,
           .obstacle = fmt::format("type = \"contact\"\non = \"top\"\nshape = \"plane\"\npoint = {}\nnormal = {}",
                                   text(motion.moved(top)), text(motion.turned(down))),
@@ -110,7 +110,7 @@ TEST(Punch, UniformPressureUnderASolid) {
   const TemporaryFolder folder;
   const std::string file = folder.write("cube.off", cube(0, 1).off());
   const SceneText scene{
-      .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = 0.4\nyoung = 1\npoisson = 0", file),
+      .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = 0.4\norder = 1\nyoung = 1\npoisson = 0", file),
       .fixes = {"where = \"z > 0.999\"\nvalue = [0, 0, -0.01]"},
       .obstacle = R"(
 type = "contact"
@@ -133,7 +133,8 @@ normal = [0, 0, 1])",
 // plane, M. Sadowsky 1928. Infinite at the corners, the pressure stays one that the nodes there have.
 TEST(Punch, SingularPressureAtTheCornersOfAPunch) {
   const SceneText scene{
-      .body = "shape = \"rectangle\"\nfrom = [-4, 0]\nto = [4, 4]\ncells = [16, 8]\nyoung = 1\npoisson = 0.3",
+      .body =
+          "shape = \"rectangle\"\nfrom = [-4, 0]\nto = [4, 4]\ncells = [16, 8]\norder = 1\nyoung = 1\npoisson = 0.3",
       .fixes = {"on = \"top\"\nvalue = [0, -0.01]"},
       .obstacle =
           "type = \"contact\"\non = \"bottom\"\nshape = \"expression\"\n"

@@ -57,8 +57,8 @@ struct RandomBody {
   RandomBody(std::uint64_t seed, Bodies bodies) : moved(bodies == Bodies::stiff_and_moved), random_(seed) {
     const double decades = moved ? 5 : 0;
     text = "title = \"random\"\n[[body]]\nname = \"b\"\n" + shape() +
-           fmt::format("young = {:.3g}\npoisson = {:.3g}\n", std::pow(10.0, random_.between(-3, 3) + decades),
-                       random_.between(0, 0.45));
+           fmt::format("order = 1\nyoung = {:.3g}\npoisson = {:.3g}\n",
+                       std::pow(10.0, random_.between(-3, 3) + decades), random_.between(0, 0.45));
     add_fix();
     add_loads();
     for (int k = 1 + random_.below(4); k > 0; --k) add_obstacle();

@@ -14,7 +14,7 @@ std::string pressed(const RealSurface& body, double size, const std::string& obs
   Point<3> down{};
   down[body.up] = -0.02 * body.height();
   return test::SceneText{
-      .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {}\nyoung = 1\npoisson = 0.3", body.file,
+      .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {}\norder = 1\nyoung = 1\npoisson = 0.3", body.file,
                           size * diameter(body)),
       .fixes = {fmt::format("where = \"{} > {}\"\nvalue = [{}, {}, {}]", "xyz"[body.up],
                             body.farthest(1)[body.up] - 0.25 * body.height(), down[0], down[1], down[2])},

@@ -50,7 +50,7 @@ Run<D, B> expect_reference(const std::string& scene, Expectation expected = {}) 
 
 template <int D, int B>
 void expect_shipped_reference(const std::string& file, int refinements) {
-  expect_reference<D, B>(read_scene(shipped_scenes / file, std::vector{exactly.front(), uniform(refinements)}));
+  expect_reference<D, B>(shipped(file, {exactly.front(), uniform(refinements)}));
 }
 
 constexpr const char* square = R"(
@@ -130,6 +130,7 @@ shape = "rectangle"
 from = [0, 0]
 to = [2, 1]
 cells = [4, 2]
+order = 1
 young = 1.0
 poisson = 0.3)",
           .fixes = {"on = \"top\"\nvalue = [0.01, -0.05]"},
@@ -168,6 +169,7 @@ shape = "half_ball"
 center = [0, 0, 0]
 radius = 1
 size = 0.5
+order = 1
 young = 1.0
 poisson = 0.3)",
           .fixes = {"on = \"flat\"\nvalue = [0.01, 0, -0.05]"},

@@ -54,7 +54,7 @@ TEST(Robustness, CellsStretchedByAHundred) {
 }
 
 SceneText block(const std::string& shape, const std::string& young, double poisson, int refinements) {
-  return {.body = fmt::format("{}\nyoung = \"{}\"\npoisson = {}", shape, young, poisson),
+  return {.body = fmt::format("{}\norder = 1\nyoung = \"{}\"\npoisson = {}", shape, young, poisson),
           .fixes = {"on = \"top\"\nvalue = [0, 0, -0.02]"},
           .obstacle = R"(
 type = "contact"

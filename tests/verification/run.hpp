@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -60,9 +61,20 @@ Run<D, B> run(const std::string& text, std::vector<std::string> overrides = {}) 
   return run<D, B>(parse_scene(text, "test.toml", ".", overrides));
 }
 
+/// A scene that is shipped, with linear elements unless the overrides say otherwise: on a mesh with as
+/// many unknowns as its own quadratic ones have, unless they say so, too.
+inline Scene shipped(const std::string& file, std::vector<std::string> overrides) {
+  const bool refined = std::ranges::any_of(overrides, [](const auto& o) { return o.starts_with("refine.uniform="); });
+  overrides.insert(overrides.begin(), "body.0.order=1");
+  Scene scene = read_scene(shipped_scenes / file, overrides);
+  const Scene::Body& body = scene.bodies[0];
+  if (!refined && body.order == 1 && body.equation == Scene::Equation::elasticity) ++scene.refine.uniform;
+  return scene;
+}
+
 template <int D, int B>
 Run<D, B> run_shipped(const std::string& file, std::vector<std::string> overrides) {
-  return run<D, B>(read_scene(shipped_scenes / file, overrides));
+  return run<D, B>(shipped(file, std::move(overrides)));
 }
 
 inline std::string uniform(int refinements) { return "refine.uniform=" + std::to_string(refinements); }

@@ -12,7 +12,7 @@ namespace {
 TEST(Slender, ColumnsThatCanSwayStandStraight) {
   const SceneText scene{.body =
                             "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1000]\ncells = [16, 16]\n"
-                            "young = 1\npoisson = 0.3",
+                            "order = 1\nyoung = 1\npoisson = 0.3",
                         .fixes = {"on = \"top\"\nvalue = [0, -20]"},
                         .obstacle =
                             "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, -10]\n"
@@ -31,7 +31,7 @@ TEST(Slender, ColumnsThatCanSwayStandStraight) {
 TEST(Slender, CantileversEndWhereRoundingLetsThem) {
   const double length = 1000, load = 1e-13;
   const SceneText scene{.body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = [2000, 4]\n"
-                                            "young = 1\npoisson = 0",
+                                            "order = 1\nyoung = 1\npoisson = 0",
                                             length),
                         .fixes = {"on = \"left\"\nvalue = [0, 0]"},
                         .loads = {fmt::format("on = \"top\"\nvalue = [0, {}]", -load)},
@@ -57,7 +57,7 @@ TEST(Slender, WhatUnitsChangeIsClaimed) {
   for (const double unit : {1.0, 1.0 / 3, 0.7, 1.0 / 7, 3.3, 0.123}) {
     const SceneText scene{
         .body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{:.17g}, {:.17g}]\ncells = [300, 1]\n"
-                            "young = 1\npoisson = 0.3",
+                            "order = 1\nyoung = 1\npoisson = 0.3",
                             length * unit, unit),
         .fixes = {"on = \"left\"\nvalue = [0, 0]"},
         .loads = {fmt::format("value = [0, {:.17g}]", -1e-3 / unit / std::pow(length, 3))},
@@ -84,7 +84,7 @@ TEST(Slender, CantileversRestOnTheirTipsInFewCycles) {
   const double load = 1 / (1.5 * std::pow(length, 4)), prop = 3.0 / 8 * load * length * (1 - 0.5);
   for (const auto& [cells, refinements] : {std::pair{"[1000, 1]", 2}, std::pair{"[4000, 4]", 0}}) {
     const SceneText scene{.body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = {}\n"
-                                              "young = 1\npoisson = 0",
+                                              "order = 1\nyoung = 1\npoisson = 0",
                                               length, cells),
                           .fixes = {"on = \"left\"\nvalue = [0, 0]"},
                           .loads = {fmt::format("on = \"top\"\nvalue = [0, {}]", -load)},
@@ -106,11 +106,12 @@ TEST(Slender, CantileversRestOnTheirTipsInFewCycles) {
 // deflection).
 TEST(Slender, BeamsInSpaceComeToARoundWithTheirTips) {
   const double length = 300, gap = 0.5, pressure = 1e-5;
-  SceneText scene{
-      .body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [300, 1, 1]\ncells = [150, 1, 1]\nyoung = 1e5\npoisson = 0.3",
-      .fixes = {"on = \"left\"\nvalue = [0, 0, 0]"},
-      .loads = {fmt::format("value = [0, 0, {}]", -pressure)},
-      .refinements = 2};
+  SceneText scene{.body =
+                      "shape = \"box\"\nfrom = [0, 0, 0]\nto = [300, 1, 1]\ncells = [150, 1, 1]\norder = 1\nyoung = "
+                      "1e5\npoisson = 0.3",
+                  .fixes = {"on = \"left\"\nvalue = [0, 0, 0]"},
+                  .loads = {fmt::format("value = [0, 0, {}]", -pressure)},
+                  .refinements = 2};
   const auto round = [](double below) {
     return fmt::format("type = \"contact\"\non = \"bottom\"\nshape = \"sphere\"\ncenter = [299, 0.6, {}]\nradius = 300",
                        -300 - below);
@@ -133,7 +134,7 @@ TEST(Slender, BodiesThatOnlyMoveAreNotLimitedByRounding) {
   for (const int refinements : {0, 3, 5}) {
     const SceneText scene{.body =
                               "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [4, 4]\n"
-                              "young = 1\npoisson = 0.3",
+                              "order = 1\nyoung = 1\npoisson = 0.3",
                           .obstacle =
                               "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0.01]\n"
                               "normal = [0, 1]",

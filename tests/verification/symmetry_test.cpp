@@ -113,8 +113,8 @@ std::string sphere2(const std::string& type) {
 TEST(Symmetry, HalvesInThePlane) {
   const std::vector<Mirror> mirrors{{0, 0.0}};
   const Mesh<2> half = rectangle({0, 0}, {1, 1}, {6, 6}), whole = whole_of(half, mirrors);
-  for (const char* material : {"young = 1\npoisson = 0.3\n", "young = 1\npoisson = 0.3\norder = 2\n",
-                               "young = 1\npoisson = 0.3\nplane = \"stress\"\n"})
+  for (const char* material : {"order = 1\nyoung = 1\npoisson = 0.3\n", "young = 1\npoisson = 0.3\n",
+                               "order = 1\nyoung = 1\npoisson = 0.3\nplane = \"stress\"\n"})
     for (const char* type :
          {"type = \"contact\"", "type = \"tresca\"\nbound = 0.002", "type = \"coulomb\"\nfriction = 0.2"}) {
       const std::string rest =
@@ -163,7 +163,8 @@ TEST(Symmetry, StressesOnPlanes) {
 TEST(Symmetry, LinearStressesOfAHalfAreExact) {
   const double young = 3.7, nu = 0.3, mu = young / 2 / (1 + nu), lambda = young * nu / (1 + nu) / (1 - 2 * nu);
   const std::string text =
-      "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]\nyoung = 3.7\n"
+      "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [4, 4]\norder = 1\nyoung = "
+      "3.7\n"
       "poisson = 0.3\n[symmetry]\nx = 0\n[[fix]]\nbody = \"b\"\non = \"boundary\"\nvalue = [\"0.6 * x * y + 0.2 * "
       "x\", \"-0.3 * x^2 + 0.45 * y^2\"]\n[[load]]\nbody = \"b\"\nvalue = [0, -5.763461538461538]\n[refine]\nuniform "
       "= 2\n";
@@ -189,7 +190,7 @@ TEST(Symmetry, QuartersInSpace) {
   const Mesh<3> quarter = box({0.5, 0, 0}, {1.5, 1, 1}, {3, 3, 3}), whole = whole_of(quarter, mirrors);
   // The load on the side that is meshed stands for one on the other side, too, which is another one of the whole.
   const std::string left = "[[load]]\nbody = \"b\"\nwhere = \"x == -0.5\"\nvalue = [-0.003, \"0.001*y\", 0.001]\n";
-  for (const char* order : {"", "order = 2\n"})
+  for (const char* order : {"order = 1\n", ""})
     for (const char* type : {"type = \"contact\"", "type = \"coulomb\"\nfriction = 0.3"}) {
       const std::string material = std::string("young = 1\npoisson = 0.3\n") + order;
       const std::string rest = fmt::format(
@@ -197,7 +198,7 @@ TEST(Symmetry, QuartersInSpace) {
           "[[load]]\nbody = \"b\"\nwhere = \"x == 1.5\"\nvalue = [0.003, \"0.001*y\", 0.001]\n"
           "[[obstacle]]\n{}\nbody = \"b\"\non = \"bottom\"\nshape = \"sphere\"\ncenter = [0.5, 0, -3]\nradius = 3\n"
           "[[probe]]\nname = \"p\"\nbody = \"b\"\nat = [-0.2, -0.3, 0.3]\n[refine]\nuniform = {}\n",
-          type, *order ? 0 : 1);
+          type, *order ? 1 : 0);
       SCOPED_TRACE(material + type);
       expect_same(solved(quarter, material, rest + planes(mirrors)), solved(whole, material, rest + left), 4, 1e-9,
                   1e-6);
@@ -229,7 +230,7 @@ TEST(Symmetry, EighthOfASqueezedCube) {
         "center = [0, 0, {1}]\nradius = 3\n",
         side, side * 3.98);
   };
-  const std::string material = "young = 1\npoisson = 0.3\n", fine = "[refine]\nuniform = 1\n";
+  const std::string material = "order = 1\nyoung = 1\npoisson = 0.3\n", fine = "[refine]\nuniform = 1\n";
   const Report part = solved(eighth, material, sphere(1) + fine + planes(mirrors)),
                whole = solved(whole_of(eighth, mirrors), material, sphere(1) + sphere(-1) + fine);
   const StepReport &a = part.last(), &b = whole.last();
@@ -247,8 +248,9 @@ Report solved_pair(const Mesh<D>& upper, const Mesh<D>& lower, const std::string
   const TemporaryFolder folder;
   std::string text;
   for (const auto& [name, mesh] : {std::pair{"u", &upper}, std::pair{"l", &lower}})
-    text += fmt::format("[[body]]\nname = \"{0}\"\nmesh = \"{1}\"\ngeometry = \"facets\"\nyoung = 1\npoisson = 0.3\n",
-                        name, folder.write(name + std::string(".msh"), msh(*mesh, Motion<D>())));
+    text += fmt::format(
+        "[[body]]\nname = \"{0}\"\nmesh = \"{1}\"\ngeometry = \"facets\"\norder = 1\nyoung = 1\npoisson = 0.3\n", name,
+        folder.write(name + std::string(".msh"), msh(*mesh, Motion<D>())));
   text += fmt::format(
       "[[obstacle]]\n{}\nbody = \"u\"\non = \"bottom\"\nother = \"l\"\nother_on = \"top\"\n"
       "gap = \"0.02*(x^2 + {})\"\n[refine]\nuniform = {}\n[steps]\ncount = 2\n{}",
@@ -285,7 +287,7 @@ TEST(Symmetry, BodiesThatTouchEachOther) {
 TEST(Symmetry, BodiesThatNothingElseHolds) {
   const std::string lying = "[[load]]\nbody = \"b\"\nvalue = [0, {}-0.01]\n[refine]\nuniform = 1\n",
                     on_floor = "[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\non = \"bottom\"\nshape = \"plane\"\n";
-  const std::string material = "young = 1\npoisson = 0.3\n";
+  const std::string material = "order = 1\nyoung = 1\npoisson = 0.3\n";
   const std::vector<Mirror> one{{0, 0.0}}, two{{0, 0.0}, {1, 0.0}};
   const Mesh<2> half = rectangle({0, 0}, {1, 1}, {4, 4});
   const std::string in_plane = fmt::format(fmt::runtime(lying), "") + on_floor + "point = [0, 0]\nnormal = [0, 1]\n";
@@ -407,7 +409,7 @@ std::string refusal(const std::string& rest, const std::string& given = "x = 0")
   try {
     Driver driver(
         parse_scene("[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [-1, 0]\nto = [1, 1]\n"
-                    "cells = [4, 2]\nyoung = 1\npoisson = 0.3\n[symmetry]\n" +
+                    "cells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0.3\n[symmetry]\n" +
                         given + "\n" + rest,
                     "test.toml", "."));
     driver.solve();
@@ -463,7 +465,7 @@ TEST(Symmetry, RefusesWhatIsNotSymmetric) {
 TEST(Symmetry, HalfOfAnAxisymmetricTube) {
   const std::string tube =
       "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [1, -1]\nto = [2, 1]\ncells = [8, 8]\n"
-      "plane = \"axisymmetric\"\nyoung = 1\npoisson = 0.3\n" +
+      "plane = \"axisymmetric\"\norder = 1\nyoung = 1\npoisson = 0.3\n" +
       fix("where = \"abs(y) == 1\"", "[\"free\", 0]") + load("on = \"left\"", "[0.01, 0]");
   const auto solve = [](const std::string& text) {
     Driver driver(parse_scene(text, "test.toml", "."));

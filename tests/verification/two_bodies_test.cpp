@@ -146,8 +146,8 @@ TEST(TwoBodies, PressuresAreKnownUpToTheEndOfTheOtherBody) {
 TEST(TwoBodies, FacesAroundAnEdgeAreNoPartOfTheContact) {
   for (const std::string& contact :
        {pair("upper", "boundary", "lower", "boundary"), pair("lower", "boundary", "upper", "boundary")})
-    expect_recovered(tables::block("lower", "[0, 0]", "[1, 1]", "[3, 3]", "young = 1\npoisson = 0\n") +
-                         tables::block("upper", "[0, 1]", "[1, 2]", "[4, 3]", "young = 1\npoisson = 0\n") +
+    expect_recovered(tables::block("lower", "[0, 0]", "[1, 1]", "[3, 3]", "order = 1\nyoung = 1\npoisson = 0\n") +
+                         tables::block("upper", "[0, 1]", "[1, 2]", "[4, 3]", "order = 1\nyoung = 1\npoisson = 0\n") +
                          tables::fix("lower", "bottom", "[0, 0]") + tables::fix("upper", "top", "[0, -0.02]") + contact,
                      1, 0.01);
 }
@@ -156,10 +156,10 @@ TEST(TwoBodies, FacesAroundAnEdgeAreNoPartOfTheContact) {
 std::string disk_on_block(int refinements, const std::string& obstacle, double block_stiffness = 1) {
   return fmt::format(
              "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\n"
-             "size = \"0.03 + 0.3 * sqrt(x^2 + y^2)\"\nyoung = 1\npoisson = 0.3\n[refine]\nuniform = {}\n",
+             "size = \"0.03 + 0.3 * sqrt(x^2 + y^2)\"\norder = 1\nyoung = 1\npoisson = 0.3\n[refine]\nuniform = {}\n",
              refinements) +
          tables::block("block", "[-2, -2]", "[2, 0]", "[32, 16]",
-                       fmt::format("young = {}\npoisson = 0.3\n", block_stiffness)) +
+                       fmt::format("order = 1\nyoung = {}\npoisson = 0.3\n", block_stiffness)) +
          tables::fix("disk", "flat", "[0, -0.02]") + tables::fix("block", "bottom", "[0, 0]") + obstacle;
 }
 
@@ -228,8 +228,8 @@ std::string row(const std::string& type, const std::string& more) {
         type, slave, master);
   };
   return tables::block("a", "[0, 0]", "[2, 1]", "[8, 4]") +
-         tables::block("b", "[0.3, 1]", "[1.7, 1.5]", "[9, 3]", "young = 10\npoisson = 0.2\n") +
-         tables::block("c", "[0.5, 1.5]", "[1.2, 2]", "[5, 4]", "young = 0.5\npoisson = 0.3\n") +
+         tables::block("b", "[0.3, 1]", "[1.7, 1.5]", "[9, 3]", "order = 1\nyoung = 10\npoisson = 0.2\n") +
+         tables::block("c", "[0.5, 1.5]", "[1.2, 2]", "[5, 4]", "order = 1\nyoung = 0.5\npoisson = 0.3\n") +
          tables::fix("a", "bottom", "[0, 0]") + tables::fix("b", "left", "[0, \"free\"]") +
          tables::fix("c", "top", "[\"0.01 * t\", \"-0.02 * t\"]") + between("b", "a") + more + between("c", "b") +
          more + "[refine]\nuniform = 2\n[steps]\ncount = 3\n";

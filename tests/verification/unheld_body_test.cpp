@@ -32,6 +32,7 @@ shape = "rectangle"
 from = [0, 0]
 to = [2, 1]
 cells = [4, 4]
+order = 1
 young = 1
 poisson = 0.3
 [[fix]]
@@ -67,6 +68,7 @@ shape = "box"
 from = [-1, -1, 0]
 to = [1, 1, 1]
 cells = [4, 4, 2]
+order = 1
 young = 1
 poisson = 0.3
 [[load]]
@@ -89,6 +91,7 @@ name = "b"
 shape = "polygon"
 points = [[100, 200], [100.8, 200.6], [100.5, 201], [99.7, 200.4]]
 size = 0.25
+order = 1
 young = 1
 poisson = 0.3
 [[load]]
@@ -118,6 +121,7 @@ shape = "rectangle"
 from = [0, 0]
 to = [1, 1]
 cells = [4, 4]
+order = 1
 young = 1
 poisson = 0.3
 [[load]]
@@ -140,9 +144,10 @@ inside = true
 TEST(UnheldBody, SaysWhereItGoesWhereFrictionDoesNotHoldIt) {
   const auto reason = [](double width, double friction) {
     const SceneText scene{
-        .body = fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = [4, 4]\nyoung = 1\npoisson = "
-                            "0.3",
-                            width),
+        .body = fmt::format(
+            "shape = \"rectangle\"\nfrom = [0, 0]\nto = [{}, 1]\ncells = [4, 4]\norder = 1\nyoung = 1\npoisson = "
+            "0.3",
+            width),
         .loads = {"value = [0.01, -0.02]"},
         .obstacle = fmt::format("type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = [0, "
                                 "1]\nfriction = {}",
@@ -155,7 +160,8 @@ TEST(UnheldBody, SaysWhereItGoesWhereFrictionDoesNotHoldIt) {
   };
   // A long block just above what friction bears: rounding ends the cycles a million lengths away.
   const std::string slides =
-      "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [8, 0.5]\ncells = [16, 1]\nyoung = 1\n"
+      "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [8, 0.5]\ncells = [16, 1]\norder = 1\nyoung "
+      "= 1\n"
       "poisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0.00028734788556634543, -0.0009578262852211514]\n"
       "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.29997\nbody = \"b\"\non = \"bottom\"\nshape = \"plane\"\n"
       "point = [0, 0]\nnormal = [0, 1]\n[refine]\nuniform = 2\n[solver]\ntolerance = 1e-6\n";

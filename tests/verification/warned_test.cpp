@@ -41,7 +41,8 @@ TEST(Warned, RoundsBetweenNodesAreNoticed) {
 // A tip guided in a symmetric groove: what holds it sideways may be either wall, or the guide.
 TEST(Warned, ObstaclesThatShareAGuidedNodeAreSaid) {
   std::string text =
-      "[[body]]\nname = \"b\"\nshape = \"polygon\"\npoints = [[0, 0], [1, 2], [-1, 2]]\nsize = 0.5\nyoung = 5\n"
+      "[[body]]\nname = \"b\"\nshape = \"polygon\"\npoints = [[0, 0], [1, 2], [-1, 2]]\nsize = 0.5\norder = 1\nyoung = "
+      "5\n"
       "poisson = 0.3\n" +
       tables::fix("b", "boundary", "[0, \"free\"]") + tables::load("b", "[0, -0.1]");
   const std::string one = text + tables::plane("b", "boundary", "[0, 0]", "[1, 1]");

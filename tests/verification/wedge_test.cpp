@@ -23,7 +23,8 @@ struct Corner {
 
   std::string scene() const {
     const auto list = [](const Vector& v) { return fmt::format("{:.17g}", fmt::join(v.data(), v.data() + D, ", ")); };
-    std::string text = "title = \"corner\"\n[[body]]\nname = \"b\"\n" + shape + "\nyoung = 1\npoisson = 0.3\n";
+    std::string text =
+        "title = \"corner\"\n[[body]]\nname = \"b\"\n" + shape + "\norder = 1\nyoung = 1\npoisson = 0.3\n";
     text += "[[load]]\nbody = \"b\"\nvalue = [" + list(load) + "]\n";
     for (std::size_t k = 0; k < normals.size(); ++k)
       text += fmt::format(

@@ -51,20 +51,49 @@ TEST(Scene, ReadsTheDocumentedExample) {
   EXPECT_THAT(scene.probes.at(0).at, ElementsAre(0, 0, -1));
 }
 
-TEST(Scene, ElementsFollowPoissonsRatio) {
+TEST(Scene, ElementsAreQuadraticUnlessItSaysOtherwise) {
   const auto chosen = [](const std::string& poisson, const std::string& order) {
     const Scene scene = parse(with(with(ball, "0.3", poisson), "order    = 1", order));
-    return std::pair(scene.bodies[0].order, *scene.bodies[0].pressure);
+    return std::tuple(scene.bodies[0].order, scene.bodies[0].order_chosen, *scene.bodies[0].pressure);
   };
-  EXPECT_EQ(chosen("0.3", ""), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("0.45", ""), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("0.4501", ""), std::pair(2, Pressure::linear));
-  EXPECT_EQ(chosen("0.4999", "order = 1"), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("0.4999", "pressure = \"none\""), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("0.4999", "order = 2\npressure = \"none\""), std::pair(2, Pressure::none));
-  EXPECT_EQ(chosen("0.4999", "pressure = \"constant\""), std::pair(2, Pressure::constant));
-  EXPECT_EQ(chosen("\"0.49 + 0*x\"", ""), std::pair(1, Pressure::none));
-  EXPECT_EQ(chosen("\"0.49 + 0*x\"", "order = 2"), std::pair(2, Pressure::linear));
+  EXPECT_EQ(chosen("0.3", ""), std::tuple(2, true, Pressure::linear));
+  EXPECT_EQ(chosen("0.3", "order = \"auto\""), std::tuple(2, true, Pressure::linear));
+  EXPECT_EQ(chosen("0.3", "order = 2"), std::tuple(2, false, Pressure::linear));
+  EXPECT_EQ(chosen("0.3", "order = \"2\""), std::tuple(2, false, Pressure::linear));
+  EXPECT_EQ(chosen("0.4999", ""), std::tuple(2, true, Pressure::linear));
+  EXPECT_EQ(chosen("0.4999", "order = 1"), std::tuple(1, false, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "pressure = \"none\""), std::tuple(2, true, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "order = 2\npressure = \"none\""), std::tuple(2, false, Pressure::none));
+  EXPECT_EQ(chosen("0.4999", "order = \"auto\"\npressure = \"constant\""), std::tuple(2, false, Pressure::constant));
+  EXPECT_EQ(chosen("\"0.49 + 0*x\"", ""), std::tuple(2, true, Pressure::linear));
+  const Scene stressed = parse(with(membrane, "equation = \"diffusion\"", "young = 1\npoisson = 0\nplane = \"stress\""),
+                               {"fix.0.value=[0, 0]", "obstacle.0.on=top"});
+  EXPECT_EQ(stressed.bodies[0].order, 2);
+  EXPECT_EQ(stressed.bodies[0].pressure, Pressure::none);
+}
+
+// What the scene says of one holds for all, whichever it is.
+TEST(Scene, BodiesThatTouchHaveOneKindOfElements) {
+  const auto orders = [](const std::string& a, const std::string& b, const std::string& c, const std::string& more) {
+    std::string text;
+    for (const auto& [name, keys] : {std::pair("a", a), std::pair("b", b), std::pair("c", c)})
+      text += std::string("[[body]]\nname = \"") + name +
+              "\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [1, 1]\nyoung = 1\npoisson = 0.3\n" +
+              keys + "\n";
+    for (const auto& [body, other] : {std::pair("a", "b"), std::pair("c", "b")})
+      text += std::string("[[obstacle]]\ntype = \"elastic\"\non = \"top\"\nother_on = \"bottom\"\nbody = \"") + body +
+              "\"\nother = \"" + other + "\"\n";
+    std::vector<int> out;
+    for (const Scene::Body& body : parse(text + more).bodies)
+      out.push_back(10 * body.order + (body.pressure == Pressure::linear));
+    return out;
+  };
+  EXPECT_THAT(orders("", "", "", ""), ElementsAre(21, 21, 21));
+  EXPECT_THAT(orders("order = 1", "", "", ""), ElementsAre(10, 10, 10));
+  EXPECT_THAT(orders("", "", "order = 1", ""), ElementsAre(10, 10, 10));
+  EXPECT_THAT(orders("pressure = \"none\"", "", "", ""), ElementsAre(20, 20, 20));
+  EXPECT_THAT(orders("", "", "", "[solver]\nbodies = \"dirichlet-neumann\"\n"), ElementsAre(10, 10, 10));
+  EXPECT_THAT(test::outcome([&] { orders("order = 1", "", "order = 2", ""); }).message, HasSubstr("elements of order"));
 }
 
 TEST(Scene, DefaultsAreTheDocumentedOnes) {

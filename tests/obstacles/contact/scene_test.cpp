@@ -19,6 +19,7 @@ shape = "ball"
 center = [0, 0, 0]
 radius = 1
 size = 0.5
+order = 1
 young = 1
 poisson = 0.3
 [[fix]]

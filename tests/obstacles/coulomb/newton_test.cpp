@@ -19,17 +19,20 @@ std::string coulomb(const std::string& where, const std::string& friction) {
 }
 
 SceneText block2(const std::string& obstacle, int refinements) {
-  return {.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"top\"\nvalue = [0.01, -0.03]"},
-          .obstacle = obstacle,
-          .refinements = refinements};
+  return {
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.01, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
 }
 
 SceneText block3(const std::string& obstacle, int refinements) {
-  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"top\"\nvalue = [0.01, 0.005, -0.03]"},
-          .obstacle = obstacle,
-          .refinements = refinements};
+  return {
+      .body =
+          "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.01, 0.005, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
 }
 
 enum class State { open, sticks, slips };
@@ -68,7 +71,7 @@ TEST(Newton, FrictionInThePlane) {
   round.fixes = {"on = \"top\"\nvalue = [0.004, -0.03]"};
   expect_like_newton<2>(round, {State::open, State::sticks, State::slips});
   SceneText soft = block2(coulomb(plane2, "1"), 3);
-  soft.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.45";
+  soft.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0.45";
   soft.fixes = {"on = \"top\"\nvalue = [0.05, -0.02]"};
   expect_like_newton<2>(soft, {State::sticks, State::slips});
   SceneText pressed = block2(coulomb(plane2, "0.5"), 3);
@@ -116,14 +119,15 @@ TEST(Newton, RealSolids) {
     const auto [low, high] = extent(file);
     const double height = high[1] - low[1], size = 0.07 * std::hypot(high[0] - low[0], height, high[2] - low[2]);
     expect_like_newton<3>(
-        SceneText{.body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {}\nyoung = 1\npoisson = 0.3",
-                                      file.string(), size),
-                  .fixes = {fmt::format("where = \"y > {}\"\nvalue = [{}, {}, {}]", high[1] - 0.25 * height,
-                                        0.01 * height, -0.01 * height, 0.005 * height)},
-                  .obstacle = coulomb(fmt::format("on = \"boundary\"\nshape = \"plane\"\npoint = [0, {}, 0]\n"
-                                                  "normal = [0, 1, 0]\n",
-                                                  low[1] + 0.01 * height),
-                                      "0.4")},
+        SceneText{
+            .body = fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {}\norder = 1\nyoung = 1\npoisson = 0.3",
+                                file.string(), size),
+            .fixes = {fmt::format("where = \"y > {}\"\nvalue = [{}, {}, {}]", high[1] - 0.25 * height, 0.01 * height,
+                                  -0.01 * height, 0.005 * height)},
+            .obstacle = coulomb(fmt::format("on = \"boundary\"\nshape = \"plane\"\npoint = [0, {}, 0]\n"
+                                            "normal = [0, 1, 0]\n",
+                                            low[1] + 0.01 * height),
+                                "0.4")},
         {State::open, State::slips});
   }
 }

@@ -20,18 +20,22 @@ std::string coulomb(const std::string& where, const std::string& friction) {
 
 SceneText block2(const std::string& obstacle, int refinements, const char* poisson = "0.3") {
   return {
-      .body = std::string("shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = ") +
-              poisson,
+      .body =
+          std::string(
+              "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = ") +
+          poisson,
       .fixes = {"on = \"top\"\nvalue = [0.01, -0.03]"},
       .obstacle = obstacle,
       .refinements = refinements};
 }
 
 SceneText block3(const std::string& obstacle, int refinements) {
-  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\nyoung = 1\npoisson = 0.3",
-          .fixes = {"on = \"top\"\nvalue = [0.01, 0.005, -0.03]"},
-          .obstacle = obstacle,
-          .refinements = refinements};
+  return {
+      .body =
+          "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [2, 1, 1]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0.01, 0.005, -0.03]"},
+      .obstacle = obstacle,
+      .refinements = refinements};
 }
 
 /// Coulomb's law at every vertex, from the results alone.
@@ -217,7 +221,7 @@ TEST(Coulomb, ScenesMayBeTurnedAndScaled) {
     const std::string file = folder.write(fmt::format("{}.msh", scale), msh(mesh, motion));
     const Point<2> lowered = motion.turned({0.01 * scale, -0.03 * scale});
     return SceneText{
-        .body = fmt::format("mesh = \"{}\"\nyoung = {}\npoisson = 0.3", file, stress),
+        .body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = {}\npoisson = 0.3", file, stress),
         .fixes = {"on = \"top\"\nvalue = " + text(lowered)},
         .obstacle = coulomb(
             "on = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\nnormal = " + text(motion.turned({0, 1})), "0.3"),
@@ -242,7 +246,7 @@ TEST(Coulomb, OfTwoFloorsInOnePlaceTheRoughOnePresses) {
            "\nnormal = " + text(motion.turned({0, 1})) + "\n";
   };
   const auto contacts = [&](const std::string& more) {
-    const SceneText scene{.body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3", file),
+    const SceneText scene{.body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = 1\npoisson = 0.3", file),
                           .fixes = {"on = \"top\"\nvalue = " + text(motion.turned({0.01, -0.03}))},
                           .obstacle = coulomb(floor(0.1), "0.3"),
                           .refinements = 2};
@@ -262,7 +266,7 @@ TEST(Coulomb, TheOrderOfVerticesDoesNotMatter) {
   for (std::size_t p = 0; p < number.size(); ++p) number[p] = static_cast<Index>((p * 7) % number.size());
   const auto scene = [&](const std::string& file) {
     SceneText text = block2(coulomb(on_plane, "0.3"), 1);
-    text.body = fmt::format("mesh = \"{}\"\nyoung = 1\npoisson = 0.3", file);
+    text.body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = 1\npoisson = 0.3", file);
     return text;
   };
   const auto first = run<2, 2>(scene(folder.write("a.msh", msh(mesh))), {"solver.tolerance=1e-10"});
@@ -339,7 +343,7 @@ TEST(Coulomb, ASqueezedBlockStaysBetweenWallsThatOpen) {
     SCOPED_TRACE(tilt);
     std::string scene =
         "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [8, 8]\n"
-        "young = 1\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, \"t < 0.6 ? 0 : 0.002\"]\n"
+        "order = 1\nyoung = 1\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, \"t < 0.6 ? 0 : 0.002\"]\n"
         "[steps]\ncount = 2\n";
     for (const bool right : {false, true})
       scene += fmt::format(

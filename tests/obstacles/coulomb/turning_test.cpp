@@ -8,13 +8,14 @@ namespace {
 
 /// A block of edges 1 on the floor with its top moved.
 SceneText block(const std::string& friction, const std::string& top, int refinements) {
-  return {.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]\nyoung = 1\npoisson = 0",
-          .fixes = {"on = \"top\"\nvalue = " + top},
-          .obstacle =
-              "type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
-              "friction = " +
-              friction,
-          .refinements = refinements};
+  return {
+      .body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [1, 1, 1]\ncells = [2, 2, 2]\norder = 1\nyoung = 1\npoisson = 0",
+      .fixes = {"on = \"top\"\nvalue = " + top},
+      .obstacle =
+          "type = \"coulomb\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n"
+          "friction = " +
+          friction,
+      .refinements = refinements};
 }
 
 /// Shear stresses on a horizontal plane, as expressions: what has to act on the sides to have them uniform.
@@ -77,7 +78,8 @@ struct Arc {
 
 Arc along_an_arc(int steps) {
   SceneText scene = block("0.3", "[\"0.03*sin(2.5*t)\", \"0.03*(1 - cos(2.5*t))\", -0.03]", 1);
-  scene.body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\nyoung = 1\npoisson = 0.3";
+  scene.body =
+      "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\norder = 1\nyoung = 1\npoisson = 0.3";
   Driver driver(parse_scene(std::string(scene) + fmt::format("[steps]\ncount = {}\n", steps), "arc.toml", "."));
   Arc arc{{}, {}, solve(driver).last().contact[0].dissipated};
   driver.visit(0, [&]<int D, int B>(const BodyRun<D, B>& run) {

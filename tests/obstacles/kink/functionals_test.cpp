@@ -58,11 +58,12 @@ TEST(Functionals, KeepTheirNumbersFromStepToStep) {
 
 // Nothing but springs carries the load.
 TEST(Functionals, HaveTheirForcesInTheReport) {
-  SceneText scene{.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0.3",
-                  .fixes = {"on = \"top\"\nvalue = [0, \"free\"]"},
-                  .loads = {"on = \"top\"\nvalue = [0.01, \"-0.1 - 0.02*x\"]"},
-                  .obstacle = "type = \"spring\"\non = \"bottom\"",
-                  .refinements = 2};
+  SceneText scene{
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = 1\nyoung = 1\npoisson = 0.3",
+      .fixes = {"on = \"top\"\nvalue = [0, \"free\"]"},
+      .loads = {"on = \"top\"\nvalue = [0.01, \"-0.1 - 0.02*x\"]"},
+      .obstacle = "type = \"spring\"\non = \"bottom\"",
+      .refinements = 2};
   Driver driver(parse_scene(std::string(scene) + plugins, "test.toml", "."));
   const StepReport& step = driver.solve().last();
   ASSERT_TRUE(step.summary.converged()) << step.summary.reason;
@@ -76,7 +77,8 @@ TEST(Functionals, HaveTheirForcesInTheReport) {
 
 TEST(Functionals, HaveTheirDirectionsAsComponents) {
   SceneText scene{
-      .body = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\nyoung = 10\npoisson = 0.3",
+      .body =
+          "shape = \"box\"\nfrom = [0, 0, 0]\nto = [2, 1, 1]\ncells = [4, 2, 2]\norder = 1\nyoung = 10\npoisson = 0.3",
       .fixes = {"on = \"top\"\nvalue = [0.03, 0.01, -0.05]"},
       .obstacle = "type = \"rail\"\non = \"bottom\"",
       .refinements = 1};
