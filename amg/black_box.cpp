@@ -55,6 +55,12 @@ void check_near_null(const NearNullSpace& near_null, Index rows, Coarsening coar
   check_finite(what, near_null.value);
 }
 
+/// A monitor that goes on saying stop once it has said so: it is asked on all levels, one after the other.
+Monitor lasting(const Monitor& monitor) {
+  if (!monitor) return {};
+  return [&monitor, go_on = true](const IterationRecord& record) mutable { return go_on = monitor(record) && go_on; };
+}
+
 bool held(const std::vector<Flags>& flags, std::size_t i, int block) {
   return flags[i / static_cast<std::size_t>(block)] >> (i % static_cast<std::size_t>(block)) & 1u;
 }
@@ -150,6 +156,7 @@ class BlackBox::BlockSolver final : public Solver {
       : options_(options), registry_(solver_components()), near_null_(std::move(near_null)), chosen_(!given) {
     problem_ = problem_of<B>(A, zero_rows_);
     check_options(options_);
+    check_components(options_, registry_);
     check_near_null(near_null_, A.rows, coarsening_of(options_));
     aggregator_ = registry_.create<Aggregator>("aggregates", options_.aggregates);
     hold(zero_rows_);
@@ -376,12 +383,13 @@ class BlackBox::BlockSolver final : public Solver {
     cycles.method = "monotone";
     cycles.max_iterations = cycles_to_run_away;
     std::vector<double> x = result.x;
-    const Summary further = signorini::solve<B>(problem_, levels.prolongations, x, cycles, registry_);
+    const Summary further = signorini::solve<B>(problem_, levels.prolongations, x, cycles, registry_, monitor);
     for (Stage stage : further.stages) {
       stage.kept = false;
       result.summary.stages.push_back(std::move(stage));
     }
-    if (!names_a_fall(x, result.summary) && further.outcome == Outcome::unbounded) {
+    if (further.outcome == Outcome::interrupted ||
+        (!names_a_fall(x, result.summary) && further.outcome == Outcome::unbounded)) {
       result.summary.outcome = further.outcome;
       result.summary.reason = further.reason;
     }
@@ -463,7 +471,7 @@ BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
 void BlackBox::set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
 BlackBox::Result BlackBox::solve(Values b, Values lower, Values upper, Values start, const Monitor& monitor) {
-  return solver_->solve(b, lower, upper, start, monitor);
+  return solver_->solve(b, lower, upper, start, lasting(monitor));
 }
 
 void BlackBox::set_matrix(const SparseRows& A) { solver_->set_matrix(A); }

@@ -62,15 +62,15 @@ void BodyRun<D, B>::begin(double t) {
 }
 
 template <int D, int B>
-Model<B> BodyRun<D, B>::model(double t) const {
-  Model<B> out = build_model<B>(scene_, D, registry_, t, body_);
+Model<B> BodyRun<D, B>::model(const LoadStep& step) const {
+  Model<B> out = build_model<B>(scene_, D, registry_, step, body_);
   if constexpr (D == B) exchange_sides(slaves_, out);
   return out;
 }
 
 template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
-  const Model<B> now = model(t);
+  const Model<B> now = model({1, 0, t});
   check_symmetry(hierarchy_, now);
   append(warnings, model_warnings(scene_, nodes(), now, body_));
   const Nodes<D> coarsest(hierarchy_.levels.front());
@@ -117,13 +117,25 @@ bool BodyRun<D, B>::remembers() const {
 }
 
 template <int D, int B>
-Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model) {
+bool BodyRun<D, B>::depends_on_step() const {
+  return std::ranges::any_of(model_.obstacles, [](const auto& term) { return stepping(term) != nullptr; });
+}
+
+template <int D, int B>
+const std::string* BodyRun<D, B>::veto_against_cutting() const {
+  for (const ObstacleTerm<B>& term : model_.obstacles)
+    if (const Stepping* own = stepping(term); own && !own->may_be_cut()) return &term.origin;
+  return nullptr;
+}
+
+template <int D, int B>
+Solution<B> BodyRun<D, B>::solve_or_take_turns(const Model<B>& model, const LoadStep& step) {
   if constexpr (D == B)
     if (is_paired(model) && scene_.solver.bodies == "dirichlet-neumann") {
       check_turns(scene_, body_, model);
       if (!turns_)
         turns_ = std::make_unique<DirichletNeumann<D>>(scene_, body_, hierarchy_, registry_, progress_, times_);
-      return turns_->solve(model);
+      return turns_->solve(model, step);
     }
   return accepted_.empty() ? solver_.solve(model) : solver_.solve_after(model, accepted_);
 }
@@ -141,9 +153,9 @@ std::string file_of_plugin(const Scene& scene, const Registry& registry, std::st
 
 /// Where there is no solution, perhaps the body was meant to be on the other side.
 template <int D, int B>
-Solution<B> BodyRun<D, B>::solve(const Model<B>& model) {
+Solution<B> BodyRun<D, B>::solve(const Model<B>& model, const LoadStep& step) {
   try {
-    return solve_or_take_turns(model);
+    return solve_or_take_turns(model, step);
   } catch (const Error& error) {
     if (const std::string file = file_of_plugin(scene_, registry_, error.what());
         error.status() == Exit::plugin && !file.empty())
@@ -175,13 +187,14 @@ void add_once(std::string warning, std::vector<std::string>& warnings) {
 }  // namespace
 
 template <int D, int B>
-StepReport BodyRun<D, B>::solve(double t, std::vector<std::string>& warnings) {
-  model_ = model(t);
+StepReport BodyRun<D, B>::solve(const LoadStep& step, std::vector<std::string>& warnings) {
+  const double t = step.to;
+  model_ = model(step);
   model_.follows = follows_;
   place_before(scene_, D, accepted_t_, body_, model_);
   t_ = t;
   check_symmetry(hierarchy_, model_);
-  Solution<B> solution = solve(model_);
+  Solution<B> solution = solve(model_, step);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_, solver_.shift());
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);

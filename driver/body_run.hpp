@@ -6,6 +6,7 @@
 #include "core/component/registry.hpp"
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
+#include "core/sdk/stepping.hpp"
 #include "driver/dirichlet_neumann.hpp"
 #include "driver/memory.hpp"
 #include "driver/nested_solver.hpp"
@@ -28,13 +29,17 @@ class BodyRun {
   void find_probes();
   /// The next step, at t, is the first one of its steps: friction counts from the undeformed body.
   void begin(double t);
-  /// Tries the step at t, from the last solution that was accepted where there is one, and says what came out. Errors:
-  /// see NestedSolver.
-  StepReport solve(double t, std::vector<std::string>& warnings);
+  /// Tries the step, from the last solution that was accepted where there is one, and says what came out. Errors: see
+  /// NestedSolver.
+  StepReport solve(const LoadStep& step, std::vector<std::string>& warnings);
   /// What the last solve() found is where the next step starts, and what its friction counts from.
   void accept();
   /// Whether a step depends on the way before it, as with friction.
   bool remembers() const;
+  /// Whether an obstacle depends on the step itself, beside what depends on t.
+  bool depends_on_step() const;
+  /// The place in the scene of an obstacle that does not admit that the last step is cut; null: there is none.
+  const std::string* veto_against_cutting() const;
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);
@@ -58,9 +63,9 @@ class BodyRun {
   bool by_matrix() const { return solver_.by_matrix(); }
 
  private:
-  Model<B> model(double t) const;
-  Solution<B> solve(const Model<B>& model);
-  Solution<B> solve_or_take_turns(const Model<B>& model);
+  Model<B> model(const LoadStep& step) const;
+  Solution<B> solve(const Model<B>& model, const LoadStep& step);
+  Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
 
   const Scene& scene_;
   std::size_t body_;

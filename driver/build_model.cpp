@@ -52,11 +52,11 @@ void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
   }
 }
 
-/// Where a constructor failed: a fault of the plugin is told with its file.
-std::string blamed(const Status& status, const Scene::Obstacle& scene, const Registry& registry) {
-  if (status.code != static_cast<int>(Exit::plugin)) return scene.source.table;
-  return fmt::format("{}: {}: the constructor of '{}' failed", scene.source.table,
-                     registry.entry("obstacle", scene.type).file, scene.type);
+/// Where a call failed: a fault of the plugin is told with its file.
+std::string blamed(const Status& status, const Scene::Obstacle& scene, const Registry& registry, const char* call) {
+  if (!is_fault_of_plugin(status)) return scene.source.table;
+  return fmt::format("{}: {}: the {} of '{}' failed", scene.source.table, registry.entry("obstacle", scene.type).file,
+                     call, scene.type);
 }
 
 /// @param plugin where messages begin
@@ -76,9 +76,21 @@ void check_descriptor(const ObstacleDescriptor& descriptor, int block, const std
   }
 }
 
+/// Tells an obstacle that depends on its step which one it is.
+template <int B>
+void begin_step(Obstacle<B>& obstacle, const LoadStep& step, const Scene::Obstacle& scene, const Registry& registry) {
+  auto* stepping = dynamic_cast<Stepping*>(&obstacle);
+  if (!stepping) return;
+  Status status;
+  stepping->begin(step, status);
+  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "beginning of a step"));
+}
+
 /// The obstacle with the settings it holds on to.
 template <int B>
-ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry, double t) {
+ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry,
+                                const LoadStep& step) {
+  const double t = step.to;
   const ObstacleType& type = registry.obstacle(scene.type);
   const std::string& origin = scene.source.table;
   const auto create = constructor<B>(type);
@@ -98,12 +110,13 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   Status status;
   std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
   check_asked(*settings, origin);  // first: what it then complains about may be due to it
-  if (!status.ok()) throw_failure(status, blamed(status, scene, registry));
+  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "constructor"));
   if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
   check_descriptor(obstacle->descriptor(), B, fmt::format("{}: the plugin of '{}'", origin, scene.type));
   if (obstacle->functional() && !obstacle->linearisation())
     throw Error(Exit::plugin,
                 fmt::format("{}: the plugin of '{}' has a functional without its linearisation", origin, scene.type));
+  begin_step(*obstacle, step, scene, registry);
   check_asked(*settings, origin);
   std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
   return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
@@ -131,7 +144,8 @@ Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& giv
 }  // namespace
 
 template <int B>
-Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, double t, std::size_t number) {
+Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, const LoadStep& step,
+                     std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   Model<B> model;
   model.diffusion = coefficient(scene, body, &Scene::Body::diffusion, &Scene::Material::diffusion);
@@ -139,13 +153,13 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   model.poisson = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
   model.plane = body.plane;
   model.pressure = body.pressure.value_or(Pressure::none);
-  model.t = t;
+  model.t = step.to;
   model.origin = body.source.table;
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(body, scene.fixes[k]));
   for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene, body, scene.loads[k]));
   for (const int k : numbers_of(scene.obstacles, body)) {
     const Scene::Obstacle& obstacle = scene.obstacles[k];
-    ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, t));
+    ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, step));
     if (term.on) term.on = on_mesh_of(body, obstacle.body, *term.on);
     if (obstacle.other.empty()) continue;
     term.other =
@@ -172,8 +186,8 @@ void place_before(const Scene& scene, int dimension, double t, std::size_t body,
 template void place_before(const Scene&, int, double, std::size_t, Model<1>&);
 template void place_before(const Scene&, int, double, std::size_t, Model<2>&);
 template void place_before(const Scene&, int, double, std::size_t, Model<3>&);
-template Model<1> build_model(const Scene&, int, const Registry&, double, std::size_t);
-template Model<2> build_model(const Scene&, int, const Registry&, double, std::size_t);
-template Model<3> build_model(const Scene&, int, const Registry&, double, std::size_t);
+template Model<1> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
+template Model<2> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
+template Model<3> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
 
 }  // namespace signorini

@@ -9,22 +9,6 @@
 #include "methods/configuration.hpp"
 
 namespace signorini {
-namespace {
-
-/// What the solver refuses of its options it names by key only, "solver.transfer: ...": that is completed by the place.
-void refuse_options(const Scene& scene) {
-  try {
-    check_options(scene.solver);
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    for (const auto& [key, place] : scene.solver.source.keys)
-      if (const std::string start = "solver." + key + ": "; message.starts_with(start))
-        input_error(place, message.substr(start.size()));
-    input_error(scene.file.string(), message);
-  }
-}
-
-}  // namespace
 
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
   PluginLoader loader(registry, scene.plugin_path);
@@ -43,19 +27,18 @@ std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
   return plugins;
 }
 
+/// What the solver refuses of its options it names by key only, "solver.transfer: ...": that is completed by the place.
 void check_components(const Scene& scene, const Registry& registry) {
-  const auto check = [&](const char* kind, const char* key, const std::string& id) {
-    try {
-      registry.entry(kind, id);
-    } catch (const Error& error) {
-      input_error(scene.solver.source.of(key), error.what());
-    }
-  };
-  refuse_options(scene);
-  check("smoother", "smoother", scene.solver.smoother);
-  check("transfer", "transfer", scene.solver.transfer);
-  check("coarse", "coarse", scene.solver.coarse);
-  check("aggregates", "aggregates", scene.solver.aggregates);
+  try {
+    check_options(scene.solver);
+    check_components(static_cast<const SolverOptions&>(scene.solver), registry);
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    for (const auto& [key, place] : scene.solver.source.keys)
+      if (const std::string start = "solver." + key + ": "; message.starts_with(start))
+        input_error(place, message.substr(start.size()));
+    input_error(scene.file.string(), message);
+  }
 }
 
 }  // namespace signorini

@@ -185,10 +185,10 @@ void DirichletNeumann<D>::number_nodes(const MeshHierarchy<D>& joint) {
 
 /// A pair is an obstacle of the slave alone.
 template <int D>
-void DirichletNeumann<D>::build_models(const Model<D>& model) {
+void DirichletNeumann<D>::build_models(const Model<D>& model, const LoadStep& step) {
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     Part& part = *parts_[k];
-    part.model = build_model<D>(scene_, D, registry_, model.t, k);
+    part.model = build_model<D>(scene_, D, registry_, step, k);
     std::erase_if(part.model.obstacles, [](const ObstacleTerm<D>& term) { return term.other.has_value(); });
     part.pairs.clear();
     part.is_slave = part.is_master = false;
@@ -361,9 +361,9 @@ Solution<D> DirichletNeumann<D>::joint_solution(const Model<D>& model, const Vec
 }
 
 template <int D>
-Solution<D> DirichletNeumann<D>::solve(const Model<D>& model) {
+Solution<D> DirichletNeumann<D>::solve(const Model<D>& model, const LoadStep& of) {
   const Stopwatch watch;
-  build_models(model);
+  build_models(model, of);
   const SolverOptions& options = scene_.solver;
   Vector u(nodes_.back().size() * std::size_t{D}), forces(u.size()), taken = u;
   in_contact_.assign(nodes_.back().size(), 0);

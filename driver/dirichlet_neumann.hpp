@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/component/registry.hpp"
+#include "core/sdk/stepping.hpp"
 #include "driver/nested_solver.hpp"
 
 namespace signorini {
@@ -30,7 +31,8 @@ class DirichletNeumann {
   /// All cycles of all bodies count for `max_iterations`. Turns that lead nowhere end before. Errors as of
   /// NestedSolver.
   /// @param model of all; of each pair `on` is the slave's side
-  Solution<D> solve(const Model<D>& model);
+  /// @param step that the model is of
+  Solution<D> solve(const Model<D>& model, const LoadStep& step);
 
  private:
   /// One of the bodies.
@@ -54,7 +56,7 @@ class DirichletNeumann {
   using Vector = std::vector<double>;
 
   void number_nodes(const MeshHierarchy<D>& joint);
-  void build_models(const Model<D>& model);
+  void build_models(const Model<D>& model, const LoadStep& step);
   void order_parts();
   std::vector<Vector> on_all_meshes(Vector u) const;
   Vector mean_of_masters(const Level& level, const Vector& u) const;

@@ -108,6 +108,7 @@ const Report& Driver::solve(const std::function<void()>& done) {
   report_.failed.clear();
   report_.interrupted = false;
   report_.error.clear();
+  progress_.listen();
   if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
   prepare();
   report_.warnings = mesh_warnings_;
@@ -145,24 +146,26 @@ void Driver::begin() {
 }
 
 /// Where the step fails, in two parts. False where that fails, too, and the steps end.
-bool Driver::advance(const Advance& by, const std::function<void()>& done) {
+bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   const bool whole = by.halvings == 0;
   if (report_.has_steps())
-    progress_.phase(fmt::format("step {} of {}{}", by.step, report_.planned_steps,
+    progress_.phase(fmt::format("step {} of {}{}", by.number, report_.planned_steps,
                                 whole ? "" : fmt::format(", its part from t = {} to {}", by.from, by.to)));
   std::vector<std::string> warnings = report_.warnings;  // those of what fails are of no use
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
-  const bool stuck = is_stuck(report);
-  if (stuck && may_be_cut(by, report)) {
+  const bool stuck = is_stuck(report), parts_differ = stuck && may_be_cut(by, report);
+  const std::string* veto = parts_differ ? veto_against_cutting() : nullptr;
+  if (parts_differ && !veto) {
     note_failure(by, report.summary);
     const double middle = by.from + (by.to - by.from) / 2;
-    return advance({by.step, by.from, middle, by.halvings + 1}, done) &&
-           advance({by.step, middle, by.to, by.halvings + 1}, done);
+    return advance({by.number, by.from, middle, by.halvings + 1}, done) &&
+           advance({by.number, middle, by.to, by.halvings + 1}, done);
   }
   if (!stuck) accept();
   if (stuck && !whole)
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
+  if (veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();
@@ -177,19 +180,28 @@ bool Driver::is_stuck(const StepReport& report) const {
   return false;
 }
 
-/// A part differs from the whole where something of the failed body depends on t.
-bool Driver::may_be_cut(const Advance& by, const StepReport& report) const {
+/// A step is cut for all bodies, or for none. Null: nothing is against it.
+const std::string* Driver::veto_against_cutting() const {
+  for (std::size_t body = 0; body < bodies(); ++body)
+    if (const auto* of = visit(body, [](const auto& run) { return run.veto_against_cutting(); })) return of;
+  return nullptr;
+}
+
+/// A part differs from the whole where something of the failed body depends on t, or on the step.
+bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
-    if (!report.bodies[body].summary.converged() && uses_t(solved_, solved_.bodies[body])) return true;
+    if (!report.bodies[body].summary.converged() &&
+        (uses_t(solved_, solved_.bodies[body]) || visit(body, [](const auto& run) { return run.depends_on_step(); })))
+      return true;
   return false;
 }
 
-void Driver::note_failure(const Advance& by, const Summary& summary) {
-  report_.failed.push_back({by.step, by.from, by.to, summary.iterations, summary.reason});
+void Driver::note_failure(const LoadStep& by, const Summary& summary) {
+  report_.failed.push_back({by.number, by.from, by.to, summary.iterations, summary.reason});
   report_.warnings.push_back(fmt::format("step {}: from t = {} to {} no solution was found, and it was cut in two: {}",
-                                         by.step, by.from, by.to, summary.reason));
+                                         by.number, by.from, by.to, summary.reason));
 }
 
 void Driver::accept() {
@@ -204,14 +216,14 @@ void Driver::add_step(StepReport report) {
   report_.steps.push_back(std::move(report));
 }
 
-StepReport Driver::solve_step(const Advance& by, std::vector<std::string>& warnings) {
+StepReport Driver::solve_step(const LoadStep& by, std::vector<std::string>& warnings) {
   std::vector<StepReport> reports;
   for (std::size_t body = 0; body < bodies(); ++body) {
     if (bodies() > 1) progress_.phase(fmt::format("body '{}'", solved_.bodies[body].name));
-    reports.push_back(visit(body, [&](auto& run) { return run.solve(by.to, warnings); }));
+    reports.push_back(visit(body, [&](auto& run) { return run.solve(by, warnings); }));
   }
   StepReport report = merged(scene_, std::move(reports));
-  report.step = by.step;
+  report.step = by.number;
   report.from = by.from;
   report.halvings = by.halvings;
   return report;

@@ -9,6 +9,7 @@
 #include "core/component/registry.hpp"
 #include "core/io/report.hpp"
 #include "core/scene/scene.hpp"
+#include "core/sdk/stepping.hpp"
 #include "driver/body_run.hpp"
 #include "driver/progress.hpp"
 
@@ -72,12 +73,6 @@ class Driver {
  private:
   template <int D, int B>
   using Run = std::unique_ptr<BodyRun<D, B>>;
-  /// A step, or part of one.
-  struct Advance {
-    int step;  // of the scene, from 1
-    double from, to;
-    int halvings = 0;
-  };
   using AnyRun = std::variant<Run<2, 1>, Run<3, 1>, Run<2, 2>, Run<3, 3>>;
 
   static const Progress& waiting();
@@ -85,11 +80,12 @@ class Driver {
   void require_body(std::size_t body) const;
   void build_bodies();
   void begin();
-  bool advance(const Advance& by, const std::function<void()>& done);
-  StepReport solve_step(const Advance& by, std::vector<std::string>& warnings);
+  bool advance(const LoadStep& by, const std::function<void()>& done);
+  StepReport solve_step(const LoadStep& by, std::vector<std::string>& warnings);
   bool is_stuck(const StepReport& report) const;
-  bool may_be_cut(const Advance& by, const StepReport& report) const;
-  void note_failure(const Advance& by, const Summary& summary);
+  const std::string* veto_against_cutting() const;
+  bool may_be_cut(const LoadStep& by, const StepReport& report) const;
+  void note_failure(const LoadStep& by, const Summary& summary);
   void accept();
   void add_step(StepReport report);
   void finish();

@@ -79,7 +79,7 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
       times_(times),
       monitor_([this](const IterationRecord& record) {
         progress_.cycle(record);
-        return !progress_.interrupted();
+        return !progress_.is_ended();
       }),
       matrices_(first_, factorised_, between_meshes(hierarchy, nodes_, first_, times)) {
   before_.resize(hierarchy.levels.size());
@@ -375,6 +375,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
       solution.discretization.problem.following = &*pressure;
     }
   }
+  probe_functionals(nodes_[level], model, solution.discretization, solution.x);
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
                                            registry_, monitor_);

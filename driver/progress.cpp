@@ -10,8 +10,13 @@ void Progress::cycle(const IterationRecord&) const {}
 
 bool Progress::interrupted() const { return false; }
 
+bool Progress::is_ended() const {
+  if (interrupted()) ended_ = true;
+  return ended_;
+}
+
 void Progress::stop_if_interrupted() const {
-  if (interrupted()) throw Error(Exit::interrupted, "interrupted; nothing was written");
+  if (is_ended()) throw Error(Exit::interrupted, "interrupted; nothing was written");
 }
 
 }  // namespace signorini

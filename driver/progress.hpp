@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <string>
 
 #include "core/solver/summary.hpp"
@@ -15,8 +16,15 @@ class Progress {
   virtual void cycle(const IterationRecord& record) const;
   /// Whether the work is to end: asked between phases, cycles and points of a mesh.
   virtual bool interrupted() const;
+  /// Whether interrupted() has said so at any time since listen(): what it says once holds on every level.
+  bool is_ended() const;
   /// Error(Exit::interrupted) where it is.
   void stop_if_interrupted() const;
+  /// New work begins, and may be ended anew.
+  void listen() const { ended_ = false; }
+
+ private:
+  mutable std::atomic<bool> ended_ = false;
 };
 
 }  // namespace signorini

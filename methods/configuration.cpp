@@ -47,6 +47,20 @@ Method check_options(const SolverOptions& o) {
   return method;
 }
 
+void check_components(const SolverOptions& o, const Registry& registry) {
+  const auto check = [&](const char* kind, const char* key, const std::string& id) {
+    try {
+      registry.entry(kind, id);
+    } catch (const Error& error) {
+      input_error(fmt::format("solver.{}", key), error.what());
+    }
+  };
+  check("smoother", "smoother", o.smoother);
+  check("transfer", "transfer", o.transfer);
+  check("coarse", "coarse", o.coarse);
+  check("aggregates", "aggregates", o.aggregates);
+}
+
 AlgebraicSettings algebraic_settings(const SolverOptions& o) {
   const bool restricted = only_twins(o), rotated = local_components(o);
   return {restricted, rotated, restricted || rotated ? Coarsening::classical : coarsening_of(o)};

@@ -19,6 +19,8 @@ enum class Coarsening {
 /// Error(Exit::input) naming the option, what was found and what was expected where options are out of range or
 /// contradict each other.
 Method check_options(const SolverOptions& options);
+/// The same for names of components that are not registered.
+void check_components(const SolverOptions& options, const Registry& registry);
 Coarsening coarsening_of(const SolverOptions& options);
 
 /// Which interpolations algebraic levels get.

@@ -301,10 +301,16 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
   }
   const std::size_t left_out = prolongations.size() - levels.size();
   std::vector<double> x;
+  bool ended = false;  // by the monitor: what there is is carried up, and the finest level says so
   const auto solve_level = [&](std::size_t k, const SolverOptions& own, bool started) -> std::string {
     const Coarser<B>& level = levels[levels.size() - 1 - k];
     if (!started) x = level.problem.start;
+    if (ended) {
+      x = level.start_above(x);
+      return "";
+    }
     const Summary summary = solve(level.problem, prolongations.first(left_out + k), x, own, registry, monitor);
+    ended = summary.outcome == Outcome::interrupted;
     if (summary.outcome == Outcome::unbounded) return summary.reason;
     auto better = better_start(level.fine, level.start_above(x));
     if (!better) return "its energy is above that of no start";

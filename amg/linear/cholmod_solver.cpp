@@ -9,8 +9,7 @@ namespace {
 template <class Solver>
 std::unique_ptr<Solver> create(const char* function) {
   using Create = Solver* (*)();
-  static const auto create =
-      reinterpret_cast<Create>(load_function(core_folder() / "libsignorini_cholmod.so", function, "the direct solver"));
+  static const auto create = reinterpret_cast<Create>(load_function(direct_solvers, function));
   return std::unique_ptr<Solver>(create());
 }
 

@@ -19,8 +19,12 @@ bool names_place(std::string_view message, std::string_view origin) {
 
 }  // namespace
 
+bool is_fault_of_plugin(const Status& status) {
+  return status.code == 0 || status.code == static_cast<int>(Exit::plugin);
+}
+
 void throw_failure(const Status& status, std::string_view origin) {
-  const auto code = static_cast<Exit>(status.code);
+  const Exit code = is_fault_of_plugin(status) ? Exit::plugin : static_cast<Exit>(status.code);
   const bool known = code == Exit::no_solution || code == Exit::plugin;
   throw Error(known ? code : Exit::input,
               names_place(status.message, origin) ? status.message : fmt::format("{}: {}", origin, status.message));

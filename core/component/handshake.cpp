@@ -52,9 +52,8 @@ std::string differences(std::span<const FingerprintField> plugin, std::span<cons
 std::string incompatibilities(const sdk::Plugin& plugin) {
   if (std::memcmp(plugin.magic, sdk::magic, sizeof sdk::magic) != 0)
     return "its 'signorini_plugin' does not begin with the magic word of signorini plugins";
-  if (plugin.size < sizeof(sdk::Plugin))
-    return fmt::format("its 'signorini_plugin' has {} bytes, at least {} were expected", plugin.size,
-                       sizeof(sdk::Plugin));
+  if (plugin.size < sdk::least_size)
+    return fmt::format("its 'signorini_plugin' has {} bytes, at least {} were expected", plugin.size, sdk::least_size);
   if (!plugin.fingerprint || !plugin.id || !plugin.version || !plugin.description || !plugin.register_all)
     return "its 'signorini_plugin' has null members";
   std::vector<std::string> found;
@@ -63,6 +62,11 @@ std::string incompatibilities(const sdk::Plugin& plugin) {
     if (!mismatch.empty()) found.push_back(mismatch);
   if (found.empty()) return {};
   return fmt::format("{}: rebuild against SDK {}.{}", fmt::join(found, "; "), sdk::abi_major, sdk::abi_minor);
+}
+
+std::string licence_of(const sdk::Plugin& plugin) {
+  const bool has_member = plugin.size >= offsetof(sdk::Plugin, licence) + sizeof plugin.licence;
+  return has_member && plugin.licence ? plugin.licence : "";
 }
 
 bool is_optimised(const sdk::Plugin& plugin) {

@@ -12,6 +12,7 @@
 #include "core/component/crash.hpp"
 #include "core/component/elf.hpp"
 #include "core/component/handshake.hpp"
+#include "core/component/libraries.hpp"
 #include "core/component/staging.hpp"
 #include "core/component/trial.hpp"
 
@@ -82,6 +83,7 @@ void add_all_of(const fs::path& file, Registry& registry) {
   if (!status.ok()) reject(file, fmt::format("its registration failed: {}", status.message));
   try {
     staging.commit(registry, file.string(), plugin.version, is_optimised(plugin));
+    remember_library(file, licence_of(plugin));
   } catch (const Error& error) {
     reject(file, fmt::format("its registration failed: {}", error.what()));
   }

@@ -161,11 +161,11 @@ class Collector {
     bound.part = part;
     const double length = normalise(bound.direction);
     const std::string& origin = model_.obstacles[obstacle_].origin;
+    // Fields of the user are finite, see Field: whatever else is not is the plugin's.
     if (!(std::fabs(length - 1) < same_direction))
-      input_error(origin, fmt::format("direction of length {} at {}, expected a unit vector", length,
-                                      position(nodes_, vertex)));
+      blame(vertex, fmt::format("gives direction {} of length {}, expected a unit vector", k, length));
     if (std::isnan(bound.lower) || std::isnan(bound.upper))
-      input_error(origin, fmt::format("bound that is not a number at {}", position(nodes_, vertex)));
+      blame(vertex, fmt::format("gives direction {} a bound that is not a number", k));
     if (bound.lower == infinity || bound.upper == -infinity)
       throw Error(Exit::no_solution,
                   fmt::format("{}: no solution: the {} at {} leaves nothing admissible", origin,
@@ -189,6 +189,11 @@ class Collector {
     if (!status.ok()) throw_failure(status, model_.obstacles[obstacle_].origin);
   }
 
+  [[noreturn]] void blame(Index vertex, const std::string& what) const {
+    throw Error(Exit::plugin, fmt::format("{}: at {} the plugin {}", model_.obstacles[obstacle_].origin,
+                                          position(nodes_, vertex), what));
+  }
+
   // Any but zeros. Those beyond what the descriptor tells are kept nowhere.
   bool has_numbers(const LocalConstraint<B>& constraint, Index vertex) const {
     bool any = false;
@@ -199,8 +204,7 @@ class Collector {
                     fmt::format("{}: the plugin gives its functional {} numbers at {}, and its descriptor tells of {}",
                                 model_.obstacles[obstacle_].origin, k + 1, position(nodes_, vertex), told_));
       if (!std::isfinite(value))
-        input_error(model_.obstacles[obstacle_].origin,
-                    fmt::format("number that is not finite at {}", position(nodes_, vertex)));
+        blame(vertex, fmt::format("gives its functional a number {} that is not finite ({})", k, value));
       any = any || value != 0;
     }
     return any;

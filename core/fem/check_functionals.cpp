@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/local_problem.hpp"
+#include "core/sdk/polyhedron.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
 
@@ -67,6 +70,38 @@ class Check {
     });
   }
 
+  /// Whether they minimise, for the forces at x.
+  void minimisers() {
+    const auto length = step_of(largest_);
+    each_local([&](Index slot, LocalProblem<B>& local) {
+      const Vector from = vector_at(slot);
+      expect_minimiser(slot, local, from, force(slot), length);
+    });
+  }
+
+  /// The same for other forces as well, and what the functionals say of steps, at some of the nodes.
+  void probe() {
+    constexpr std::size_t most = 1000;
+    const std::size_t slots = acts_.size() - static_cast<std::size_t>(std::ranges::count(acts_, -1));
+    const std::size_t every = 1 + slots / most;
+    const double size = size_of_answers(every);
+    if (!(size > 0)) return;  // nothing happens
+    std::size_t number = 0;
+    each_local([&](Index slot, LocalProblem<B>& local) {
+      if (number++ % every != 0) return;
+      const Vector x = vector_at(slot), r = force(slot);
+      Vector y = expect_minimiser(slot, local, x, r, step_of(size));
+      for (const double part : {1.0, -0.05}) {
+        Vector d;
+        for (int k = 0; k < B; ++k) d[k] = part * size * ((number >> k) % 2 ? 1 : -1) / (k + 1);
+        expect_convex(slot, local, y, size);
+        Vector other = r, further = local.force(d);
+        for (int k = 0; k < B; ++k) other[k] += further[k];
+        y = expect_minimiser(slot, local, x, other, step_of(size));
+      }
+    });
+  }
+
   /// How far the local solvers say that x is off.
   void local_solvers() {
     std::vector<double> r(x_.size());
@@ -81,6 +116,80 @@ class Check {
   }
 
  private:
+  using Vector = std::array<double, B>;
+
+  /// So small that smooth functionals are nearly straight along it, and far above rounding.
+  static double step_of(double size) { return 1e-3 * size; }
+
+  /// Facets admit less than bounds do, and are not asked for here.
+  template <class Use>
+  void each_local(const Use& use) {
+    each_slot([&](Index slot) {
+      if (has_facets(view_, slot)) return;
+      LocalProblem<B> local(obstacle(slot), view_, slot);
+      use(slot, local);
+    });
+  }
+
+  Vector vector_at(Index slot) const {
+    Vector out;
+    std::ranges::copy(at(slot), out.begin());
+    return out;
+  }
+
+  /// b - A x
+  Vector force(Index slot) const {
+    const Index p = problem_.constraints.vector[slot];
+    const Offset first = problem_.A.row[p], last = problem_.A.row[p + 1];
+    Vector out, Ax;
+    block::row_product<B>(problem_.A.value.data() + first * B * B, problem_.A.column.data() + first, last - first,
+                          x_.data(), Ax.data());
+    for (int k = 0; k < B; ++k) out[k] = problem_.b[Offset{p} * B + k] - Ax[k];
+    return out;
+  }
+
+  /// How large unknowns are: those there are, and the corrections that the nodes ask for alone.
+  double size_of_answers(std::size_t every) {
+    double size = largest_;
+    std::size_t number = 0;
+    each_local([&](Index slot, LocalProblem<B>& local) {
+      if (number++ % every != 0) return;
+      const Vector d = local.correction(force(slot));
+      if (const double length = block::norm<B>(d.data()); std::isfinite(length)) size = std::max(size, length);
+    });
+    return size;
+  }
+
+  /// What is not finite is told in the end, when it is known that it has done harm.
+  Vector expect_minimiser(Index slot, LocalProblem<B>& local, const Vector& x, const Vector& r, double length) {
+    const Vector y = local.minimiser(x, r);
+    if (!all_finite(y) || !all_finite(r)) return x;
+    if (const auto better = local.better_than(y, x, r, length))
+      refuse(slot,
+             fmt::format("for the force ({:.6g}) the local solver leads to ({:.6g}), which is no minimiser: there is "
+                         "less energy at",
+                         fmt::join(r, ", "), fmt::join(y, ", ")),
+             *better);
+    return y;
+  }
+
+  /// Along each component, to either side, within the bounds.
+  void expect_convex(Index slot, const LocalProblem<B>& local, const Vector& x, double size) const {
+    for (int side = 0; side < 2 * B; ++side)
+      for (const double length : {step_of(size), size}) {
+        Vector d{};
+        d[side / 2] = side % 2 ? -length : length;
+        const Vector z = local.moved(x, d);
+        if (z == x) continue;
+        if (const auto wrong = local.contradiction(x, z))
+          refuse(slot,
+                 fmt::format("a step to ({:.6g}) changes the functional by {:.6g}, and its slope along it, which never "
+                             "falls where a functional is convex, is at its ends",
+                             fmt::join(z, ", "), wrong->change),
+                 std::array{wrong->first, wrong->last});
+      }
+  }
+
   template <class Use>
   void each_slot(const Use& use) const {
     for (std::size_t slot = 0; slot < acts_.size(); ++slot)
@@ -137,7 +246,18 @@ void check_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discr
   if (discretization.functional.empty()) return;
   Check<D, B> check(nodes, model, discretization, x);
   check.solution();
-  if (all_finite(x)) check.answers();
+  if (!all_finite(x)) return;
+  check.answers();
+  check.minimisers();
+}
+
+template <int D, int B>
+void probe_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
+                       const std::vector<double>& x) {
+  if (discretization.functional.empty() || !all_finite(x)) return;
+  std::vector<double> start = x;
+  make_admissible(discretization.problem, start);
+  Check<D, B>(nodes, model, discretization, start).probe();
 }
 
 template <int D, int B>
@@ -157,6 +277,8 @@ void blame_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discr
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                 \
+  template void probe_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
+                                        const std::vector<double>&);                                \
   template void check_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
                                         const std::vector<double>&);                                \
   template void blame_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \

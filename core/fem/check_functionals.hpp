@@ -5,8 +5,18 @@
 
 namespace signorini {
 
+/// Asks functionals before a solve that starts at x, at up to a thousand nodes: their local solvers minimise, for the
+/// forces there and for others as large, and what their changes and slopes say of steps is what a convex functional can
+/// say. Faults of either make a wrong result, which else passes for solved.
+/// @param x local coordinates
+/// @throws Error(Exit::plugin) that names the obstacle and the node
+template <int D, int B>
+void probe_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
+                       const std::vector<double>& x);
+
 /// What only a fault of an obstacle with a functional explains in the result x of a solve: at its nodes x is not finite
-/// or beyond the bounds, or what its functional says there is not finite. Each node is asked once.
+/// or beyond the bounds, what its functional says there is not finite, or its local solver calls something else than
+/// the minimiser one. Each node is asked once.
 /// @param x local coordinates
 /// @throws Error(Exit::plugin) that names the obstacle and the node
 template <int D, int B>

@@ -257,22 +257,32 @@ namespace {
 
 /// What is left between the bodies at each pair, and how much they have come nearer there at most.
 struct Distances {
-  std::vector<double> left;  // by the number of the jump
+  std::vector<double> left;       // by the number of the jump
+  std::vector<char> acts_anyway;  // likewise: whether or not they touch
   double closed = 0;
 };
+
+/// Whether a functional acts on bodies that do not touch: all do but friction that only what presses causes.
+template <int D>
+bool acts_anyway(const Obstacle<D>& obstacle, const FunctionalNumbers<D>& numbers) {
+  const Friction* friction = obstacle.friction();
+  return !friction || friction->law(numbers.data.data()).bound != 0;
+}
 
 template <int D>
 Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all, std::vector<double> u) {
   const Jumps<D>& jumps = *all.jumps;
   to_jumps(jumps, u);
-  Distances out{std::vector<double>(jumps.vector.size(), infinity)};
-  std::vector<FunctionalNumbers<D>> unused;
-  for (const Bound<D>& bound : collect_bounds(nodes, model, unused, &all)) {
+  Distances out{std::vector<double>(jumps.vector.size(), infinity), std::vector<char>(jumps.vector.size())};
+  std::vector<FunctionalNumbers<D>> numbers;
+  for (const Bound<D>& bound : collect_bounds(nodes, model, numbers, &all)) {
     if (!model.obstacles[bound.obstacle].other) continue;
     double along = 0;
     for (int i = 0; i < D; ++i) along += bound.direction[i] * u[Offset{bound.vertex} * D + i];
     const auto at = std::ranges::lower_bound(jumps.vector, bound.vertex) - jumps.vector.begin();
     out.left[static_cast<std::size_t>(at)] = std::min(along - bound.lower, bound.upper - along);
+    if (bound.data >= 0 && acts_anyway(*model.obstacles[bound.obstacle].obstacle, numbers[bound.data]))
+      out.acts_anyway[static_cast<std::size_t>(at)] = true;
     out.closed = std::max(out.closed, std::abs(along));
   }
   return out;
@@ -310,7 +320,8 @@ std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const
   const Jumps<D>& jumps = *all.jumps;
   std::vector<char> keep(jumps.vector.size());
   for (std::size_t s = 0; s < keep.size(); ++s)
-    keep[s] = distance.left[s] <= near * distance.closed || (also && has(*also, jumps.vector[s]));
+    keep[s] =
+        distance.left[s] <= near * distance.closed || distance.acts_anyway[s] || (also && has(*also, jumps.vector[s]));
   PairedBodies<D> out;
   out.jumps = std::make_shared<const Jumps<D>>(chosen(jumps, keep));
   std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
@@ -339,7 +350,7 @@ bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const Paire
                        const PairedBodies<D>& chosen, const std::vector<double>& u) {
   const Distances distance = distances(nodes, model, all, u);
   for (std::size_t s = 0; s < distance.left.size(); ++s)
-    if (distance.left[s] < 0 && !has(chosen, all.jumps->vector[s])) return true;
+    if ((distance.left[s] < 0 || distance.acts_anyway[s]) && !has(chosen, all.jumps->vector[s])) return true;
   return false;
 }
 

@@ -52,8 +52,9 @@ template <int D>
 Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const PairedBodies<D>& all,
                   const PairedBodies<D>& near, const std::vector<double>& u);
 
-/// Of all pairs those that nearly touch when the bodies are displaced by u (B per node, global coordinates), and those
-/// that `also` has. Far from contact jumps are of no use: there each body is smoothed better by itself.
+/// Of all pairs those that nearly touch when the bodies are displaced by u (B per node, global coordinates), those that
+/// a functional acts on wherever they are, and those that `also` has. Elsewhere jumps are of no use: there each body is
+/// smoothed better by itself.
 template <int D>
 std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const Model<D>& model,
                                                     const PairedBodies<D>& all, const std::vector<double>& u,
@@ -68,7 +69,8 @@ bool same_jumps(const PairedBodies<D>& a, const PairedBodies<D>& b);
 template <int D>
 std::shared_ptr<const PairedBodies<D>> with_new_gaps(const PairedBodies<D>& all, const PairedBodies<D>& chosen);
 
-/// Whether a displacement takes a pair that is not among `chosen` through its bound.
+/// Whether a displacement takes a pair that is not among `chosen` through its bound, or a functional acts on one
+/// anyway.
 template <int D>
 bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
                        const PairedBodies<D>& chosen, const std::vector<double>& u);

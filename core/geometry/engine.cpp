@@ -8,12 +8,12 @@ namespace signorini::geometry {
 FacetedDistance::~FacetedDistance() = default;
 
 const Engine& load_engine(const std::filesystem::path& library) {
-  void* entry = load_function(library, "signorini_geometry_engine", "the geometry library");
+  void* entry = load_function(geometry_library, "signorini_geometry_engine", library);
   return *reinterpret_cast<const Engine* (*)()>(entry)();
 }
 
 const Engine& engine() {
-  static const Engine& loaded = load_engine(core_folder() / "libsignorini_geometry.so");
+  static const Engine& loaded = load_engine(path_of(geometry_library));
   return loaded;
 }
 

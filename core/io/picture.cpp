@@ -5,12 +5,12 @@
 namespace signorini {
 
 const Painter& load_painter(const std::filesystem::path& library) {
-  void* entry = load_function(library, "signorini_painter", "the library for pictures");
+  void* entry = load_function(picture_library, "signorini_painter", library);
   return *reinterpret_cast<const Painter* (*)()>(entry)();
 }
 
 const Painter& painter() {
-  static const Painter& loaded = load_painter(core_folder() / "libsignorini_pictures.so");
+  static const Painter& loaded = load_painter(path_of(picture_library));
   return loaded;
 }
 

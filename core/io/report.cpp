@@ -4,9 +4,13 @@
 
 #include <algorithm>
 
+#include "core/component/libraries.hpp"
+
 namespace signorini {
 namespace {
 using Json = nlohmann::ordered_json;
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// `list` as a JSON array; an empty one stays an array.
 template <class T, class Convert>
@@ -143,7 +147,7 @@ Json levels(const Summary& summary) {
 
 Json stage(const Stage& stage) {
   return {{"method", stage.method},
-          {"linear", stage.linear.empty() ? Json(nullptr) : Json(stage.linear)},
+          {"linear", text_or_null(stage.linear)},
           {"iterations", stage.iterations},
           {"linear_solves", stage.linear_solves},
           {"factorisations", stage.factorisations},
@@ -288,7 +292,13 @@ Json to_json(const Report& report) {
   json["failed_steps"] = array(report.failed, failed_step);
   json["estimate"] = nullptr;  // no estimator ran
   json["plugins"] = array(report.plugins, [](const PluginReport& plugin) {
-    return Json{{"id", plugin.id}, {"file", plugin.file}, {"version", plugin.version}};
+    return Json{{"id", plugin.id},
+                {"file", plugin.file},
+                {"version", plugin.version},
+                {"licence", text_or_null(licence_of(plugin.file))}};
+  });
+  json["libraries"] = array(loaded_libraries(), [](const Library& library) {
+    return Json{{"file", library.file}, {"licence", text_or_null(library.licence)}};
   });
   json["geometry"] = array(report.geometry, geometry);
   json["warnings"] = report.warnings;

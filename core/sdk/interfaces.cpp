@@ -1,6 +1,7 @@
 // The destructors of the interfaces live here, so that each of them exists once, in the core library.
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/registrar.hpp"
+#include "core/sdk/stepping.hpp"
 
 namespace signorini {
 
@@ -9,6 +10,7 @@ Settings::~Settings() = default;
 Registrar::~Registrar() = default;
 Scaling::~Scaling() = default;
 Friction::~Friction() = default;
+Stepping::~Stepping() = default;
 
 template <int B>
 Obstacle<B>::~Obstacle() = default;

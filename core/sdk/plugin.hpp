@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <exception>
 #include <type_traits>
 #include <utility>
@@ -11,7 +12,7 @@ namespace signorini::sdk {
 
 /// The version of the plugin interface: another major is incompatible, a newer minor adds something.
 inline constexpr unsigned abi_major = 5;
-inline constexpr unsigned abi_minor = 0;
+inline constexpr unsigned abi_minor = 1;
 
 inline constexpr char magic[16] = "SIGNORINIplugin";
 
@@ -27,7 +28,14 @@ struct Plugin {
   const char* version;
   const char* description;  ///< one line
   void (*register_all)(Registrar& registrar, Status& status) noexcept;
+  // Since 5.1:
+  const char* licence = nullptr;  ///< of the library, as SPDX names it; null: it does not say
 };
+
+/// What plugins of the first minor version export.
+inline constexpr unsigned least_size = offsetof(Plugin, licence);
+
+constexpr const char* licence_of(const char* given = nullptr) { return given; }
 
 /// Calls `body` and turns whatever it throws into a status: an Error keeps its exit status, all else is the plugin's
 /// fault. Returns what body returns, or a value-initialised result.
@@ -59,19 +67,21 @@ void guard_registration(Registrar& registrar, Status& status) noexcept {
 }  // namespace signorini::sdk
 
 /// Defines the plugin, once in a shared library: SIGNORINI_PLUGIN("id", "1.0.0", "one line", function) where
-/// `void function(Registrar&, Status&)` registers what the library provides, and may throw.
-#define SIGNORINI_PLUGIN(id, version, description, function)                                       \
-  extern "C" {                                                                                     \
-  extern __attribute__((visibility("default"))) const signorini::sdk::Plugin signorini_plugin;     \
-  const signorini::sdk::Plugin signorini_plugin = {"SIGNORINIplugin",                              \
-                                                   sizeof(signorini::sdk::Plugin),                 \
-                                                   signorini::sdk::abi_major,                      \
-                                                   signorini::sdk::abi_minor,                      \
-                                                   signorini::sdk::fingerprint_fields,             \
-                                                   signorini::sdk::fingerprint,                    \
-                                                   id,                                             \
-                                                   version,                                        \
-                                                   description,                                    \
-                                                   &signorini::sdk::guard_registration<function>}; \
-  }                                                                                                \
+/// `void function(Registrar&, Status&)` registers what the library provides, and may throw. A fifth argument is the
+/// licence of the library, "BSD-3-Clause".
+#define SIGNORINI_PLUGIN(id, version, description, function, ...)                                 \
+  extern "C" {                                                                                    \
+  extern __attribute__((visibility("default"))) const signorini::sdk::Plugin signorini_plugin;    \
+  const signorini::sdk::Plugin signorini_plugin = {"SIGNORINIplugin",                             \
+                                                   sizeof(signorini::sdk::Plugin),                \
+                                                   signorini::sdk::abi_major,                     \
+                                                   signorini::sdk::abi_minor,                     \
+                                                   signorini::sdk::fingerprint_fields,            \
+                                                   signorini::sdk::fingerprint,                   \
+                                                   id,                                            \
+                                                   version,                                       \
+                                                   description,                                   \
+                                                   &signorini::sdk::guard_registration<function>, \
+                                                   signorini::sdk::licence_of(__VA_ARGS__)};      \
+  }                                                                                               \
   static_assert(true, "")

@@ -27,4 +27,4 @@ void register_all(Registrar& registrar, Status& status) {
 }  // namespace signorini
 
 SIGNORINI_PLUGIN("coulomb", "1.0.0", "contact with a rigid obstacle and friction by Coulomb's law",
-                 signorini::register_all);
+                 signorini::register_all, "BSD-3-Clause");

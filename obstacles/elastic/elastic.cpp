@@ -24,4 +24,5 @@ void register_all(Registrar& registrar, Status& status) {
 }  // namespace
 }  // namespace signorini
 
-SIGNORINI_PLUGIN("elastic", "1.0.0", "frictionless contact with another elastic body", signorini::register_all);
+SIGNORINI_PLUGIN("elastic", "1.0.0", "frictionless contact with another elastic body", signorini::register_all,
+                 "BSD-3-Clause");

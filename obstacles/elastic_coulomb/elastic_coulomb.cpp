@@ -26,4 +26,4 @@ void register_all(Registrar& registrar, Status& status) {
 }  // namespace signorini
 
 SIGNORINI_PLUGIN("elastic_coulomb", "1.0.0", "contact with another elastic body and friction by Coulomb's law",
-                 signorini::register_all);
+                 signorini::register_all, "BSD-3-Clause");

@@ -65,4 +65,4 @@ void register_all(Registrar& registrar, Status& status) {
 }  // namespace
 }  // namespace signorini
 
-SIGNORINI_PLUGIN("scalar", "1.0.0", "bounds on a scalar unknown", signorini::register_all);
+SIGNORINI_PLUGIN("scalar", "1.0.0", "bounds on a scalar unknown", signorini::register_all, "BSD-3-Clause");

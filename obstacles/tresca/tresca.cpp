@@ -60,4 +60,4 @@ void register_all(Registrar& registrar, Status& status) {
 }  // namespace signorini
 
 SIGNORINI_PLUGIN("tresca", "1.0.0", "contact with a rigid obstacle and friction with a given bound",
-                 signorini::register_all);
+                 signorini::register_all, "BSD-3-Clause");

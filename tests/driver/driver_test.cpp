@@ -240,6 +240,34 @@ TEST(Driver, goes_on_after_it_was_ended) {
   expect_as_new(driver);
 }
 
+/// Says once that work is to end, in the first cycle of a given level.
+class SaysSoOnce : public Progress {
+ public:
+  explicit SaysSoOnce(int level) : level_(level) {}
+  void phase(const std::string& what) const override { level_ -= what.starts_with("level "); }
+  void cycle(const IterationRecord&) const override { now_ = level_ < 0 && !std::exchange(said_, true); }
+  bool interrupted() const override { return std::exchange(now_, false); }
+
+ private:
+  mutable int level_;
+  mutable bool now_ = false, said_ = false;
+};
+
+TEST(Driver, EndsOnWhateverLevelItIsToldTo) {
+  for (int level = 0; level < 3; ++level) {
+    const SaysSoOnce progress(level);
+    Driver driver(scene_of(elastic), progress);
+    try {
+      driver.solve();
+      FAIL() << "level " << level;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::interrupted);
+    }
+    driver.solve();
+    expect_as_new(driver);
+  }
+}
+
 TEST(Driver, TellsWhatTheBoundaryOfAMeshIsTakenFor) {
   const std::filesystem::path scenes = std::filesystem::path(SIGNORINI_SOURCE_DIR) / "apps/scenes";
   Driver driver(read_scene(scenes / "lever.toml"));

@@ -85,7 +85,7 @@ TEST(Registry, TheSameIdMayStandInTwoKinds) {
 }
 
 TEST(Registry, KnowsTheFileOfAnAddress) {
-  EXPECT_THAT(file_of(reinterpret_cast<const void*>(&file_of)), testing::EndsWith("libsignorini_core.so"));
+  EXPECT_THAT(file_of(reinterpret_cast<const void*>(&file_of)), testing::HasSubstr("/libsignorini_core.so."));
 }
 
 Obstacle<1>* null_creator(const Settings&, Status&) noexcept { return nullptr; }

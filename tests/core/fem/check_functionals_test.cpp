@@ -15,7 +15,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-enum class Fault { none, change, slope, minimise, linearise };
+enum class Fault { none, change, slope, minimise, linearise, idle, other_minimum, doubled_change, other_slope };
 Fault fault = Fault::none;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -23,13 +23,17 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// v^2 / 2, and what it is told to do wrong.
 struct Square {
   static double change(const Slot<1>&, const double* from, const double* to) {
-    return fault == Fault::change ? nan : 0.5 * (*to - *from) * (*to + *from);
+    const double change = 0.5 * (*to - *from) * (*to + *from);
+    return fault == Fault::change ? nan : fault == Fault::doubled_change ? 2 * change : change;
   }
   static double slope(const Slot<1>&, const double* at, const double* step) {
-    return fault == Fault::slope ? nan : *at * *step;
+    return fault == Fault::slope ? nan : (fault == Fault::other_slope ? *at + 0.01 : *at) * *step;
   }
   static void minimise(const Slot<1>& slot, const double* M, const double* r, const double* x, double* y) {
-    *y = fault == Fault::minimise ? nan : block::clamp((*r + *M * *x) / (*M + 1), *slot.lower, *slot.upper);
+    const double stiffness = fault == Fault::other_minimum ? 0.9 : 1;
+    *y = fault == Fault::minimise ? nan
+         : fault == Fault::idle   ? *x
+                                  : block::clamp((*r + *M * *x) / (*M + stiffness), *slot.lower, *slot.upper);
   }
   static void linearise(const Slot<1>&, const double* x, const QuadraticModel<1>& out) {
     *out.gradient = fault == Fault::linearise ? nan : *x;
@@ -56,6 +60,7 @@ class CheckFunctionals : public ::testing::Test {
   ~CheckFunctionals() override { fault = Fault::none; }
 
   void check() const { check_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
+  void probe() const { probe_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
   void blame() const { blame_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
   double& at_slot() { return x_[discretization_.problem.constraints.vector.front()]; }
 
@@ -77,6 +82,7 @@ class CheckFunctionals : public ::testing::Test {
 };
 
 TEST_F(CheckFunctionals, SaysNothingOfWhatIsRight) {
+  EXPECT_NO_THROW(probe());
   EXPECT_NO_THROW(check());
   EXPECT_NO_THROW(blame());
   at_slot() = -0.5 * (1 + 1e-12);  // rounding
@@ -104,6 +110,24 @@ TEST_F(CheckFunctionals, TellsAnswersThatAreNotFinite) {
     expect_blamed([this] { check(); }, text);
     expect_blamed([this] { blame(); }, text);
   }
+}
+
+// What returns its argument else calls any x a solution.
+TEST_F(CheckFunctionals, TellsLocalSolversThatDoNotMinimise) {
+  for (const Fault what : {Fault::idle, Fault::other_minimum}) {
+    fault = what;
+    expect_blamed([this] { probe(); }, "which is no minimiser: there is less energy at");
+    expect_blamed([this] { check(); }, "which is no minimiser: there is less energy at");
+  }
+}
+
+TEST_F(CheckFunctionals, TellsChangesAndSlopesThatContradictEachOther) {
+  for (const Fault what : {Fault::doubled_change, Fault::other_slope}) {
+    fault = what;
+    expect_blamed([this] { probe(); }, "");
+  }
+  fault = Fault::other_slope;  // whose minimisers are right
+  expect_blamed([this] { probe(); }, "changes the functional by");
 }
 
 TEST_F(CheckFunctionals, TellLocalSolversThatHaveEndedASolve) {

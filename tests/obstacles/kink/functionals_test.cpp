@@ -120,6 +120,87 @@ TEST(Functionals, WithMoreNumbersThanTheyTellOfAreRefused) {
   expect_refused("talkative", "gives its functional 2 numbers at (");
 }
 
+// A result that else passes for solved.
+TEST(Functionals, ThatDoNotMinimiseOrContradictThemselvesAreRefused) {
+  expect_refused("idle", "which is no minimiser: there is less energy at");
+  expect_refused("contrary", "a fault of the plugin");
+}
+
+// Fields of the user are finite and axes are normalised by who asks for them.
+TEST(Functionals, OfDirectionsAndBoundsThatAreNoneAreRefused) {
+  expect_refused("long_direction", "the plugin gives direction 0 of length 2, expected a unit vector");
+  expect_refused("no_direction", "the plugin gives direction 0 of length nan, expected a unit vector");
+  expect_refused("no_bound", "the plugin gives direction 0 a bound that is not a number");
+}
+
+TEST(Functionals, FailWhateverStatusTheyName) { expect_refused("shrug", "obstacle.0: it cannot"); }
+
+/// Nothing but the drag c = 4 holds the body: c du/dt = 1, everywhere alike.
+std::string viscous(const std::string& type, const std::string& steps, const std::string& more = "") {
+  const SceneText scene{
+      .body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\nequation = \"diffusion\"",
+      .loads = {"value = [1]"},
+      .obstacle = "type = \"" + type + "\"\n" + more,
+      .refinements = 1};
+  return std::string(scene) + "[solver]\ntolerance = 1e-12\n[steps]\n" + steps + "\n" + plugins;
+}
+
+void expect_moved(const Driver& driver, double t) {
+  for (const double u : driver.solution()) EXPECT_NEAR(u, t / 4, 1e-9);
+}
+
+TEST(Functionals, IntegrateInTimeByTheLengthOfTheirSteps) {
+  Driver driver(parse_scene(viscous("drag", "at = [0.1, 0.4, 1]"), "test.toml", "."));
+  std::size_t step = 0;
+  const double ends[] = {0.1, 0.4, 1};
+  driver.solve([&] { expect_moved(driver, ends[step++]); });
+  EXPECT_EQ(step, 3u);
+  EXPECT_TRUE(driver.report().converged()) << driver.report().reason();
+}
+
+TEST(Functionals, IntegrateInTimeOverStepsThatAreCut) {
+  Driver driver(parse_scene(viscous("drag", "at = [0.25, 1]", "longest = 0.4"), "test.toml", "."));
+  driver.solve();
+  ASSERT_TRUE(driver.report().converged()) << driver.report().reason();
+  ASSERT_EQ(driver.report().failed.size(), 1u);
+  EXPECT_EQ(driver.report().failed[0].step, 2);
+  expect_moved(driver, 1);
+}
+
+TEST(Functionals, MayForbidThatStepsAreCut) {
+  Driver driver(parse_scene(viscous("stubborn_drag", "at = [0.25, 1]", "longest = 0.4"), "test.toml", "."));
+  driver.solve();
+  EXPECT_FALSE(driver.report().converged());
+  EXPECT_TRUE(driver.report().failed.empty());
+  EXPECT_THAT(driver.report().reason(), testing::HasSubstr("obstacle.0 does not admit that the step is cut in two"));
+}
+
+// Two bars of E = 1 and length 1 that are 0.1 apart, k = 1/4 between them, the end of the second one pulled by 0.3: the
+// way d that they come apart is 0.3 - 2 k d / E, and nothing bounds them.
+TEST(Functionals, BetweenBodiesActWhereNothingTouches) {
+  const auto bar = [](const char* name, const char* from, const char* to) {
+    return std::string("[[body]]\nname = \"") + name + "\"\nshape = \"rectangle\"\nfrom = " + from + "\nto = " + to +
+           "\ncells = [2, 2]\nyoung = 1\npoisson = 0\n";
+  };
+  for (const int uniform : {0, 2}) {
+    Driver driver(parse_scene(bar("a", "[0, 0]", "[1, 1]") + bar("b", "[1.1, 0]", "[2.1, 1]") +
+                                  "[[fix]]\nbody = \"a\"\non = \"left\"\nvalue = [0, 0]\n"
+                                  "[[fix]]\nbody = \"b\"\non = \"right\"\nvalue = [0.3, 0]\n"
+                                  "[[obstacle]]\ntype = \"cushion\"\nbody = \"a\"\non = \"right\"\nother = \"b\"\n"
+                                  "other_on = \"left\"\n[solver]\ntolerance = 1e-11\n[refine]\nuniform = " +
+                                  std::to_string(uniform) + "\n" + plugins,
+                              "test.toml", "."));
+    const StepReport& step = driver.solve().last();
+    ASSERT_TRUE(step.summary.converged()) << step.summary.reason;
+    const double d = 0.3 / 1.5;
+    EXPECT_NEAR(step.summary.energy, 0.5 * 0.25 * d * d + 2 * 0.5 * (0.25 * d) * (0.25 * d), 1e-9);
+    EXPECT_NEAR(step.contact[0].force[0], 0.25 * d, 1e-8);
+    const std::vector<double> u = driver.solution(), points = driver.points();
+    for (std::size_t v = 0; v < u.size(); v += 2)
+      EXPECT_NEAR(u[v], points[v] <= 1 ? 0.25 * d * points[v] : 0.3 - 0.25 * d * (2.1 - points[v]), 1e-8);
+  }
+}
+
 // The matrix is not to blame.
 TEST(Functionals, WithoutAnAnswerAreToldWithTheirLibrary) {
   try {

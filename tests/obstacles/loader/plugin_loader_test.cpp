@@ -1,5 +1,6 @@
 // The plugin loader against sound and broken shared libraries.
 #include "core/component/plugin_loader.hpp"
+#include "core/component/libraries.hpp"
 
 #include <elf.h>
 #include <gmock/gmock.h>
@@ -99,26 +100,45 @@ TEST(PluginLoader, RejectsAShortEntry) { EXPECT_THAT(rejection("short_struct"), 
 TEST(PluginLoader, RejectsNullMembers) { EXPECT_THAT(rejection("null_member"), HasSubstr("null members")); }
 
 TEST(PluginLoader, RejectsAnotherMajorVersionNamingBoth) {
-  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.0 in the plugin, 5.0 here"),
-                                              HasSubstr("rebuild against SDK 5.0"), Not(HasSubstr("newer"))));
+  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.0 in the plugin, 5.1 here"),
+                                              HasSubstr("rebuild against SDK 5.1"), Not(HasSubstr("newer"))));
 }
 
 TEST(PluginLoader, ANewerMinorVersionNeedsANewerProgram) {
   EXPECT_THAT(rejection("newer_minor"),
-              AllOf(HasSubstr("5.1 in the plugin, 5.0 here"), HasSubstr("needs a newer signorini with SDK 5.1")));
+              AllOf(HasSubstr("5.2 in the plugin, 5.1 here"), HasSubstr("needs a newer signorini with SDK 5.2")));
+}
+
+TEST(PluginLoader, TakesPluginsOfAnOlderMinorVersionWhoseEntryIsShorter) {
+  Registry registry;
+  EXPECT_EQ(rejection("older_minor", registry), "");
+  EXPECT_EQ(licence_of((fixtures / library("older_minor")).string()), "");
+}
+
+TEST(PluginLoader, KnowsTheLicencesOfAllThatIsLoaded) {
+  Registry registry;
+  EXPECT_EQ(rejection("licensed", registry), "");
+  EXPECT_EQ(rejection("good", registry), "");
+  EXPECT_EQ(licence_of((fixtures / library("licensed")).string()), "MIT");
+  EXPECT_EQ(licence_of((fixtures / library("good")).string()), "") << "it does not say";
+  const std::vector<Library> all = loaded_libraries();
+  EXPECT_THAT(all.front().file, HasSubstr("libsignorini_core.so"));
+  EXPECT_EQ(all.front().licence, "BSD-3-Clause");
+  for (const char* id : {"licensed", "good"})
+    EXPECT_EQ(std::ranges::count(all, (fixtures / library(id)).string(), &Library::file), 1) << id;
 }
 
 TEST(PluginLoader, NamesTheFieldInWhichTheBuildsDiffer) {
   EXPECT_THAT(rejection("wrong_field"),
-              AllOf(HasSubstr("EIGEN_MAX_ALIGN_BYTES: 17 in the plugin, 32 here: rebuild against SDK 5.0"),
+              AllOf(HasSubstr("EIGEN_MAX_ALIGN_BYTES: 17 in the plugin, 32 here: rebuild against SDK 5.1"),
                     Not(HasSubstr(";"))));
 }
 
 TEST(PluginLoader, NamesAllDifferencesInOneMessage) {
   EXPECT_THAT(rejection("wrong_fields"),
-              AllOf(HasSubstr("7.0 in the plugin, 5.0 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
+              AllOf(HasSubstr("7.0 in the plugin, 5.1 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
                     HasSubstr("size of Index: 8 in the plugin, 4 here"), HasSubstr(": nothing in the plugin, "),
-                    HasSubstr("rebuild against SDK 5.0")));
+                    HasSubstr("rebuild against SDK 5.1")));
 }
 
 TEST(PluginLoader, RejectsALibraryThatIsNoPlugin) {

@@ -6,6 +6,7 @@
 
 #include "core/sdk/functional_obstacle.hpp"
 #include "core/sdk/plugin.hpp"
+#include "core/sdk/stepping.hpp"
 
 namespace signorini::test {
 namespace {
@@ -254,6 +255,141 @@ class LostObstacle final : public FunctionalObstacle<1, Lost> {
   CostObstacle cost_;
 };
 
+/// A local solver that calls everything a solution.
+struct Idle : Cost {
+  static void minimise(const Slot<1>&, const double*, const double*, const double* x, double* y) { *y = *x; }
+};
+/// Changes by twice what its slope says.
+struct Contrary : Cost {
+  static double change(const Slot<1>& slot, const double* from, const double* to) {
+    return 2 * Cost::change(slot, from, to);
+  }
+};
+template <class Phi>
+class Faulty final : public FunctionalObstacle<1, Phi> {
+ public:
+  explicit Faulty(const Settings& settings) : cost_(settings) {}
+  ObstacleDescriptor descriptor() const noexcept override { return cost_.descriptor(); }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status& status) const noexcept override {
+    cost_.assemble(vertices, count, constraints, status);
+  }
+
+ private:
+  CostObstacle cost_;
+};
+
+/// Gives something else than it may.
+template <int Fault>
+class Misleading final : public CostObstacle {
+ public:
+  using CostObstacle::CostObstacle;
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status& status) const noexcept override {
+    CostObstacle::assemble(vertices, count, constraints, status);
+    if (Fault == 0) status.fail(0, "it cannot");
+    if (Fault == 1) constraints[0].direction[0][0] = 2;
+    if (Fault == 2) constraints[0].upper[0] = std::nan("");
+    if (Fault == 3) constraints[0].direction[0][0] = std::nan("");
+  }
+};
+
+/// c (v - l)^2 / (2 dt), l being v at the end of the last load step: c dv/dt against the motion. Data: c / dt.
+struct Drag {
+  static void minimise(const Slot<1>& slot, const double* M, const double* r, const double* x, double* y) {
+    *y = (*r + *M * *x + slot.data[0] * *slot.last) / (*M + slot.data[0]);
+  }
+  static double change(const Slot<1>& slot, const double* from, const double* to) {
+    return 0.5 * slot.data[0] * (*to - *from) * ((*to - *slot.last) + (*from - *slot.last));
+  }
+  static double slope(const Slot<1>& slot, const double* at, const double* step) {
+    return slot.data[0] * (*at - *slot.last) * *step;
+  }
+  static void linearise(const Slot<1>& slot, const double* x, const QuadraticModel<1>& out) {
+    *out.gradient = slot.data[0] * (*x - *slot.last);
+    *out.hessian = slot.data[0];
+  }
+};
+
+/// A body in something viscous. Of steps longer than `longest` it makes a problem without solution: c doubles and
+/// halves with every renewal.
+class DragObstacle : public FunctionalObstacle<1, Drag>, public Renewal<1>, public Stepping {
+ public:
+  static constexpr double c = 4;
+  explicit DragObstacle(const Settings& settings) : longest_(settings.number("longest")) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"value", 1, 1}}, 1}; }
+  void begin(const LoadStep& step, Status& status) noexcept override {
+    length_ = step.to - step.from;
+    if (!(length_ > 0) || step.number < 1) status.fail(static_cast<int>(Exit::plugin), "this is no step");
+  }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<1>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t k = 0; k < count; ++k) {
+      unbounded(constraints[k], 1);
+      constraints[k].direction[0][0] = 1;
+      constraints[k].data[0] = c / length_ * vertices[k].measure;
+    }
+  }
+  const Renewal<1>* renewal() const noexcept override { return this; }
+  void renew(const LevelView<1>& level, Index first, Index last, const double*, double* data) const noexcept override {
+    if (length_ <= longest_) return;
+    for (Index slot = 0; slot < level.slots; ++slot)
+      if (level.constrained[slot] >= first && level.constrained[slot] < last) {
+        const Offset at = Offset{slot} * level.width;
+        data[at] = std::fabs(level.x[level.constrained[slot]] - level.last[slot]) > 0.02 ? 3 * level.data[at]
+                                                                                         : level.data[at] / 3;
+      }
+  }
+
+ private:
+  double length_ = 0, longest_;
+};
+class StubbornDrag final : public DragObstacle {
+ public:
+  using DragObstacle::DragObstacle;
+  bool may_be_cut() const noexcept override { return false; }
+};
+constexpr OptionSpec longest[] = {{"longest", OptionType::number, "1e9", "(0, inf)", "step that has a solution"}};
+
+/// k ((n . [v])^2 + (t . [v])^2) / 2 between bodies, however far apart. Data: k.
+struct Cushion {
+  static void minimise(const Slot<2>& slot, const double* M, const double* r, const double* x, double* y) {
+    const double k = slot.data[0], K[4] = {M[0] + k, M[1], M[2], M[3] + k}, f[2] = {r[0] - k * x[0], r[1] - k * x[1]};
+    const double det = K[0] * K[3] - K[1] * K[2];
+    y[0] = x[0] + (K[3] * f[0] - K[1] * f[1]) / det;
+    y[1] = x[1] + (K[0] * f[1] - K[2] * f[0]) / det;
+  }
+  static double change(const Slot<2>& slot, const double* from, const double* to) {
+    double sum = 0;
+    for (int i = 0; i < 2; ++i) sum += (to[i] - from[i]) * (to[i] + from[i]);
+    return 0.5 * slot.data[0] * sum;
+  }
+  static double slope(const Slot<2>& slot, const double* at, const double* step) {
+    return slot.data[0] * (at[0] * step[0] + at[1] * step[1]);
+  }
+  static void linearise(const Slot<2>& slot, const double* x, const QuadraticModel<2>& out) {
+    for (int i = 0; i < 2; ++i) {
+      out.gradient[i] = slot.data[0] * x[i];
+      out.hessian[3 * i] = slot.data[0];
+    }
+  }
+};
+
+class CushionObstacle final : public FunctionalObstacle<2, Cushion> {
+ public:
+  static constexpr double k = 0.25;
+  explicit CushionObstacle(const Settings&) {}
+  ObstacleDescriptor descriptor() const noexcept override { return {1, {{"normal", 2, 1}}, 1}; }
+  void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<2>* constraints,
+                Status&) const noexcept override {
+    for (std::size_t n = 0; n < count; ++n) {
+      unbounded(constraints[n], 1);
+      std::copy_n(vertices[n].away, 2, constraints[n].direction[0]);
+      constraints[n].data[0] = k * vertices[n].measure;
+    }
+  }
+};
+
 void register_all(Registrar& registrar, Status& status) {
   const auto add = [&](const char* id, Obstacle<1>* (*one)(const Settings&, Status&) noexcept,
                        Obstacle<2>* (*two)(const Settings&, Status&) noexcept,
@@ -269,6 +405,17 @@ void register_all(Registrar& registrar, Status& status) {
   add("silent", sdk::create<Silent, 1>, nullptr, nullptr);
   add("talkative", sdk::create<Talkative, 1>, nullptr, nullptr);
   add("lost", sdk::create<LostObstacle, 1>, nullptr, nullptr);
+  add("idle", sdk::create<Faulty<Idle>, 1>, nullptr, nullptr);
+  add("contrary", sdk::create<Faulty<Contrary>, 1>, nullptr, nullptr);
+  add("shrug", sdk::create<Misleading<0>, 1>, nullptr, nullptr);
+  add("long_direction", sdk::create<Misleading<1>, 1>, nullptr, nullptr);
+  add("no_bound", sdk::create<Misleading<2>, 1>, nullptr, nullptr);
+  add("no_direction", sdk::create<Misleading<3>, 1>, nullptr, nullptr);
+  registrar.obstacle({"drag", "for a test", longest, 1, false, sdk::create<DragObstacle, 1>, nullptr, nullptr}, status);
+  registrar.obstacle({"stubborn_drag", "for a test", longest, 1, false, sdk::create<StubbornDrag, 1>, nullptr, nullptr},
+                     status);
+  registrar.obstacle(
+      {"cushion", "for a test", nullptr, 0, false, nullptr, sdk::create<CushionObstacle, 2>, nullptr, true}, status);
   add("spring", nullptr, sdk::create<SpringObstacle, 2>, nullptr);
   add("rail", nullptr, nullptr, sdk::create<RailObstacle, 3>);
 }
