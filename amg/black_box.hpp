@@ -1,6 +1,9 @@
 #pragma once
+#include <Eigen/Core>
 #include <memory>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/algebra/near_null_space.hpp"
@@ -19,14 +22,46 @@ namespace signorini {
 /// naming the place; messages count rows and columns from 1.
 class BlackBox {
  public:
-  /// Numbers of the caller, of which none are copied: a vector of the standard library, of Eigen, a pointer and a
-  /// length.
-  struct Values : std::span<const double> {
+  /// Numbers of the caller: a vector of the standard library, a pointer and a length, and whatever is a vector of
+  /// doubles for Eigen, a Map, a segment, a column or row, an expression. None are copied that lie one after the other.
+  class Values : public std::span<const double> {
+   public:
     using std::span<const double>::span;
     Values(std::span<const double> values) : span(values) {}     // NOLINT: conversions are what it is for
     Values(const std::vector<double>& values) : span(values) {}  // NOLINT
-    Values(const Eigen::VectorXd& values)                        // NOLINT
-        : span(values.data(), static_cast<std::size_t>(values.size())) {}
+    template <class Vector>
+    Values(const Eigen::MatrixBase<Vector>& values) : Values(values.derived(), own(values.derived())) {}  // NOLINT
+
+   private:
+    template <class Vector>
+    static constexpr bool in_memory = (Vector::Flags & Eigen::DirectAccessBit) != 0;
+
+    /// A copy of what lies elsewhere than one after the other, or nowhere; null where there is no need.
+    template <class Vector>
+    static std::shared_ptr<const Eigen::VectorXd> own(const Vector& values) {
+      static_assert(Vector::IsVectorAtCompileTime, "one value per unknown: a vector");
+      static_assert(std::is_same_v<typename Vector::Scalar, double>, "doubles, see cast<double>()");
+      if constexpr (in_memory<Vector>)
+        if (values.size() < 2 || values.innerStride() == 1) return nullptr;
+      auto copy = std::make_shared<Eigen::VectorXd>(values.size());
+      for (Eigen::Index i = 0; i < values.size(); ++i) (*copy)[i] = values.coeff(i);
+      return copy;
+    }
+
+    template <class Vector>
+    Values(const Vector& values, std::shared_ptr<const Eigen::VectorXd> copy)
+        : span(copy ? copy->data() : data_of(values), static_cast<std::size_t>(values.size())),
+          copy_(std::move(copy)) {}
+
+    template <class Vector>
+    static const double* data_of(const Vector& values) {
+      if constexpr (in_memory<Vector>)
+        return values.data();
+      else
+        return nullptr;
+    }
+
+    std::shared_ptr<const Eigen::VectorXd> copy_;
   };
 
   struct Result {

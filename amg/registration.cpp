@@ -4,27 +4,10 @@
 #include "amg/coarsening/metis_aggregates.hpp"
 #include "amg/linear/amg_cg.hpp"
 #include "amg/linear/cholmod_solver.hpp"
-#include "core/scene/solver_keys.hpp"
-#include "core/solver/option_table.hpp"
 #include "smoothers/registration.hpp"
 #include "transfer/registration.hpp"
 
 namespace signorini {
-namespace {
-
-/// Those of the solver that concern levels chosen by the matrix.
-std::vector<OptionSpec> options_of_levels() {
-  std::vector<OptionSpec> out;
-  for (const auto& row : option_table())
-    if (row.of_levels) {
-      const KeySpec& key = *find_key(solver_keys(), row.name);
-      const OptionType type = key.type == KeyType::boolean ? OptionType::boolean : OptionType::text;
-      out.push_back({key.name, type, key.fallback, key.range, key.help});
-    }
-  return out;
-}
-
-}  // namespace
 
 void register_coarse_solvers(Registry& registry) {
   const std::string file = file_of(reinterpret_cast<const void*>(&register_coarse_solvers));
@@ -58,22 +41,6 @@ void register_linear_solvers(Registry& registry) {
                               file,
                               {}},
                              [] { return std::make_unique<AmgConjugateGradients>(solver_components); });
-}
-
-std::vector<Entry> coarsenings() {
-  const std::string file = file_of(reinterpret_cast<const void*>(&coarsenings));
-  return {{"amg",
-           "aggregation",
-           "smoothed aggregation, which represents a near null space such as rigid body modes",
-           options_of_levels(),
-           file,
-           {}},
-          {"amg",
-           "classical",
-           "strength of connection and extended interpolation from some of the vectors",
-           options_of_levels(),
-           file,
-           {}}};
 }
 
 void register_aggregators(Registry& registry) {

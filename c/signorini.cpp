@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
+#include <cstring>
 #include <new>
 
 #include "amg/black_box.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/solver_options.hpp"
+#include "core/solver/options_from_text.hpp"
 
 struct signorini_solver {
   signorini::BlackBox solver;
@@ -81,13 +83,8 @@ std::vector<SparseRows> copies_of(const signorini_rows* matrices, std::int32_t c
 
 signorini::SolverOptions options_of(const char* const* settings) {
   std::vector<std::string> assignments;
-  for (; settings && *settings; ++settings) assignments.push_back(std::string("solver.") + *settings);
-  try {
-    return signorini::solver_options(assignments);
-  } catch (const Error& error) {  // that names the place as on the command line
-    const std::string_view text = error.what(), flag = "--set ";
-    throw Error(error.status(), std::string(text.starts_with(flag) ? text.substr(flag.size()) : text));
-  }
+  for (; settings && *settings; ++settings) assignments.emplace_back(*settings);
+  return signorini::options_from_text(assignments);
 }
 
 NearNullSpace near_null_of(const signorini_setup& setup, std::int32_t rows, int block) {
@@ -120,16 +117,36 @@ BlackBox box_of(const SparseRows& A, int block, const signorini_setup& setup) {
                   copies_of(setup.coarse_matrices, setup.coarse_matrices ? setup.levels : 0));
 }
 
+/// A setup as this version has it, of a program that may know fewer members, which it leaves at zero, or more, which it
+/// may not use then.
+signorini_setup complete(const signorini_setup* given) {
+  if (!given) return SIGNORINI_SETUP;
+  constexpr std::size_t first_version = offsetof(signorini_setup, one_triangle) + sizeof given->one_triangle;
+  constexpr std::size_t nonsense = 4096;
+  const std::size_t size = given->size;
+  if (size < first_version || size > nonsense)
+    signorini::input_error("setup.size", fmt::format("found {}, expected sizeof(signorini_setup), as SIGNORINI_SETUP "
+                                                     "sets it",
+                                                     size));
+  signorini_setup out{};
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  if (std::any_of(bytes + std::min(size, sizeof out), bytes + size, [](unsigned char byte) { return byte != 0; }))
+    signorini::input_error("setup", "uses members that this library, which is older than its header, does not know");
+  std::memcpy(&out, bytes, std::min(size, sizeof out));
+  return out;
+}
+
 /// @param matrix makes a copy of the matrix
 template <class Matrix>
-int create(const Matrix& matrix, int block, const signorini_setup& setup, signorini_solver** solver) noexcept {
+int create(const Matrix& matrix, int block, const signorini_setup* given, signorini_solver** solver) noexcept {
   if (solver) *solver = nullptr;
   return guarded([&] {
     require(solver, "solver");
+    const signorini_setup setup = complete(given);
     const bool one_triangle = setup.one_triangle != 0;
     const SparseRows A = one_triangle ? signorini::from_triangle(matrix()) : matrix();
     BlackBox box = box_of(A, block, setup);
-    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), one_triangle};
+    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), one_triangle, {}};
     return report(SIGNORINI_SOLVED, "set up");
   });
 }
@@ -153,12 +170,10 @@ int status_of(Outcome outcome) {
   return SIGNORINI_FAILURE;
 }
 
-/// A monitor that goes on saying stop: it is asked on coarser levels, too.
 signorini::Monitor monitor_of(const signorini_solver& solver) {
   if (!solver.monitor) return {};
-  return [call = solver.monitor, data = solver.monitor_data, stopped = false](const auto& record) mutable {
-    stopped = stopped || call(record.iteration, record.residual, record.algebraic_error, data) != 0;
-    return !stopped;
+  return [call = solver.monitor, data = solver.monitor_data](const auto& record) {
+    return call(record.iteration, record.residual, record.algebraic_error, data) == 0;
   };
 }
 
@@ -173,12 +188,12 @@ signorini_summary summary_of(const signorini::Summary& s) {
 
 int signorini_create(std::int32_t rows, const std::int32_t* row, const std::int32_t* column, const double* value,
                      int block, signorini_solver** solver) {
-  return create([&] { return copy_of(rows, rows, row, column, value); }, block, {}, solver);
+  return create([&] { return copy_of(rows, rows, row, column, value); }, block, nullptr, solver);
 }
 
 int signorini_create64(std::int32_t rows, const std::int64_t* row, const std::int32_t* column, const double* value,
                        int block, signorini_solver** solver) {
-  return create([&] { return copy_of(rows, rows, row, column, value); }, block, {}, solver);
+  return create([&] { return copy_of(rows, rows, row, column, value); }, block, nullptr, solver);
 }
 
 int signorini_create_with(const signorini_rows* matrix, int block, const signorini_setup* setup,
@@ -187,7 +202,7 @@ int signorini_create_with(const signorini_rows* matrix, int block, const signori
     require(matrix, "matrix");
     return copies_of(matrix, 1).front();
   };
-  return create(copy, block, setup ? *setup : signorini_setup{}, solver);
+  return create(copy, block, setup, solver);
 }
 
 int signorini_solve(signorini_solver* solver, const double* b, const double* lower, const double* upper,

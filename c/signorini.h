@@ -9,6 +9,7 @@
  * read or written during the call only. No exception leaves a function; a solver serves one thread at a time, different
  * solvers may be used by different threads.
  */
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -29,6 +30,7 @@ enum {
 /* Levels of a matrix. The set-up serves any number of right-hand sides and bounds. */
 typedef struct signorini_solver signorini_solver;
 
+/* Keeps its members: what else there may be to say later on gets functions of its own. */
 typedef struct {
   int iterations, levels;
   double residual;        /* natural residual over its value at the projected zero */
@@ -59,10 +61,13 @@ typedef struct {
 } signorini_rows;
 
 /*
- * What a solver may be told beyond its matrix; zero and null are the defaults, as in `signorini_setup setup = {0};`.
- * Levels are chosen by the matrix where no interpolations are given.
+ * What a solver may be told beyond its matrix; zero and null are the defaults. Begin with
+ * `signorini_setup setup = SIGNORINI_SETUP;`, which sets its size: later versions of this header add members at its end,
+ * and what a program knows of them is told by the size. Levels are chosen by the matrix where no interpolations are
+ * given.
  */
 typedef struct {
+  size_t size;                 /* sizeof(signorini_setup) */
   const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver] in docs/solver.md but those
                                   of scenes: `start`, `algebraic`, `hierarchy` and `bodies`; ended by a null;
                                   signorini_solve() gives the tolerance */
@@ -75,6 +80,9 @@ typedef struct {
   const signorini_rows* coarse_matrices; /* one for each, in the same order: Galerkin products; null: computed */
   int one_triangle; /* not 0: the matrix is given by its lower or its upper triangle with the diagonal */
 } signorini_setup;
+
+#define SIGNORINI_SETUP \
+  { sizeof(signorini_setup), 0, 0, 0, 0, 0, 0, 0, 0 }
 
 /* As signorini_create(); null is allowed for `setup`. */
 int signorini_create_with(const signorini_rows* matrix, int block, const signorini_setup* setup,

@@ -43,7 +43,11 @@ install(FILES ${PROJECT_BINARY_DIR}/signorini_c.pc DESTINATION ${CMAKE_INSTALL_L
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
 
-install(TARGETS signorini_geometry signorini_pictures signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+install(TARGETS signorini_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+if(SIGNORINI_GPL)
+  install(TARGETS signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+endif()
+install(FILES LICENSE docs/abi.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT sdk)
 if(TARGET signorini)
   file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")

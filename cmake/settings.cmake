@@ -31,7 +31,8 @@ target_include_directories(signorini_settings INTERFACE
 target_compile_features(signorini_settings INTERFACE cxx_std_20)
 target_compile_options(signorini_settings INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wno-psabi>)
 if(SIGNORINI_NATIVE)
-  target_compile_options(signorini_settings INTERFACE -march=native)
+  # Not for programs that link the installed libraries: these may be for other processors, and are checked by valgrind.
+  target_compile_options(signorini_settings INTERFACE $<BUILD_INTERFACE:-march=native>)
   # For what includes Eigen: GCC 12 takes registers that AVX-512 intrinsics leave undefined on purpose, and vectors that
   # small matrices never fill, for mistakes.
   set(eigen_warnings $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized;-Wno-maybe-uninitialized;-Wno-array-bounds>)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <concepts>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -10,7 +11,7 @@
 namespace signorini {
 
 /// A sparse matrix of scalars in compressed rows, as it comes from files and other codes: the columns of a row in any
-/// order, one that stands twice counting as the sum. Eigen's sparse matrices convert to it.
+/// order, one that stands twice counting as the sum. Sparse matrices of Eigen convert to it.
 struct SparseRows {
   Index rows = 0, columns = 0;
   std::vector<Offset> row{0};  ///< rows + 1
@@ -30,10 +31,12 @@ struct SparseRows {
     value.assign(value_of, value_of + entries);
   }
 
-  template <int Order, class Integer>
-  SparseRows(const Eigen::SparseMatrix<double, Order, Integer>& matrix)  // NOLINT: a conversion is what it is for
+  /// A copy of what is a sparse matrix for Eigen: one of its own, a Map, an expression.
+  template <class Matrix>
+  SparseRows(const Eigen::SparseMatrixBase<Matrix>& matrix)  // NOLINT: a conversion is what it is for
       : rows(checked_size(matrix.rows())), columns(checked_size(matrix.cols())) {
-    Eigen::SparseMatrix<double, Eigen::RowMajor, Integer> ordered = matrix;
+    static_assert(std::is_same_v<typename Matrix::Scalar, double>, "doubles, see cast<double>()");
+    Eigen::SparseMatrix<double, Eigen::RowMajor, typename Matrix::StorageIndex> ordered = matrix;
     ordered.makeCompressed();
     row.assign(ordered.outerIndexPtr(), ordered.outerIndexPtr() + rows + 1);
     column.assign(ordered.innerIndexPtr(), ordered.innerIndexPtr() + ordered.nonZeros());

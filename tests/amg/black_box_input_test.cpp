@@ -257,6 +257,12 @@ TEST(BlackBoxOptions, AreThoseOfTheSolver) {
   const std::vector<double> b(9, 1);
   expect_error([&] { BlackBox(A, 1, {.tolerance = 0}).solve(b); }, "solver.tolerance");
   expect_error([&] { BlackBox(A, 1, {.method = "magic"}).solve(b); }, "solver.method");
+  expect_error([&] { BlackBox(A, 1, {.smoother = "forwart"}); },
+               "solver.smoother: there is no smoother 'forwart', did");
+  expect_error([&] { BlackBox(A, 1, {.transfer = "min"}); }, "solver.transfer: there is no transfer 'min'");
+  expect_error([&] { BlackBox(A, 1, {.coarse = "direct"}); }, "solver.coarse: there is no coarse 'direct'");
+  expect_error([&] { BlackBox(A, 1, {.aggregates = "greddy"}); }, "solver.aggregates: there is no aggregates 'greddy'");
+  expect_error([&] { BlackBox(A, std::vector<SparseRows>(), 1, {.smoother = "x"}); }, "solver.smoother");
   BlackBox solver(A, 1);
   expect_error([&] { solver.set_tolerance(2); }, "solver.tolerance");
   EXPECT_TRUE(solver.solve(b).summary.converged()) << "with the tolerance it had";

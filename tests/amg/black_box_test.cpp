@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/amg/matrices.hpp"
+#include "tests/amg/membrane.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"
 #include "tests/support/random_problem.hpp"
@@ -391,6 +392,59 @@ TEST(BlackBox, SeesThatTheEnergyFallsForeverAlongAnyDirection) {
   BlackBox solver(sparse(stiffness<2, 2>(mesh, Model<2>{})), 2);
   EXPECT_EQ(solver.solve(torque).summary.outcome, Outcome::unbounded);
   EXPECT_EQ(solver.solve(pull).summary.outcome, Outcome::unbounded);
+}
+
+TEST(BlackBox, StopsOnWhateverLevelTheMonitorSaysSoOnce) {
+  const Membrane m;
+  BlackBox solver(m.A);
+  int calls = 0;
+  solver.solve(m.b, m.lower, m.upper, {}, [&](const IterationRecord&) { return ++calls > 0; });
+  ASSERT_GE(calls, 4);
+  for (int stop = 1; stop <= calls; ++stop) {
+    int call = 0;
+    const auto result = solver.solve(m.b, m.lower, m.upper, {}, [&](const IterationRecord&) { return ++call != stop; });
+    if (stop < calls) {
+      EXPECT_EQ(result.summary.outcome, Outcome::interrupted) << "in call " << stop;
+    }
+    EXPECT_LE(call, stop + 1) << "one more, on the finest level";
+  }
+}
+
+TEST(BlackBox, TakesWhateverIsAVectorForEigen) {
+  const Membrane m;
+  const auto n = static_cast<Eigen::Index>(m.n);
+  BlackBox solver(m.A);
+  const std::vector<double> expected = solver.solve(m.b, m.lower, m.upper).x;
+  const Eigen::Map<const Eigen::VectorXd> b(m.b.data(), n), lower(m.lower.data(), n), upper(m.upper.data(), n);
+  EXPECT_EQ(solver.solve(b, lower, upper).x, expected);
+  Eigen::VectorXd all(3 * n);
+  all << b, lower, upper;
+  EXPECT_EQ(solver.solve(all.head(n), all.segment(n, n), all.tail(n)).x, expected);
+  EXPECT_EQ(solver.solve(2 * b - b, (lower + lower) / 2, -(-upper)).x, expected);
+  Eigen::MatrixXd beside(n, 3);
+  beside << b, lower, upper;
+  EXPECT_EQ(solver.solve(beside.col(0), beside.col(1), beside.col(2)).x, expected);
+  const Eigen::MatrixXd turned = beside.transpose();
+  EXPECT_EQ(solver.solve(turned.row(0), turned.row(1), turned.row(2)).x, expected) << "which do not lie together";
+  Eigen::VectorXd strided(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) strided[2 * i] = b[i];
+  const Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<2>> every_second(strided.data(), n);
+  BlackBox::Values kept = every_second, copy = kept;
+  EXPECT_EQ(solver.solve(copy, Eigen::VectorXd(lower), Eigen::Ref<const Eigen::VectorXd>(upper)).x, expected);
+  EXPECT_EQ(solver.solve(b.eval(), lower, upper, Eigen::VectorXd::Zero(n)).x,
+            solver.solve(b, lower, upper, std::vector<double>(m.n)).x);
+}
+
+TEST(BlackBox, TakesWhateverIsASparseMatrixForEigen) {
+  const Membrane m;
+  const std::vector<double> expected = BlackBox(m.A).solve(m.b, m.lower, m.upper).x;
+  const auto solve = [&](BlackBox solver) { return solver.solve(m.b, m.lower, m.upper).x; };
+  const Eigen::Map<const Matrix> map(m.A.rows(), m.A.cols(), m.A.nonZeros(), m.A.outerIndexPtr(), m.A.innerIndexPtr(),
+                                     m.A.valuePtr());
+  EXPECT_EQ(solve(BlackBox(map)), expected);
+  EXPECT_EQ(solve(BlackBox(2 * m.A - m.A)), expected);
+  EXPECT_EQ(solve(BlackBox(m.A.transpose())), expected);
+  EXPECT_EQ(solve(BlackBox(Eigen::SparseMatrix<double, Eigen::RowMajor, long>(m.A))), expected);
 }
 
 TEST(BlackBox, StopsWhenTheMonitorSaysSo) {

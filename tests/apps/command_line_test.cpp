@@ -102,6 +102,11 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
     EXPECT_THAT(amg.out, HasSubstr(text));
   EXPECT_THAT(amg.out, HasSubstr("`signorini list aggregates` (text, default greedy)"));
   EXPECT_THAT(signorini({"list", "unsymmetric"}).out, HasSubstr("umfpack "));
+  const Ended libraries = signorini({"list", "libraries"});
+  EXPECT_THAT(libraries.out, AllOf(HasSubstr("libsignorini_core.so"), HasSubstr("licence: BSD-3-Clause\n"),
+                                   HasSubstr("libsignorini_geometry.so"), HasSubstr("licence: GPL-3.0-or-later"),
+                                   HasSubstr("licence: GPL-2.0-or-later"), HasSubstr("LGPL-2.1-only OR MPL-1.1")));
+  EXPECT_THAT(signorini({"list", "obstacles"}).out, HasSubstr("licence: BSD-3-Clause"));
   EXPECT_THAT(signorini({"list", "aggregates"}).out, AllOf(HasSubstr("greedy "), HasSubstr("metis ")));
   EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
 }

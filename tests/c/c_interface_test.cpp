@@ -120,7 +120,7 @@ Eigen::SparseMatrix<double> pairs(int n) {
 
 struct CSetup : CInterface {
   const signorini_rows matrix = rows_of(A);
-  signorini_setup setup = {};
+  signorini_setup setup = SIGNORINI_SETUP;
 
   int create_with() { return signorini_create_with(&matrix, 1, &setup, &solver); }
   int solve() {
@@ -139,6 +139,42 @@ TEST_F(CSetup, OfNothingIsTheDefault) {
   EXPECT_EQ(x, BlackBox(A).solve(b, lower).x);
   signorini_destroy(solver);
   EXPECT_EQ(signorini_create_with(nullptr, 1, nullptr, &solver), SIGNORINI_BAD_INPUT);
+}
+
+// The struct grows at its end: programs know less of it, or more, than the library.
+TEST_F(CSetup, IsAsLongAsItSays) {
+  setup.size = 0;
+  expect_refused("setup.size: found 0, expected sizeof(signorini_setup)");
+  struct {
+    signorini_setup known = SIGNORINI_SETUP;
+    double unknown = 0;
+  } later;
+  later.known.size = sizeof later;
+  ASSERT_EQ(signorini_create_with(&matrix, 1, &later.known, &solver), SIGNORINI_SOLVED) << signorini_message();
+  signorini_destroy(solver);
+  solver = nullptr;
+  later.unknown = 1;
+  EXPECT_EQ(signorini_create_with(&matrix, 1, &later.known, &solver), SIGNORINI_BAD_INPUT);
+  EXPECT_THAT(signorini_message(), HasSubstr("setup: uses members that this library"));
+}
+
+TEST_F(CSetup, TakesOptionsOfAllTypes) {
+  const char* settings[] = {"reassemble = false", "relaxation=1", "pre=3", "cycle=\"W\"", nullptr};
+  setup.settings = settings;
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  const SolverOptions options{.cycle = "W", .pre = 3, .relaxation = 1, .reassemble = false};
+  EXPECT_EQ(x, BlackBox(A, 1, options).solve(b, lower).x);
+  signorini_destroy(solver);
+  solver = nullptr;
+  const std::pair<const char*, const char*> wrong[] = {{"reassemble=1", "expected true or false"},
+                                                       {"pre=3.5", "expected a whole number"},
+                                                       {"relaxation=2", "expected a number in (0, 2)"},
+                                                       {"smoother=forwart", "there is no smoother 'forwart'"}};
+  for (const auto& [setting, message] : wrong) {
+    settings[0] = setting;
+    expect_refused(message);
+  }
 }
 
 TEST_F(CSetup, TakesTheOptionsOfTheSolver) {
@@ -208,7 +244,7 @@ TEST_F(CSetup, TakesDirectionsOfLittleEnergy) {
   setup.modes = 1;
   setup.coordinates = modes.data();
   expect_refused("near_null: given with coordinates");
-  setup = {};
+  setup = SIGNORINI_SETUP;
   setup.coordinates = modes.data();
   expect_refused("coordinates: given for blocks of 1, expected 2 or 3");
 }

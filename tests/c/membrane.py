@@ -1,4 +1,4 @@
-# A membrane on a square that a load presses onto a floor: python3 membrane.py libsignorini_c.so.1
+# A membrane on a square that a load presses onto a floor: python3 membrane.py libsignorini_c.so.2
 import sys
 from ctypes import CDLL, POINTER, Structure, byref, c_char_p, c_double, c_int, c_int32, c_void_p
 

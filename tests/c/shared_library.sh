@@ -11,12 +11,24 @@ rm -rf "$scratch"
 PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name signorini_c.pc)")
 export PKG_CONFIG_PATH
 libraries=$(pkg-config --variable=libdir signorini_c)
-library=$libraries/libsignorini_c.so.1
+library=$libraries/libsignorini_c.so.2
 
 nm -D --defined-only --format=just-symbols "$library" | sort >"$scratch/exported"
 grep -o 'signorini_[a-z0-9_]*(' "$source/c/signorini.h" | grep -v '^signorini_monitor(' | tr -d '(' | sort -u >"$scratch/declared"
 diff "$scratch/exported" "$scratch/declared"
-readelf -d "$library" | grep -q 'SONAME.*\[libsignorini_c\.so\.1\]'
+readelf -d "$library" | grep -q 'SONAME.*\[libsignorini_c\.so\.2\]'
+# It needs what a matrix needs: nothing of this project, and nothing that reads scenes, meshes or archives.
+readelf -d "$library" | sed -n 's/.*NEEDED.*\[\(.*\)\].*/\1/p' >"$scratch/needed"
+if grep -E 'signorini|toml|pugixml|muparser|deflate|libz\.|cairo|CGAL|gmp|mpfr|cholmod|umfpack' "$scratch/needed"; then
+  echo "libsignorini_c.so needs these"
+  exit 1
+fi
+# What is installed beside the libraries: the licence, what stays compatible, a soname for the core, and no option for
+# this machine's processor in the targets.
+test -n "$(find "$scratch/prefix" -name LICENSE)"
+test -n "$(find "$scratch/prefix" -name abi.md)"
+readelf -d "$libraries/libsignorini_core.so" | grep -q 'SONAME.*\[libsignorini_core\.so\.[0-9]*\.[0-9]*\]'
+if grep -r 'march=' "$libraries/cmake" "$libraries/pkgconfig"; then exit 1; fi
 
 # shellcheck disable=SC2046
 cc "$here/outside/membrane.c" -o "$scratch/membrane" $(pkg-config --cflags --libs signorini_c) -Wl,-rpath,"$libraries"
