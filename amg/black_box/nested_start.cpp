@@ -13,6 +13,7 @@
 #include "core/solver/multigrid.hpp"
 #include "core/solver/sticking.hpp"
 #include "core/solver/weights.hpp"
+#include "methods/near_start.hpp"
 #include "methods/nested_iteration.hpp"
 
 namespace signorini {
@@ -325,8 +326,8 @@ template <int B>
 std::vector<double> nested_start_from(const std::vector<double>& given, DiscreteProblem<B>& problem,
                                       std::span<const Prolongation> prolongations, const SolverOptions& options,
                                       const Registry& registry, const Monitor& monitor, std::vector<Stage>* dropped) {
-  if (prolongations.empty()) return given;
-  std::vector<double> x;
+  std::vector<double> x = given;
+  if (prolongations.empty() || is_near(problem, prolongations, problem.galerkin, x)) return x;
   {
     const Difference<B> difference(problem, given);
     x = nested_start(problem, prolongations, options, registry, monitor, dropped);

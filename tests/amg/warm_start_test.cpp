@@ -51,6 +51,19 @@ void expect_few_cycles_after_changes(BlackBox& solver, const Change& before, dou
       if (std::abs(change) < 1e-7) EXPECT_LE(warm, cold / 2);
     }
   }
+  int again = 0;
+  cycles(solver, before, x, &again);
+  EXPECT_EQ(again, 1) << "on all levels, where nothing has changed";
+  for (const double change : {1e-3, -1e-3}) {  // loads: coarser levels are not asked
+    SCOPED_TRACE(change);
+    Change loaded = before;
+    scale(loaded.b, 1 + change);
+    int all_warm = 0, all_cold = 0;
+    const int warm = cycles(solver, loaded, x, &all_warm);
+    cycles(solver, loaded, {}, &all_cold);
+    EXPECT_EQ(all_warm, warm);
+    EXPECT_LE(3 * all_warm, 2 * all_cold);
+  }
 }
 
 TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAMembrane) {
