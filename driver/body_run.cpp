@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/fem/paired_sides.hpp"
 #include "core/solver/attainable.hpp"
 #include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
@@ -72,6 +73,7 @@ template <int D, int B>
 void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
   const Model<B> now = model({1, 0, t});
   check_symmetry(hierarchy_, now);
+  if constexpr (D == B) refuse_unseen_overlap(nodes(), now);
   append(warnings, model_warnings(scene_, nodes(), now, body_));
   const Nodes<D> coarsest(hierarchy_.levels.front());
   append(warnings, start_warnings(coarsest, now));

@@ -9,6 +9,7 @@
 #include "apps/signorini/console.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
+#include "core/fem/paired_sides.hpp"
 #include "core/fem/pressure_space.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/scene/uses_t.hpp"
@@ -188,6 +189,7 @@ void check(Scene& scene, const Registry& registry, std::size_t body) {
   locate_probes(hierarchy.finest(), scene, body);
   std::vector<SlaveChoice> slaves;
   const Model<B> model = check_steps<D, B>(scene, registry, body, hierarchy, nodes, slaves);
+  if constexpr (D == B) refuse_unseen_overlap(nodes, model);
   print_symmetry(hierarchy.finest().mirrors);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);

@@ -27,17 +27,12 @@ constexpr double nearly_across = 0.985;
 /// Where the bodies of an obstacle overlap most at the start, with what its option `gap` adds to their distance. What
 /// is deep is known by the nearest faces; how far `gap` presses bodies that are apart, by the pairs.
 template <int D>
-Overlap<D> start_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides, double t,
-                         const DeepestOverlap<D>& of_pairs) {
-  const auto added = [&](const Point<D>& place, Index slave_face) {
-    Point<D> normal = area_normal(mesh, mesh.boundary[slave_face]);
-    normalise(normal);
-    return added_gap<D>(term, place, normal);
-  };
-  const auto overlap = overlap_of_sides<D>(mesh, term, sides, t, mesh.points, added);
+Overlap<D> deepest_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides, double t,
+                           const DeepestOverlap<D>& of_pairs) {
+  const auto overlap = start_overlap<D>(mesh, term, sides, t);
   if (of_pairs.slave_face < 0) return overlap.value_or(Overlap<D>{});
   const Index face = sides.slave[of_pairs.slave_face];
-  const bool pressed = added(of_pairs.place, face) < 0;
+  const bool pressed = added_on_face<D>(mesh, term, of_pairs.place, face) < 0;
   if (!overlap || (pressed && of_pairs.depth > overlap->depth)) return {of_pairs.depth, of_pairs.place, face};
   return *overlap;
 }
@@ -74,7 +69,7 @@ class Coupler {
     const MortarCoupling<D> found =
         couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
     if (shift_.empty() && !term.resolve)
-      refuse_deep<D>(mesh, term, start_overlap<D>(mesh, term, faces, model_.t, found.deepest));
+      refuse_deep<D>(mesh, term, deepest_overlap<D>(mesh, term, faces, model_.t, found.deepest));
     const std::size_t before = rows_.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
     if (found.nodes() > 0 && rows_.size() == before)

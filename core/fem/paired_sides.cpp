@@ -10,6 +10,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/added_gap.hpp"
+#include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/join.hpp"
 
@@ -22,6 +23,8 @@ constexpr double rounding = 1e-6;
 constexpr double along_normal = 2;
 /// Depths of less than this part of the mesh are rounding.
 constexpr double no_depth = 1e-9;
+/// And overlaps of less than this part of a face's length.
+constexpr double no_overlap = 1e-6;
 
 template <int D>
 std::vector<std::array<Index, D>> corners(const Mesh<D>& mesh, const std::vector<Index>& faces) {
@@ -98,6 +101,40 @@ std::optional<Overlap<D>> overlap_of_sides(const Mesh<D>& mesh, const ObstacleTe
 }
 
 template <int D>
+double added_on_face(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Point<D>& place, Index slave_face) {
+  Point<D> normal = area_normal(mesh, mesh.boundary[slave_face]);
+  normalise(normal);
+  return added_gap<D>(term, place, normal);
+}
+
+template <int D>
+std::optional<Overlap<D>> start_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides,
+                                        double t) {
+  return overlap_of_sides<D>(mesh, term, sides, t, mesh.points, [&](const Point<D>& place, Index slave_face) {
+    return added_on_face<D>(mesh, term, place, slave_face);
+  });
+}
+
+template <int D>
+void refuse_unseen_overlap(const Nodes<D>& nodes, const Model<D>& model) {
+  const Mesh<D>& mesh = nodes.mesh();
+  for (const ObstacleTerm<D>& term : model.obstacles) {
+    if (!term.other) continue;
+    const PairedFaces faces = paired_faces(mesh, term, model.t);
+    const auto start = start_overlap(mesh, term, faces, model.t);
+    if (!start || start->slave_face < 0) continue;
+    if (start->depth <= no_overlap * longest_edge(mesh, mesh.boundary[start->slave_face])) continue;
+    if (couple_sides<D>(nodes, model, term, faces.slave, faces.master).deepest.slave_face >= 0) continue;
+    input_error(
+        term.origin,
+        fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), and no faces there are opposite to "
+                    "each other: nothing would keep one out of the other; expected bodies apart from each "
+                    "other, or the faces that meet there ('on', 'other_on')",
+                    start->depth, fmt::join(start->place, ", ")));
+  }
+}
+
+template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                const std::vector<Index>& slave, const std::vector<Index>& master,
                                std::span<const Point<D>> points) {
@@ -169,6 +206,12 @@ double longest_edge(const Mesh<D>& mesh, const Face<D>& face) {
   return std::sqrt(square);
 }
 
+template double added_on_face<2>(const Mesh<2>&, const ObstacleTerm<2>&, const Point<2>&, Index);
+template double added_on_face<3>(const Mesh<3>&, const ObstacleTerm<3>&, const Point<3>&, Index);
+template std::optional<Overlap<2>> start_overlap(const Mesh<2>&, const ObstacleTerm<2>&, const PairedFaces&, double);
+template std::optional<Overlap<3>> start_overlap(const Mesh<3>&, const ObstacleTerm<3>&, const PairedFaces&, double);
+template void refuse_unseen_overlap(const Nodes<2>&, const Model<2>&);
+template void refuse_unseen_overlap(const Nodes<3>&, const Model<3>&);
 template MortarCoupling<2> couple_displaced(const Nodes<2>&, const Model<2>&, Index, const std::vector<double>&);
 template MortarCoupling<3> couple_displaced(const Nodes<3>&, const Model<3>&, Index, const std::vector<double>&);
 template const FixedDirections<2>* fixed_at(const std::vector<FixedDirections<2>>&, Index);

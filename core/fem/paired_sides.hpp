@@ -36,6 +36,15 @@ std::optional<Overlap<D>> overlap_of_sides(const Mesh<D>& mesh, const ObstacleTe
                                            double t, std::span<const Point<D>> points,
                                            const std::function<double(const Point<D>&, Index)>& added = {});
 
+/// The same at the start, less what the obstacle adds to their distance.
+template <int D>
+std::optional<Overlap<D>> start_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides,
+                                        double t);
+
+/// What the obstacle adds to the distance of the bodies at a place of one of the slave's faces.
+template <int D>
+double added_on_face(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Point<D>& place, Index slave_face);
+
 /// The sides of one of a model's obstacles between two bodies, coupled. They see each other from anywhere, but not
 /// through a body, as a face and the one on its back would: not deeper than the bodies overlap, two of one body not
 /// deeper than an element of the coarsest mesh. Its nodes are vertices of the mesh.
@@ -44,6 +53,12 @@ template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                const std::vector<Index>& slave, const std::vector<Index>& master,
                                std::span<const Point<D>> points = {});
+
+/// Error(Exit::input) for bodies that overlap at the start, and of which no faces see that: they would pass through
+/// each other.
+/// @param nodes of the finest mesh: on coarser ones chords may overlap
+template <int D>
+void refuse_unseen_overlap(const Nodes<D>& nodes, const Model<D>& model);
 
 /// The vertices of the mesh displaced by u, D per node.
 template <int D>
