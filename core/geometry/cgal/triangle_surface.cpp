@@ -6,6 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Mesh_3/Robust_intersection_traits_3.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "core/geometry/cgal/checks.hpp"
 #include "core/mesh/simplex.hpp"
@@ -119,10 +121,92 @@ class Approach {
 
 }  // namespace
 
+namespace {
+
+/// A connected part of a closed surface, oriented outwards.
+class Shell {
+ public:
+  Shell(const SurfaceMesh& whole, const std::vector<SurfaceMesh::Face_index>& faces) {
+    std::map<SurfaceMesh::Vertex_index, SurfaceMesh::Vertex_index> own;
+    for (const auto f : faces) {
+      std::vector<SurfaceMesh::Vertex_index> corners;
+      for (const auto v : whole.vertices_around_face(whole.halfedge(f))) {
+        if (!own.contains(v)) own[v] = mesh_.add_vertex(whole.point(v));
+        corners.push_back(own[v]);
+      }
+      mesh_.add_face(corners);
+    }
+    tree_.insert(mesh_.faces_begin(), mesh_.faces_end(), mesh_);
+    tree_.build();
+    box_ = tree_.bbox();
+    side_.emplace(tree_);
+  }
+
+  bool may_meet(const Shell& other) const { return CGAL::do_overlap(box_, other.box_); }
+  bool holds(const Kernel::Point_3& p) const { return (*side_)(p) == CGAL::ON_BOUNDED_SIDE; }
+  /// Whether all of another one is inside. It may touch this one.
+  bool holds(const Shell& other) const {
+    bool any = false;
+    for (const auto v : other.mesh_.vertices()) {
+      const auto where = (*side_)(other.mesh_.point(v));
+      if (where == CGAL::ON_UNBOUNDED_SIDE) return false;
+      any = any || where == CGAL::ON_BOUNDED_SIDE;
+    }
+    return any;
+  }
+
+  int sign = 1;  ///< -1: it bounds a cavity
+
+ private:
+  SurfaceMesh mesh_;
+  AABBTree tree_;
+  CGAL::Bbox_3 box_;
+  std::optional<Side> side_;
+};
+
+using Shells = std::vector<std::unique_ptr<Shell>>;
+
+/// Orients each connected part of a closed surface by what is inside it: outwards, those within others inwards,
+/// outwards, and so on in turns. Parts that cross each other bound what is inside of any.
+/// @return the parts; none where no two of their boxes overlap
+Shells orient_outwards(SurfaceMesh& mesh) {
+  const auto part = mesh.add_property_map<SurfaceMesh::Face_index, std::size_t>("f:part").first;
+  std::vector<std::vector<SurfaceMesh::Face_index>> faces(PMP::connected_components(mesh, part));
+  for (const auto f : mesh.faces()) faces[part[f]].push_back(f);
+  for (const auto& of_part : faces) {
+    double volume = 0;
+    const Kernel::Point_3 origin = mesh.point(mesh.target(mesh.halfedge(of_part[0])));
+    for (const auto f : of_part) {
+      std::array<Kernel::Vector_3, 3> corner;
+      auto h = mesh.halfedge(f);
+      for (auto& x : corner) x = mesh.point(mesh.target(h)) - origin, h = mesh.next(h);
+      volume += CGAL::determinant(corner[0], corner[1], corner[2]);
+    }
+    if (volume < 0) PMP::reverse_face_orientations(of_part, mesh);
+  }
+  Shells shells;
+  if (faces.size() == 1) return shells;
+  for (const auto& of_part : faces) shells.push_back(std::make_unique<Shell>(mesh, of_part));
+  bool meet = false;
+  for (std::size_t i = 0; i < shells.size(); ++i)
+    for (std::size_t k = 0; k < shells.size(); ++k) {
+      if (i == k || !shells[i]->may_meet(*shells[k])) continue;
+      meet = true;
+      if (shells[k]->holds(*shells[i])) shells[i]->sign = -shells[i]->sign;
+    }
+  for (std::size_t i = 0; i < shells.size(); ++i)
+    if (shells[i]->sign < 0) PMP::reverse_face_orientations(faces[i], mesh);
+  if (!meet) shells.clear();
+  return shells;
+}
+
+}  // namespace
+
 struct TriangleSurface::Tree {
   SurfaceMesh mesh;
   AABBTree aabb;
   std::optional<Side> side;
+  Shells shells;  // none: `side` tells the inside
 };
 
 TriangleSurface::TriangleSurface(const std::string& file, Coordinates coordinates)
@@ -138,7 +222,7 @@ TriangleSurface::TriangleSurface(const std::string& file, Coordinates coordinate
   for (const auto v : mesh.vertices()) mesh.point(v) = cgal(points_[v.idx()]);
   if (!PMP::triangulate_faces(mesh)) input_error(file, "a face cannot be divided into triangles; expected triangles");
   closed_ = CGAL::is_closed(mesh);
-  if (closed_) PMP::orient_to_bound_a_volume(mesh);
+  if (closed_) tree_->shells = orient_outwards(mesh);
 
   for (const auto f : mesh.faces()) {
     auto& triangle = triangles_.emplace_back();
@@ -185,7 +269,13 @@ std::optional<std::pair<Index, Index>> TriangleSurface::self_intersection() cons
   return std::pair(static_cast<Index>(pairs[0].first), static_cast<Index>(pairs[0].second));
 }
 
-bool TriangleSurface::inside(const Point<3>& p) const { return (*tree_->side)(cgal(p)) == CGAL::ON_BOUNDED_SIDE; }
+// As often as outer shells around it outnumber cavities: not by the number of shells alone, which may overlap.
+bool TriangleSurface::inside(const Point<3>& p) const {
+  if (tree_->shells.empty()) return (*tree_->side)(cgal(p)) == CGAL::ON_BOUNDED_SIDE;
+  int times = 0;
+  for (const auto& shell : tree_->shells) times += shell->holds(cgal(p)) ? shell->sign : 0;
+  return times > 0;
+}
 
 std::optional<Point<3>> TriangleSurface::crossing(const Point<3>& a, const Point<3>& b) const {
   if (a == b) return {};

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <thread>
@@ -86,6 +87,113 @@ TEST(Surface, InsideOfAHollowCubeIsItsMaterial) {
   EXPECT_NEAR(at(*surface, {0, 0, 0.5}).value, 0.5, 1e-15);
   EXPECT_NEAR(at(*surface, {0, 0, 1.25}).value, -0.25, 1e-15);
   EXPECT_THAT(at(*surface, {0, 0, 1.25}).normal, testing::ElementsAre(0, 0, -1));
+}
+
+/// The box [low, high].
+Surface box_between(const Point<3>& low, const Point<3>& high) {
+  Surface s = cube(0, 1);
+  for (auto& p : s.points)
+    for (std::size_t k = 0; k < 3; ++k) p[k] = low[k] + p[k] * (high[k] - low[k]);
+  return s;
+}
+
+double box_distance(Point<3> p, const Point<3>& low, const Point<3>& high) {
+  for (std::size_t k = 0; k < 3; ++k) p[k] = (2 * p[k] - low[k] - high[k]) / (high[k] - low[k]);
+  for (std::size_t k = 0; k < 3; ++k) p[k] = (std::abs(p[k]) - 1) * (high[k] - low[k]) / 2;
+  const double outside = std::hypot(std::max(p[0], 0.0), std::max(p[1], 0.0), std::max(p[2], 0.0));
+  return outside > 0 ? outside : *std::ranges::max_element(p);
+}
+
+// A bar that ends in a block, passes through it, or ends flush with it: however they cross, and whichever way they are
+// oriented, what is inside of either is inside.
+TEST(Surface, ShellsThatCrossBoundWhatIsInsideOfAny) {
+  struct Box {
+    Point<3> low, high;
+  };
+  const Box block{{-1, -1, -1}, {1, 1, 1}};
+  for (const Box& bar : {Box{{-0.3, -0.2, 0.5}, {0.2, 0.3, 3}}, Box{{-0.3, -0.2, -3}, {0.2, 0.3, 3}},
+                         Box{{-0.3, -0.2, -1}, {0.2, 0.3, 3}}, Box{{-2, -0.2, 0.5}, {2, 0.3, 3}},
+                         Box{{-2, -1, 0.5}, {2, 1, 3}}, Box{{0.5, 0.5, -2}, {2, 2, 2}}})
+    for (const bool turned : {false, true}) {
+      Surface both = turned ? box_between(block.low, block.high).reversed() : box_between(block.low, block.high);
+      both.add(box_between(bar.low, bar.high));
+      const auto surface = engine().surface(TemporaryFile("both.off", both.off()).path());
+      for (const Point<3>& p : random_points(-4, 4, 500)) {
+        const double expected = std::min(box_distance(p, block.low, block.high), box_distance(p, bar.low, bar.high));
+        const double found = at(*surface, p).value;
+        EXPECT_EQ(found > 0, expected > 0) << p[0] << ' ' << p[1] << ' ' << p[2];
+        if (expected > 0) {
+          EXPECT_NEAR(found, expected, 1e-14);
+        }
+      }
+    }
+}
+
+// A bar that is a little thicker at one end than at the other, whose end is inside a cone.
+TEST(Surface, AnArrowIsInsideItsShaft) {
+  for (const double thicker : {-0.001, 0.0, 0.001}) {
+    Surface arrow;
+    const int n = 10;
+    const auto ring = [&](double y, double radius, double turn) {
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * (i + turn) / n;
+        arrow.points.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+      }
+    };
+    ring(9.45, 0.5, 0.03);
+    arrow.points.insert(arrow.points.end(), {{0, 9.45, 0}, {0, 10.45, 0}});
+    ring(0, 0.2, 0);
+    ring(9.7, 0.2 + thicker, 0);
+    arrow.points.insert(arrow.points.end(), {{0, 0, 0}, {0, 9.7, 0}});
+    const int first = n + 2, second = first + n, last = second + n;
+    for (int i = 0, k = 1; i < n; ++i, k = (i + 1) % n) {
+      arrow.triangles.push_back({i, n + 1, k});
+      arrow.triangles.push_back({i, k, n});
+      arrow.triangles.push_back({first + i, second + i, second + k});
+      arrow.triangles.push_back({first + i, second + k, first + k});
+      arrow.triangles.push_back({last, first + i, first + k});
+      arrow.triangles.push_back({last + 1, second + k, second + i});
+    }
+    const auto surface = engine().surface(TemporaryFile("arrow.off", arrow.off()).path());
+    EXPECT_NEAR(at(*surface, {0.201, 5, 0}).value, 0.001, 0.001);
+    EXPECT_LT(at(*surface, {0, 5, 0}).value, -0.18);
+    EXPECT_LT(at(*surface, {0, 9.6, 0}).value, 0);
+    EXPECT_GT(at(*surface, {0.4, 9.4, 0}).value, 0);
+  }
+}
+
+// A spike into a block, up to its other side, or a cavity that touches the wall by a tip.
+TEST(Surface, WhatTouchesItsOwnWallKeepsItsInside) {
+  Surface spiked = cube(-1, 1);
+  spiked.triangles.erase(spiked.triangles.begin() + 2, spiked.triangles.begin() + 4);
+  spiked.points.push_back({0, 0.1, -1});
+  for (const auto& [a, b] : {std::pair(4, 5), std::pair(5, 7), std::pair(7, 6), std::pair(6, 4)})
+    spiked.triangles.push_back({a, b, 8});
+  Surface hollow = cube(-1, 1);
+  Surface cavity;
+  for (const auto& p : {Point<3>{0.5, 0, 0}, Point<3>{-0.5, 0, 0}, Point<3>{0, 0.5, 0}, Point<3>{0, -0.5, 0},
+                        Point<3>{0, 0.1, 1}, Point<3>{0, 0, -0.5}})
+    cavity.points.push_back(p);
+  cavity.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  hollow.add(cavity);
+  const auto in_spike = engine().surface(TemporaryFile("spiked.off", spiked.off()).path());
+  EXPECT_GT(at(*in_spike, {0, 0, 0.9}).value, 0);
+  EXPECT_LT(at(*in_spike, {0.9, 0.9, -0.9}).value, 0);
+  EXPECT_GT(at(*in_spike, {1.5, 0, 0}).value, 0);
+  const auto in_hollow = engine().surface(TemporaryFile("hollow.off", hollow.off()).path());
+  EXPECT_GT(at(*in_hollow, {0, 0, 0}).value, 0);
+  EXPECT_LT(at(*in_hollow, {0.9, 0.9, 0.9}).value, 0);
+  EXPECT_GT(at(*in_hollow, {1.5, 0, 0}).value, 0);
+}
+
+// A block in a cavity of a block.
+TEST(Surface, ShellsWithinEachOtherAreInTurns) {
+  Surface nested = cube(-1, 1);
+  nested.add(cube(-3, 3)).add(cube(-2, 2));
+  const auto surface = engine().surface(TemporaryFile("nested.off", nested.off()).path());
+  for (const auto& [x, expected] :
+       {std::pair(0.5, -0.5), std::pair(1.25, 0.25), std::pair(2.25, -0.25), std::pair(3.25, 0.25)})
+    EXPECT_NEAR(at(*surface, {x, 0, 0}).value, expected, 1e-14);
 }
 
 /// An open roof with the ridge x = 0, z = 0, its faces oriented upwards: z = slope |x|, a valley or a ridge.
