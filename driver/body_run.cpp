@@ -17,6 +17,7 @@
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
 #include "driver/problem.hpp"
+#include "driver/strain_warnings.hpp"
 #include "driver/touching_bodies.hpp"
 
 namespace signorini {
@@ -84,7 +85,10 @@ template <int D, int B>
 void BodyRun<D, B>::add_result_warnings(const Report& report, std::vector<std::string>& warnings) const {
   append(warnings, apart_warnings(scene_, body_, report, results_));
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
-  if constexpr (D == B) append(warnings, turn_warnings(model_, nodes(), results_.u));
+  if constexpr (D == B) {
+    append(warnings, turn_warnings(model_, nodes(), results_.u));
+    append(warnings, strain_warnings(model_, strains(nodes(), model_, results_.u)));
+  }
 }
 
 template <int D, int B>
@@ -199,6 +203,11 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, std::vector<std::string>& 
   Solution<B> solution = solve(model_, step);
   const Stopwatch watch;
   results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_, solver_.shift());
+  if constexpr (D == B)
+    if (solution.summary.converged()) {
+      refuse_pulling(nodes(), model_, results_.contact);
+      refuse_folded(Nodes(hierarchy_.levels.front()), model_, strains(nodes(), model_, results_.u));
+    }
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty())

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "core/base/dot.hpp"
+#include "core/base/error.hpp"
 #include "core/fem/mean_turn.hpp"
 #include "core/fem/paired_sides.hpp"
+#include "core/fem/select.hpp"
 #include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
 #include "core/mesh/connected.hpp"
@@ -82,6 +84,31 @@ std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& m
   return warnings;
 }
 
+template <int D>
+void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact) {
+  for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
+    const ObstacleTerm<D>& term = model.obstacles[k];
+    if (!term.shape) continue;
+    const Surface<D> faces = term.on ? surface(nodes, select_faces(nodes.mesh(), *term.on, model.t)) : surface(nodes);
+    const std::vector<Point<D>> normals = node_normals(nodes, faces);
+    double pulls = 0, presses = 0;
+    for (const ContactNode<D>& node : contact.nodes) {
+      const auto at = std::ranges::lower_bound(faces.nodes, node.vertex);
+      if (!node.contact || !std::cmp_equal(node.obstacle, k) || at == faces.nodes.end() || *at != node.vertex) continue;
+      const double outwards = dot(node.force, node.direction) *
+                              dot(node.direction, normals[static_cast<std::size_t>(at - faces.nodes.begin())]);
+      (outwards > 0 ? pulls : presses) += std::abs(outwards);
+    }
+    if (pulls > presses)
+      input_error(
+          term.origin,
+          fmt::format("the obstacle would pull at the faces on which it acts, by {:.3g}, and not press on them: "
+                      "it lies on the wrong side of these; expected its normal the other way round (of a "
+                      "surface file the triangles' orientation), or other faces",
+                      pulls));
+  }
+}
+
 template <int D, int B>
 std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
   std::vector<std::string> warnings;
@@ -119,14 +146,16 @@ std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, co
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto touches = [&](const StepReport& step) { return step.contact[numbers[k]].nodes > 0; };
     if (std::ranges::any_of(report.steps, touches)) continue;
-    double least = std::numeric_limits<double>::infinity();  // where no face is in front of another one
-    for (const ContactNode<B>& node : results.masters)
+    const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
+    const bool paired = !obstacle.other.empty();
+    double least = infinity;  // where nothing is in front of anything
+    for (const ContactNode<B>& node : paired ? results.masters : results.contact.nodes)
       if (std::cmp_equal(node.obstacle, k)) least = std::min(least, node.gap);
     if (!std::isfinite(least)) continue;
-    const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
-    warnings.push_back(
-        fmt::format("{}: '{}' and '{}' never touch; at the end a distance of {:.3g} is left between them",
-                    obstacle.source.table, obstacle.body, obstacle.other, least));
+    warnings.push_back(fmt::format(
+        "{}: '{}' {}; at the end a distance of {:.3g} is left between them", obstacle.source.table, obstacle.body,
+        paired ? fmt::format("and '{}' never touch", obstacle.other) : std::string("and the obstacle never touch"),
+        least));
   }
   return warnings;
 }
@@ -200,6 +229,8 @@ std::vector<std::string> turn_warnings(const Model<D>& model, const Nodes<D>& no
                   0.5 * largest * largest)};
 }
 
+template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&);
+template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&);
 template std::vector<std::string> turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);
 template std::vector<std::string> turn_warnings(const Model<3>&, const Nodes<3>&, const std::vector<double>&);
 

@@ -12,11 +12,16 @@ namespace signorini {
 template <int D, int B>
 std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere = false);
 
+/// Error(Exit::input) for a rigid obstacle that acts outwards on the faces that it may touch: it lies on the wrong
+/// side.
+template <int D>
+void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact);
+
 /// Obstacles between two bodies of which no face of one is in front of the other one's: nothing happens there.
 template <int D, int B>
 std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model);
 
-/// Bodies that face each other, and that no step brings together.
+/// Bodies and obstacles that face each other, and that no step brings together.
 template <int D, int B>
 std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, const Report& report,
                                         const Results<D, B>& results);

@@ -1,0 +1,69 @@
+#include "driver/contact_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/scenes/tables.hpp"
+#include "core/base/error.hpp"
+#include "driver/driver.hpp"
+
+namespace signorini::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> warnings(const std::string& text) {
+  Driver driver(parse_scene(text, "test.toml", "."));
+  EXPECT_TRUE(driver.solve().converged());
+  return driver.report().warnings;
+}
+
+// An obstacle that is never touched is named, with the smallest distance that is left.
+TEST(ApartWarnings, name_rigid_obstacles) {
+  const auto block = [](double by) {
+    return warnings(tables::block("block", "[0, 0]", "[1, 1]", "[2, 2]") +
+                    tables::fix("block", "top", fmt::format("[0, {}]", -by)) +
+                    tables::plane("block", "bottom", "[0, -0.03]", "[0, 1]"));
+  };
+  const auto apart = [](const std::string& distance) {
+    return Contains(
+        AllOf(HasSubstr("obstacle.0: 'block' and the obstacle never touch"), HasSubstr(distance + " is left")));
+  };
+  EXPECT_THAT(block(0.01), apart("0.02"));
+  EXPECT_THAT(block(-0.01), apart("0.04"));
+  EXPECT_THAT(block(0.04), Not(Contains(HasSubstr("never touch"))));
+}
+
+// A plane whose normal is reversed draws the body to it: nothing says that by the forces' balance or their size.
+TEST(Pulling, obstacles_on_the_wrong_side_are_refused) {
+  const auto solve = [](const std::string& normal) {
+    Driver(parse_scene(tables::block("block", "[0, 0]", "[1, 1]", "[2, 2]") + tables::fix("block", "top", "[0, 0]") +
+                           tables::plane("block", "bottom", "['0.02*t', -0.001]", normal),
+                       "test.toml", "."))
+        .solve();
+  };
+  solve("[0, 1]");
+  try {
+    solve("[0, -1]");
+    ADD_FAILURE() << "not refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Exit::input);
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("obstacle.0"), HasSubstr("would pull at the faces")));
+  }
+}
+
+TEST(ApartWarnings, name_obstacles_of_scalars) {
+  const auto membrane = [](const char* load) {
+    return warnings(tables::block("membrane", "[0, 0]", "[1, 1]", "[4, 4]", "equation = 'diffusion'\n") +
+                    tables::fix("membrane", "boundary", "0") + tables::load("membrane", load) +
+                    tables::floor("membrane", "-0.05"));
+  };
+  EXPECT_THAT(membrane("-0.1"), Contains(HasSubstr("'membrane' and the obstacle never touch")));
+  EXPECT_THAT(membrane("-10"), Not(Contains(HasSubstr("never touch"))));
+}
+
+}  // namespace
+}  // namespace signorini::test
