@@ -202,7 +202,7 @@ TEST_F(Steps, BothWaysToListThemAreRefused) {
   write("block.toml", block);
   const Ended ended = signorini({"solve", "block.toml", "--set", "steps.count=2"});
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.err, HasSubstr("block.toml:29: steps.at: both 'at' and 'count' (--set steps.count=2)"));
+  EXPECT_THAT(ended.err, HasSubstr("block.toml:30: steps.at: both 'at' and 'count' (--set steps.count=2)"));
 }
 
 // A force that turns round is seen to do so, one that turns sideways has its size.

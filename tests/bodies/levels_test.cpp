@@ -8,10 +8,10 @@ namespace {
 /// A half disk pushed into a block.
 std::string disk_on_block(double push, const std::string& more, const std::string& type = "elastic",
                           const std::string& of_pair = "", int order = 1) {
-  const std::string elements = fmt::format("order = {}\n", order);
+  const std::string elastic = material(1, 0.3, order);
   return "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\nsize = \"0.02 + 0.3 * "
          "sqrt(x^2 + y^2)\"\n" +
-         elements + material(1) + tables::block("block", "[-1, -1]", "[1, 0]", "[32, 16]", elements + material(1)) +
+         elastic + tables::block("block", "[-1, -1]", "[1, 0]", "[32, 16]", elastic) +
          tables::fix("disk", "flat", fmt::format("[0, {}]", -push)) + tables::fix("block", "bottom", "[0, 0]") +
          pair("disk", "curved", "block", "top", of_pair, type) + more;
 }

@@ -286,13 +286,11 @@ class RoundBodies : public Folder {};
 // presses keeps its contact where the solution is moved along such motions.
 TEST_F(RoundBodies, KeepTheirContactWhereTheyMayTurn) {
   const std::string ring =
-      sector(folder_, "ring", {.inner = 1, .outer = 2, .along_radius = 4, .around = 24}, material(3, 0.25)) +
-      "order = 2\n";
+      sector(folder_, "ring", {.inner = 1, .outer = 2, .along_radius = 4, .around = 24}, material(3, 0.25, 2));
   const auto disk = [](double radius) {
-    return fmt::format(
-               "[[body]]\nname = \"disk\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = {}\nsize = 0.2\norder = 2\n",
-               radius) +
-           material(1);
+    return fmt::format("[[body]]\nname = \"disk\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = {}\nsize = 0.2\n",
+                       radius) +
+           material(1, 0.3, 2);
   };
   const auto report = [](const std::string& text) {
     Driver driver(scene_of(text + "[refine]\nuniform = 2\n"));

@@ -18,8 +18,8 @@ inline std::string pair(const std::string& body, const std::string& on, const st
                      type, body, on, other, other_on, more);
 }
 
-inline std::string material(double young, double poisson = 0.3) {
-  return fmt::format("order = 1\nyoung = {}\npoisson = {}\n", young, poisson);
+inline std::string material(double young, double poisson = 0.3, int order = 1) {
+  return fmt::format("order = {}\nyoung = {}\npoisson = {}\n", order, young, poisson);
 }
 
 inline Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml", "."); }

@@ -19,9 +19,10 @@ const std::string material = "young = 1\npoisson = 0.3\n";
 
 /// @param body all keys of a beam along x but for its name
 StepReport bent(const std::string& body, int dimension) {
-  const std::string zeros = dimension == 2 ? "[0, 0]" : "[0, 0, 0]";
-  const std::string down = fmt::format(dimension == 2 ? "[0, -{}]" : "[0, 0, -{}]", load);
-  const std::string tip = fmt::format(dimension == 2 ? "[{}, 0.5]" : "[{}, 0.5, 0.5]", length);
+  const bool plane = dimension == 2;
+  const std::string zeros = plane ? "[0, 0]" : "[0, 0, 0]";
+  const std::string down = plane ? fmt::format("[0, -{}]", load) : fmt::format("[0, 0, -{}]", load);
+  const std::string tip = plane ? fmt::format("[{}, 0.5]", length) : fmt::format("[{}, 0.5, 0.5]", length);
   Driver driver(parse_scene("[[body]]\nname = \"b\"\n" + body +
                                 "[[fix]]\nbody = \"b\"\nwhere = \"x < 1e-9\"\nvalue = " + zeros + "\n" +
                                 fmt::format("[[load]]\nbody = \"b\"\nwhere = \"x > {} - 1e-9\"\nvalue = ", length) +
@@ -33,9 +34,9 @@ StepReport bent(const std::string& body, int dimension) {
 double tip(const StepReport& step) { return -step.probes.at(0).value.back(); }
 
 const std::string flat = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [10, 1]\ncells = [20, 2]\n",
-                  thick = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [10, 1, 1]\ncells = [10, 1, 1]\n";
+                  thick = "shape = \"box\"\nfrom = [0, 0, 0]\nto = [10, 1, 1]\ncells = [16, 2, 2]\n";
 
-// Linear elements on the same meshes are a third to three times too stiff.
+// Linear elements on the same meshes are about twice too stiff.
 TEST(DefaultElements, BeamsBendAsTheoryHasIt) {
   const double stress = deflection(1, 0.3), strain = deflection(1 / (1 - 0.09), 0.3);
   const StepReport plane = bent(flat + "plane = \"stress\"\n" + material, 2);
@@ -44,9 +45,9 @@ TEST(DefaultElements, BeamsBendAsTheoryHasIt) {
   EXPECT_NEAR(tip(plane), stress, 0.01 * stress);
   EXPECT_NEAR(tip(bent(flat + material, 2)), strain, 0.01 * strain);
   EXPECT_NEAR(tip(bent(thick + material, 3)), stress, 0.02 * stress);
-  EXPECT_LT(tip(bent(flat + "order = 1\n" + material, 2)), 0.7 * strain);
+  EXPECT_LT(tip(bent(flat + "order = 1\n" + material, 2)), 0.6 * strain);
   const StepReport linear = bent(thick + "order = 1\n" + material, 3);
-  EXPECT_LT(tip(linear), 0.35 * stress);
+  EXPECT_LT(tip(linear), 0.6 * stress);
   EXPECT_EQ(linear.bodies.at(0).order, 1);
   EXPECT_FALSE(linear.bodies.at(0).order_chosen);
 }
@@ -58,13 +59,13 @@ TEST(DefaultElements, OfMeshesOfFirstOrderAreQuadraticToo) {
   };
   const double stress = deflection(1, 0.3), strain = deflection(1 / (1 - 0.09), 0.3);
   EXPECT_NEAR(tip(bent(beam(rectangle({0, 0}, {10, 1}, {20, 2})) + material, 2)), strain, 0.01 * strain);
-  EXPECT_NEAR(tip(bent(beam(box({0, 0, 0}, {10, 1, 1}, {10, 1, 1})) + material, 3)), stress, 0.02 * stress);
+  EXPECT_NEAR(tip(bent(beam(box({0, 0, 0}, {10, 1, 1}, {16, 2, 2})) + material, 3)), stress, 0.02 * stress);
 }
 
-// Nearly incompressible: bending changes the volume little, but linear elements let nothing change.
+// Nearly incompressible. Half of the difference is the clamped end, which theory lets widen.
 TEST(DefaultElements, BeamsOfRubberBendToo) {
   const double strain = deflection(1 / (1 - 0.499 * 0.499), 0.499);
-  EXPECT_NEAR(tip(bent(flat + "young = 1\npoisson = 0.499\n", 2)), strain, 0.015 * strain);
+  EXPECT_NEAR(tip(bent(flat + "young = 1\npoisson = 0.499\n", 2)), strain, 0.04 * strain);
 }
 
 // A clamped plate under a uniform load, Mindlin's.

@@ -40,7 +40,8 @@ Mesh<2> quarter_ring() {
 /// Under an internal pressure of 0.01 in a rigid bore that leaves it some room.
 SceneText ring_in_bore(const std::string& file, const std::string& keys, double room) {
   return {
-      .body = fmt::format("mesh = \"{}\"\norder = 1\nyoung = 1\npoisson = 0.3\n{}", file, keys),
+      .body = fmt::format("mesh = \"{}\"\n{}young = 1\npoisson = 0.3\n{}", file,
+                          keys.find("order") == std::string::npos ? "order = 1\n" : "", keys),
       .fixes = {"on = \"bottom\"\nvalue = [\"free\", 0]", "on = \"left\"\nvalue = [0, \"free\"]"},
       .loads = {"on = \"inner\"\nvalue = [\"-0.01*nx\", \"-0.01*ny\"]"},
       .obstacle = fmt::format("type = \"contact\"\non = \"outer\"\nshape = \"sphere\"\ncenter = [0, 0]\nradius = {}\n"
