@@ -61,6 +61,8 @@ class BodyRun {
   std::vector<Stress> stress() const;
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return solver_.by_matrix(); }
+  /// See Driver::forget_matrices().
+  void forget_matrices() { solver_.forget_matrices(); }
 
  private:
   Model<B> model(const LoadStep& step) const;

@@ -204,6 +204,10 @@ void Driver::note_failure(const LoadStep& by, const Summary& summary) {
                                          by.number, by.from, by.to, summary.reason));
 }
 
+void Driver::forget_matrices() {
+  for (std::size_t body = 0; body < bodies(); ++body) visit(body, [](auto& run) { run.forget_matrices(); });
+}
+
 void Driver::accept() {
   for (std::size_t body = 0; body < bodies(); ++body) visit(body, [](auto& run) { run.accept(); });
 }

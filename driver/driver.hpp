@@ -45,6 +45,8 @@ class Driver {
   /// interrupt or by an error, which is thrown, the report has those that were finished, and is marked so.
   /// @param done is called after each step or part, when report() and bodies have its results
   const Report& solve(const std::function<void()>& done = {});
+  /// Gives the memory of all matrices back, such as before results are written: the next solve assembles them again.
+  void forget_matrices();
   /// The next solve starts from u: B per vertex of the body's finest mesh, see BodyRun.
   void start_from(std::size_t body, std::vector<double> u);
 

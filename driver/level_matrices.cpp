@@ -20,10 +20,16 @@ bool LevelMatrices<B>::all_products(std::size_t count) const {
 }
 
 template <int B>
-std::span<const GalerkinMatrix<B>> LevelMatrices<B>::products_below(std::size_t level) const {
+std::span<const GalerkinMatrix<B>> LevelMatrices<B>::matrices_below(std::size_t level) const {
   const std::size_t count = number(level);
-  if (galerkin_.size() < count || !all_products(count)) return {};
+  if (galerkin_.size() < count) return {};
   return std::span(galerkin_).first(count).subspan(left_out(level));
+}
+
+template <int B>
+std::span<const GalerkinMatrix<B>> LevelMatrices<B>::products_below(std::size_t level) const {
+  const auto matrices = matrices_below(level);
+  return matrices.empty() || !all_products(number(level)) ? std::span<const GalerkinMatrix<B>>() : matrices;
 }
 
 template <int B>

@@ -28,7 +28,9 @@ class LevelMatrices {
     return std::span(prolongations_).first(number(level)).subspan(left_out(level));
   }
 
-  /// The matrices of the same levels, if all are there and are products; else none.
+  /// The matrices of the same levels, if all are there; else none.
+  std::span<const GalerkinMatrix<B>> matrices_below(std::size_t level) const;
+  /// Likewise, if all of them are products.
   std::span<const GalerkinMatrix<B>> products_below(std::size_t level) const;
   /// The matrix of a mesh, to be given back by share(); null: not there.
   GalerkinMatrix<B>* of(std::size_t level) {

@@ -22,6 +22,7 @@
 #include "driver/mesh_levels.hpp"
 #include "driver/moved_problem.hpp"
 #include "driver/near_null_space.hpp"
+#include "methods/near_start.hpp"
 #include "methods/nested_iteration.hpp"
 #include "methods/solve.hpp"
 
@@ -276,6 +277,13 @@ void NestedSolver<D, B>::take_back(const Model<B>& model, Discretization<B> last
 }
 
 template <int D, int B>
+void NestedSolver<D, B>::forget_matrices() {
+  if (other_) other_->forget_matrices();
+  kept_.assign(kept_.size(), std::nullopt);
+  drop_algebraic_levels();
+}
+
+template <int D, int B>
 void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   if (continued_) return;
   continued_ = true;
@@ -327,15 +335,37 @@ void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& 
   }
 }
 
-/// The start comes from the next coarser mesh, below all meshes from algebraic levels.
+/// The problem on the finest mesh, with the solution of the last step if that is so near that no coarser one is asked.
+/// Where bodies touch, what slides and nearly incompressible material are always begun on the coarsest mesh.
+/// @param solution none: coarser meshes come first in any case
 template <int D, int B>
-Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solution<B>>& solution) {
+  const std::size_t finest = hierarchy_.levels.size() - 1;
+  if (options_.start != "nested" || before_[finest].u.empty() || pairs_.given() || is_paired(model)) return false;
+  solution = discretize_level(model, finest);
+  const DiscreteProblem<B>& problem = solution->discretization.problem;
+  if (changed_[finest] || spaces_[finest] || !solution->discretization.functional.empty()) return false;
+  const auto matrices = matrices_.matrices_below(finest);
+  if (matrices.empty()) return false;
+  const Stopwatch watch;
+  std::vector<double> x = to_local(problem, before_[finest].u);
+  const bool near = is_near(problem, matrices_.below(finest), matrices, x);
+  if (near) solution->x = std::move(x);
+  times_.solve += watch.elapsed();
+  return near;
+}
+
+/// The start comes from the next coarser mesh, below all meshes from algebraic levels.
+/// @param begun what discretize_level() gives, where that is there already
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse,
+                                            std::optional<Solution<B>> begun) {
   if (!coarse.x.empty()) {
     if (level == first_ + 1) narrow_first(model, coarse);
     pair_near_contact(model, level, coarse);
   }
   connect_jumps(level);
-  Solution<B> solution = discretize_level(model, level);
+  Solution<B> solution = begun ? std::move(*begun) : discretize_level(model, level);
   DiscreteProblem<B>& problem = solution.discretization.problem;
   const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
   if (first) continue_algebraically(problem);
@@ -465,10 +495,12 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
   for (LevelSolution<B>& of_level : now_) of_level = {};
   pair_levels(model);
+  std::optional<Solution<B>> begun;
+  const bool near = begin_near(model, begun);
   Solution<B> coarse;
-  if (options_.start == "nested") coarse = solve_coarser_meshes(model);
+  if (options_.start == "nested" && !near) coarse = solve_coarser_meshes(model);
   if (!continued_ && first_ < finest) choose_levels_below(model);
-  Solution<B> solution = begin_level(model, finest, coarse);
+  Solution<B> solution = near ? std::move(*begun) : begin_level(model, finest, coarse, std::move(begun));
   coarse = {};
   if (finest == first_) come_near(model, solution);
   solve_finest(model, solution);

@@ -82,6 +82,9 @@ class NestedSolver {
   /// same; those of coarser levels are kept anyway. Without it the finest level's are assembled again.
   void take_back(const Model<B>& model, Discretization<B> last);
 
+  /// Gives the memory of all matrices back: the next solve assembles them again.
+  void forget_matrices();
+
   /// In the last solve, per obstacle by how much slaves were taken to have moved past masters; empty: not.
   const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
 
@@ -105,7 +108,9 @@ class NestedSolver {
   void come_back();
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
-  Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  bool begin_near(const Model<B>& model, std::optional<Solution<B>>& solution);
+  Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse,
+                          std::optional<Solution<B>> begun = {});
   void start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
   void pair_levels(const Model<B>& model);
   void pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse);

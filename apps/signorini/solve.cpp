@@ -42,6 +42,7 @@ class ResultFiles {
 
   void finish() {
     const Stopwatch watch;
+    driver_.forget_matrices();
     Report& report = driver_.report();
     const bool unwritten = vtu_.steps() < report.steps.size();
     if (scene().output.pictures || unwritten) read_fields();

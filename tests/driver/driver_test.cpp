@@ -92,7 +92,7 @@ TEST(Driver, computes_again_only_what_changed_of_an_elastic_body) {
     SCOPED_TRACE("nothing");
     const int before = driver.report().last().summary.iterations;
     driver.solve();
-    expect_assembled(driver, 0, 0, levels);
+    expect_assembled(driver, 0, 0, 1);  // coarser meshes are not asked
     EXPECT_LT(driver.report().last().summary.iterations, before);
     expect_as_new(driver);
   }
@@ -216,6 +216,53 @@ TEST(Driver, starts_where_it_is_told_to) {
   wrong.back() = NAN;
   EXPECT_THROW(second.start_from(0, wrong), Error);
   EXPECT_EQ(first.points().size(), first.solution().size());
+}
+
+/// Counts cycles, on all levels.
+class Counting : public Progress {
+ public:
+  void cycle(const IterationRecord&) const override { ++cycles; }
+  mutable int cycles = 0;
+};
+
+int cycles_of_next_solve(Driver& driver, const Counting& counting) {
+  counting.cycles = 0;
+  EXPECT_TRUE(driver.solve().converged());
+  return counting.cycles;
+}
+
+// From the last solution, where that is near; coarser meshes and levels by the matrix begin what has changed more.
+TEST(Driver, StartsOnTheFinestMeshWhereLittleHasChanged) {
+  for (const auto& [text, hierarchy] :
+       {std::pair(elastic, "meshes"), std::pair(scalar, "meshes"), std::pair(scalar, "matrix")}) {
+    SCOPED_TRACE((text == elastic ? "elastic, " : "scalar, ") + std::string(hierarchy));
+    const Counting counting;
+    Driver driver(scene_of(text, {std::string("solver.hierarchy=") + hierarchy}), counting);
+    const int first = cycles_of_next_solve(driver, counting);
+    EXPECT_EQ(cycles_of_next_solve(driver, counting), 1);
+    const std::string more = text == elastic ? "[0, 0, -0.02002]" : "\"-2.002 - 1.001 * x\"";
+    driver.scene().loads = scene_of(text, {"load.0.value=" + more}).loads;
+    const int changed = cycles_of_next_solve(driver, counting);
+    EXPECT_LT(changed, first);
+    EXPECT_EQ(changed, driver.report().last().summary.iterations);
+    expect_as_new(driver);
+    driver.scene().loads[0].value.back() = Field(text == elastic ? -0.05 : -3.0);
+    cycles_of_next_solve(driver, counting);
+    expect_as_new(driver);
+  }
+}
+
+TEST(Driver, SolvesAgainAfterItsMatricesAreForgotten) {
+  for (const std::string& text : {elastic, scalar})
+    for (const std::string hierarchy : {"meshes", "matrix"}) {
+      SCOPED_TRACE((text == elastic ? "elastic, " : "scalar, ") + hierarchy);
+      Driver driver(scene_of(text, {"solver.hierarchy=" + hierarchy}));
+      driver.solve();
+      driver.forget_matrices();
+      driver.scene().loads[0].value.back() = Field(text == elastic ? -0.05 : -3.0);
+      driver.solve();
+      expect_as_new(driver);
+    }
 }
 
 /// Ends after so many cycles.
