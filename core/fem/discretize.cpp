@@ -95,6 +95,7 @@ class Discretizer {
     out_.fixes = std::move(fixes_);
     if (B > 1)
       for (const Bound<B>& bound : held_) hold(bound);
+    bounds_ = {};  // of scalar bodies as much as their matrix, which is to come
   }
 
   Discretization<B> discretize() {

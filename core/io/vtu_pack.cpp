@@ -48,21 +48,17 @@ class Packing {
       fast.pack(start, sample);
       const bool shrinks = static_cast<double>(sample.size()) < worthwhile_ * static_cast<double>(start.size());
       (shrinks ? fast : none).pack(block, blocks_[k]);
+      if (shrinks) blocks_[k].shrink_to_fit();
     }
   }
 
-  std::string packed() const {
+  /// The header, then the blocks.
+  std::vector<std::string> pieces() && {
     std::vector<std::uint64_t> header{blocks_.size(), block_size, bytes_.size() % block_size};
-    std::size_t size = (header.size() + blocks_.size()) * sizeof header[0];
-    for (const std::string& block : blocks_) {
-      header.push_back(block.size());
-      size += block.size();
-    }
-    std::string all;
-    all.reserve(size);
-    all.append(reinterpret_cast<const char*>(header.data()), header.size() * sizeof header[0]);
-    for (const std::string& block : blocks_) all += block;
-    return all;
+    for (const std::string& block : blocks_) header.push_back(block.size());
+    blocks_.insert(blocks_.begin(),
+                   std::string(reinterpret_cast<const char*>(header.data()), header.size() * sizeof header[0]));
+    return std::move(blocks_);
   }
 
  private:
@@ -74,10 +70,10 @@ class Packing {
 
 }  // namespace
 
-std::string pack_vtu(std::span<const char> bytes, double worthwhile, Crew& crew) {
+std::vector<std::string> pack_vtu(std::span<const char> bytes, double worthwhile, Crew& crew) {
   Packing packing(bytes, worthwhile);
   crew.run([&] { packing.work(); });
-  return packing.packed();
+  return std::move(packing).pieces();
 }
 
 }  // namespace signorini

@@ -72,13 +72,16 @@ class Arrays {
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
         escaped(name), components, offset_);
     const auto bytes = std::as_bytes(values);
-    packed_.push_back(pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, worthwhile_, crew_));
-    offset_ += packed_.back().size();
+    for (std::string& piece :
+         pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, worthwhile_, crew_)) {
+      offset_ += piece.size();
+      packed_.push_back(std::move(piece));
+    }
     return xml;
   }
 
   void write(std::ostream& out) const {
-    for (const std::string& array : packed_) out.write(array.data(), static_cast<std::streamsize>(array.size()));
+    for (const std::string& piece : packed_) out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
   }
 
  private:

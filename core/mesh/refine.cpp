@@ -360,6 +360,7 @@ MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
     Mesh<D> fine;
     result.refinements.push_back(refine_uniformly(result.levels.back(), fine));
     result.straightened += result.refinements.back().straightened;
+    result.refinements.back().father = {};
     if (k + 1 == uniform) fine.bends = {};
     result.levels.push_back(std::move(fine));
   }
@@ -375,8 +376,8 @@ HierarchySize hierarchy_size(const Mesh<D>& coarsest, int uniform) {
 
   const auto level_bytes = [&] {
     return vertices * (sizeof(Point<D>) + sizeof(Index) + sizeof(Refinement::parents[0])) +
-           elements * (sizeof(Simplex<D>) + sizeof(Refinement::father[0])) + families * sizeof(Family<D>) +
-           boundary * sizeof(Face<D>) + in_parts * sizeof(Index);
+           elements * sizeof(Simplex<D>) + families * sizeof(Family<D>) + boundary * sizeof(Face<D>) +
+           in_parts * sizeof(Index);
   };
   const double bends_per_element = coarsest.bends.empty() ? 0 : sizeof(Bends<D>);
   double bytes = level_bytes();

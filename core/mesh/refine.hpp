@@ -15,7 +15,7 @@ namespace signorini {
 template <int D>
 Refinement refine_uniformly(const Mesh<D>& coarse, Mesh<D>& fine);
 
-/// `coarsest` and `uniform` refinements of it.
+/// `coarsest` and `uniform` refinements of it, of which the fathers of elements are not kept.
 template <int D>
 MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform);
 

@@ -20,22 +20,22 @@ template <int B>
 bool Recombination<B>::propose(const std::vector<double>& x_before, const std::vector<double>& r_before,
                                const std::vector<double>& x, const std::vector<double>& r, double cycle_gain) {
   const std::size_t n = x.size();
-  next_ = (next_ + 1) % (depth + 1);
+  next_ = (next_ + 1) % depth;
   Direction& newest = directions_[next_];
   newest.p.resize(n);
   newest.Ap.resize(n);
   double *p = newest.p.data(), *Ap = newest.Ap.data();
   // What is not known yet counts with the weight zero.
-  const double *p1 = p, *Ap1 = p, *p2 = p, *Ap2 = p;
+  const double *p1 = p, *Ap1 = p;
   double beta1 = 0, beta2 = 0;
   if (known_ > 0) p1 = aged(1).p.data(), Ap1 = aged(1).Ap.data(), beta1 = along_[0] / aged(1).energy;
-  if (known_ > 1) p2 = aged(2).p.data(), Ap2 = aged(2).Ap.data(), beta2 = along_[1] / aged(2).energy;
+  if (known_ > 1) beta2 = along_[1] / newest.energy;  // which is the oldest one until then
   const double *from = x_before.data(), *r_from = r_before.data(), *to = x.data(), *r_to = r.data();
   double force = 0, energy = 0;
 #pragma omp simd reduction(+ : force, energy)
   for (std::size_t i = 0; i < n; ++i) {
-    const double d = to[i] - from[i] - beta1 * p1[i] - beta2 * p2[i];
-    const double Ad = r_from[i] - r_to[i] - beta1 * Ap1[i] - beta2 * Ap2[i];
+    const double d = to[i] - from[i] - beta1 * p1[i] - beta2 * p[i];
+    const double Ad = r_from[i] - r_to[i] - beta1 * Ap1[i] - beta2 * Ap[i];
     p[i] = d;
     Ap[i] = Ad;
     force += d * r_from[i];
@@ -46,7 +46,7 @@ bool Recombination<B>::propose(const std::vector<double>& x_before, const std::v
   newest.beta2 = beta2;
   double noise = 1;  // of the residuals in Ap but for r_before
   if (known_ > 0) noise += std::abs(beta1) * aged(1).noise;
-  if (known_ > 1) noise += std::abs(beta2) * aged(2).noise;
+  if (known_ > 1) noise += std::abs(beta2) * newest.noise;
   newest.noise = noise + carried_;
   step_ = force / energy;
   if (!(energy > 0) || !(0.5 * step_ * force >= cycle_gain)) return false;
@@ -60,15 +60,11 @@ void Recombination<B>::add_residuals(const std::vector<double>& r_before, const 
   Direction& newest = directions_[next_];
   newest.of_residual.resize(r.size());
   double* out = newest.of_residual.data();
-  // Where there is no direction before, its weight is zero.
-  const auto before = [&](int age) {
-    const Direction& other = aged(age);
-    return other.of_residual.empty() ? out : other.of_residual.data();
-  };
-  const double *from = r_before.data(), *to = r.data(), *one = before(1), *two = before(2);
-  std::ranges::fill(newest.of_residual, 0.0);
+  // Where there is no direction before, its weight is zero. The oldest one's part is in the newest one's place.
+  const double *from = r_before.data(), *to = r.data();
+  const double* one = aged(1).of_residual.empty() ? out : aged(1).of_residual.data();
 #pragma omp simd
-  for (std::size_t i = 0; i < r.size(); ++i) out[i] = from[i] - to[i] - newest.beta1 * one[i] - newest.beta2 * two[i];
+  for (std::size_t i = 0; i < r.size(); ++i) out[i] = from[i] - to[i] - newest.beta1 * one[i] - newest.beta2 * out[i];
 }
 
 template <int B>

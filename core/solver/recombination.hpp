@@ -52,10 +52,10 @@ class Recombination {
 
   bool admissible(const std::vector<double>& x, Index first, Index last) const;
   /// 0: the newest one
-  const Direction& aged(int age) const { return directions_[(next_ + depth + 1 - age) % (depth + 1)]; }
+  const Direction& aged(int age) const { return directions_[(next_ + depth - age) % depth]; }
 
   const Constraints<B>& constraints_;
-  std::array<Direction, depth + 1> directions_;  // a ring
+  std::array<Direction, depth> directions_;  // a ring: the newest one takes the place of the oldest
   int known_ = 0, next_ = 0;
   std::array<double, depth> along_{};  // (x - x_before)'Ap of the directions known before the cycle
   double step_ = 0;

@@ -171,7 +171,10 @@ void refine_and_check_flat(const Mesh<D>& coarsest) {
   for (int k = 0; k < 3; ++k) {
     const Mesh<D>&coarse = h.levels[k], &fine = h.levels[k + 1];
     test::expect_consistent(fine);
-    expect_children(coarse, fine, h.refinements[k]);
+    Mesh<D> again;
+    const Refinement refinement = refine_uniformly(coarse, again);
+    expect_children(coarse, again, refinement);
+    EXPECT_TRUE(h.refinements[k].father.empty()) << "nobody asks for them any more";
     expect_families(coarse, fine, h.refinements[k]);
     expect_parents(coarse, fine, h.refinements[k]);
     expect_first_touch_numbering(fine);
