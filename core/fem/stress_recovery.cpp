@@ -107,8 +107,8 @@ class StressRecovery {
       for (Index p = 0; p < nodes_.size(); ++p)
         if (!is_midpoint(p) && chosen(p)) recovered_[p] = at(p);
     };
-    each([this](Index p) { return !boundary_[p] && regular_[p]; });
-    each([this](Index p) { return !boundary_[p] && !regular_[p]; });
+    each([this](Index p) { return own_[p]; });
+    each([this](Index p) { return !boundary_[p] && !own_[p]; });
     each([this](Index p) { return boundary_[p]; });
     for (Index p = 0; p < nodes_.size(); ++p)
       if (is_midpoint(p)) recovered_[p] = seen_[p] == 2 ? mean_of_ends(p) : at(p);
@@ -138,21 +138,36 @@ class StressRecovery {
   }
 
   /// Those inside, on no plane of symmetry nor the axis, with linear elements in a patch that is its own image in them.
+  /// In space other nodes have stresses as good as those of these, but beside planes of symmetry.
   void find_regular() {
     inner_.resize(nodes_.size());
     regular_.resize(nodes_.size());
+    own_.resize(nodes_.size());
     for (Index p = 0; p < nodes_.size(); ++p) {
       inner_[p] = !boundary_[p];
-      regular_[p] = inner_[p] && !mirrored_[p] && (P == 2 || is_own_image(p));
+      const bool usual = inner_[p] && !mirrored_[p];
+      regular_[p] = usual && (P == 2 || (needs_regular() && is_own_image(p)));
+      own_[p] = regular_[p] || (usual && D == 3 && !is_beside_mirror(p));
     }
+  }
+
+  /// Whether some nodes may take theirs from regular ones.
+  bool needs_regular() const { return P == 1 && (D == 2 || !mirrors_.empty()); }
+
+  std::span<const Index> neighbours(Index p) const {
+    return std::span(neighbour_)
+        .subspan(static_cast<std::size_t>(first_neighbour_[p]),
+                 static_cast<std::size_t>(first_neighbour_[p + std::size_t{1}] - first_neighbour_[p]));
+  }
+
+  /// Of one that is on none.
+  bool is_beside_mirror(Index p) const {
+    return std::ranges::any_of(neighbours(p), [this](Index q) { return mirrored_[q]; });
   }
 
   bool is_own_image(Index p) {
     constexpr double same = 0.1;  // of the way to a neighbour; where refinement follows a curve it is a part of h
-    const auto around =
-        std::span(neighbour_)
-            .subspan(static_cast<std::size_t>(first_neighbour_[p]),
-                     static_cast<std::size_t>(first_neighbour_[p + std::size_t{1}] - first_neighbour_[p]));
+    const auto around = neighbours(p);
     return std::ranges::all_of(around, [&](Index q) {
       const Point<D> there = difference<D>(nodes_.at(q), nodes_.at(p));
       return std::ranges::any_of(around, [&](Index other) {
@@ -184,7 +199,7 @@ class StressRecovery {
     const auto elements = around_.at(p);
     if (elements.empty()) return {};
     if (!boundary_[p])
-      if (const auto found = regular_[p] ? inside(p) : from_regular(p)) return *found;
+      if (const auto found = own_[p] ? inside(p) : from_regular(p)) return *found;
     Stress sum{};
     int materials = 0;
     for (auto first = elements.begin(); first != elements.end(); ++first) {
@@ -238,14 +253,13 @@ class StressRecovery {
     const std::size_t last = near_nodes_.size();
     for (; first < last; ++first)
       if (const Index p = near_nodes_[first]; !boundary_[p])
-        for (Offset k = first_neighbour_[p]; k < first_neighbour_[p + std::size_t{1}]; ++k)
-          near_nodes_.add(neighbour_[k]);
+        for (const Index q : neighbours(p)) near_nodes_.add(q);
   }
 
-  /// Of linear elements.
+  /// Of linear elements, where regular nodes are needed.
   void find_neighbours() {
     first_neighbour_.assign(nodes_.size() + std::size_t{1}, 0);
-    for (Index p = 0; P == 1 && p < nodes_.size(); ++p) {
+    for (Index p = 0; needs_regular() && p < nodes_.size(); ++p) {
       near_nodes_.clear();
       for (const Index e : around_.at(p))
         for (const Index q : nodes_.of(elements_[e]))
@@ -350,6 +364,7 @@ class StressRecovery {
   std::vector<Mirror> mirrors_;                     // the axis of a body of revolution among them
   std::vector<char> mirrored_;                      // per node: whether it lies on one
   std::vector<char> inner_, regular_;               // per node: not on the boundary; see find_regular()
+  std::vector<char> own_;                           // likewise: takes its stress from its own elements
   std::vector<Offset> first_neighbour_;             // per node, one more: in neighbour_
   std::vector<Index> neighbour_;                    // nodes that share elements with each, of linear ones
   std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
