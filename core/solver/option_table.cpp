@@ -75,7 +75,9 @@ constexpr OptionRow<S> table[] = {
     {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest", always,
      "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
      "\"Acceleration\"."},
-    {"threads", &S::threads, "[1, 4096]", "threads of the cycles, for large problems, and of packing files; all else uses one, and results do not depend on them",
+    {"threads", &S::threads, "[1, 4096]",
+     "threads of the cycles, for large problems, and of packing files; all else uses one, and results do not depend on "
+     "them",
      always, "Levels of less than some megabytes use one."},
 };
 
