@@ -149,8 +149,8 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
     options.depth = coarsest_length(mesh, slave);
   const std::vector<double> added = added_gaps(nodes, term, slave);
   options.added_gap = added;
-  return couple<D>({points, of_slave, term.origin, nodes.order()}, {points, of_master, term.origin, nodes.order()},
-                   options);
+  return couple<D>({points, of_slave, term.origin, nodes.order(), &mesh, slave},
+                   {points, of_master, term.origin, nodes.order(), &mesh, master}, options);
 }
 
 template <int D>

@@ -7,6 +7,7 @@
 
 #include "core/base/crew.hpp"
 #include "core/base/types.hpp"
+#include "core/mesh/mesh.hpp"
 #include "core/mortar/pairing.hpp"
 
 namespace signorini {
@@ -19,6 +20,9 @@ struct SurfaceFaces {
   std::span<const std::array<Index, D>> faces = {};  ///< by numbers of points, the normal pointing outwards
   std::string_view place = "surface";                ///< what messages call it
   int order = 1;                                     ///< of the elements: 1 or 2
+  /// What the faces stand for: the same ones there, undeformed, by their numbers in its boundary. None: themselves.
+  const Mesh<D>* undeformed = nullptr;
+  std::span<const Index> number = {};
 };
 
 struct CoupleOptions {
@@ -90,6 +94,10 @@ struct MortarCoupling {
 /// basis over what is covered of each slave face (Wohlmuth 2000; Cichosz, Bischoff: Consistent treatment of boundaries
 /// with mortar contact formulations using dual Lagrange multipliers, 2011): rows of M̂ reproduce linear functions on
 /// flat interfaces, overhanging ones included.
+///
+/// Distances and normals are those of the surfaces that faces stand for, shapes and patches, where a mesh says so
+/// (core/mesh/true_surface.hpp): as they are off the undeformed faces they are off those here. Faces see each other
+/// flat.
 ///
 /// Faces pair whose normals are within 60 degrees of opposite; not through the master, out of which the way back from
 /// the slave leads before. Where both surfaces have the same points (the same

@@ -7,11 +7,18 @@
 namespace signorini::mortar {
 namespace {
 
-/// Exact for products of two basis functions, and times the radius.
+/// Exact for products of two basis functions, and times the radius or the distance of curved surfaces.
 template <int K, int P>
-std::span<const QuadraturePoint<K>> rule() {
-  if constexpr (K == 2 && P == 1) return quadrature2<K>();
+std::span<const QuadraturePoint<K>> rule(bool curved) {
+  if (K == 2 && P == 1 && !curved) return quadrature2<K>();
   return quadrature5<K>();
+}
+
+template <int D>
+std::array<double, D> coordinates(const std::array<Affine<D - 1>, D>& shape, const Point<D - 1>& y) {
+  std::array<double, D> out;
+  for (int i = 0; i < D; ++i) out[i] = shape[i](y);
+  return out;
 }
 
 /// By how much a curved element's face is off one of the flat faces that it is made of.
@@ -81,7 +88,7 @@ void FaceIntegrator<D, P>::look(ElementFace<D, P> face, Index child, FaceIntegra
   for (const Segment<D>& segment : finder_.segments()) add_points(segment, face, child, map, scale);
 }
 
-/// Curved faces: seen from their flat parts, distances are those of the curved ones there.
+/// Seen from flat parts of faces, distances are those of the surfaces that these stand for, else of curved elements.
 template <int D, int P>
 void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child,
                                       const ElementMap<D, K, P>& slave, double scale) {
@@ -89,15 +96,16 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
   const auto other = ElementFace<D, P>::with_part(segment.master);
   const Index other_child = segment.master - other.part(0);
   const ElementMap<D, K, P> master = other.map(master_);
+  const Index part = face.part(child);
+  const bool on_surface = slave_.stands_for_surface(part), to_surface = master_.stands_for_surface(segment.master);
   runs_.push_back({other, covered_.size(), covered_.size()});
   each_simplex(segment.piece, [&](const std::array<Point<K>, D>& simplex) {
     const double measure = scale * signed_measure<K>(simplex);
-    for (const QuadraturePoint<K>& q : rule<K, P>()) {
+    for (const QuadraturePoint<K>& q : rule<K, P>(on_surface || to_surface)) {
       Point<K> y{};
       for (int i = 0; i < D; ++i)
         for (int k = 0; k < K; ++k) y[k] += q.barycentric[i] * simplex[i][k];
-      Barycentric here, there;
-      for (int i = 0; i < D; ++i) here[i] = frame.shape[i](y), there[i] = segment.shape[i](y);
+      const Barycentric here = coordinates<D>(frame.shape, y), there = coordinates<D>(segment.shape, y);
       CoveredPoint<K>& point = covered_.emplace_back();
       point.at = ElementFace<D, P>::coordinates(child, here);
       point.weight = q.weight * measure;
@@ -106,17 +114,25 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
       seen.master = ElementFace<D, P>::coordinates(other_child, there);
       seen.gap = frame.size * segment.gap(y);
       seen.normal = frame.direction;
-      if (slave.curved()) {
-        seen.gap -= dot(frame.direction, bulge<D>(slave(point.at), slave_.corner[face.part(child)], here));
+      if (on_surface) {
+        const SurfacePoint<D> at = slave_.surface(part, here, frame.direction);
+        seen.gap -= at.height;
+        if (along_normals_) seen.normal = at.normal;
+      } else if (slave.curved()) {
+        seen.gap -= dot(frame.direction, bulge<D>(slave(point.at), slave_.corner[part], here));
         if (along_normals_) seen.normal = unit_normal<D>(slave.flat(point.at));
       }
       Point<D> facing = master_.normal[segment.master];
-      if (master.curved()) {
+      if (to_surface) {
+        const SurfacePoint<D> at = master_.surface(segment.master, there, frame.direction);
+        seen.gap += at.height;
+        facing = at.normal;
+      } else if (master.curved()) {
         seen.gap += dot(frame.direction, bulge<D>(master(seen.master), master_.corner[segment.master], there));
         facing = unit_normal<D>(master.flat(seen.master));
       }
       // Along the normal, not the direction in which the face looks, it is as far to the plane that touches the master.
-      if (slave.curved()) seen.gap *= dot(frame.direction, facing) / dot(seen.normal, facing);
+      if (on_surface || slave.curved()) seen.gap *= dot(frame.direction, facing) / dot(seen.normal, facing);
     }
   });
   runs_.back().last = covered_.size();
@@ -142,13 +158,25 @@ double FaceIntegrator<D, P>::added(Index part, const Point<K>& y) const {
   return sum;
 }
 
+/// Along the direction in which a part of the slave looks, at a point of the plane.
+template <int D, int P>
+double FaceIntegrator<D, P>::distance(const Segment<D>& segment, Index part, const Point<K>& y) const {
+  const FaceFrame<D>& frame = finder_.frame();
+  double out = frame.size * segment.gap(y);
+  if (slave_.stands_for_surface(part))
+    out -= slave_.surface(part, coordinates<D>(frame.shape, y), frame.direction).height;
+  if (master_.stands_for_surface(segment.master))
+    out += master_.surface(segment.master, coordinates<D>(segment.shape, y), frame.direction).height;
+  return out;
+}
+
 template <int D, int P>
 void FaceIntegrator<D, P>::note_overlap(Index part, DeepestOverlap<D>& deepest) const {
   const FaceFrame<D>& frame = finder_.frame();
   for (const Segment<D>& s : finder_.segments())
     for (int i = 0; i < s.piece.count; ++i) {
       const Point<D - 1>& y = s.piece.corner[i];
-      const double depth = -frame.size * s.gap(y) - added(part, y);
+      const double depth = -distance(s, part, y) - added(part, y);
       if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), part, s.master};
     }
 }

@@ -73,6 +73,7 @@ class FaceIntegrator {
   void add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child, const ElementMap<D, K, P>& slave,
                   double scale);
   double added(Index part, const Point<K>& y) const;
+  double distance(const Segment<D>& segment, Index part, const Point<K>& y) const;
   void note_overlap(Index part, DeepestOverlap<D>& deepest) const;
   FaceEntry<D, P>& entry(Index point, FaceIntegrals<D, P>& to);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/mesh/element_map.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::mortar {
@@ -63,7 +64,11 @@ double relative_area(std::array<Point<D>, D> corner, double longest, Point<D>& n
 }  // namespace
 
 template <int D>
-Side<D>::Side(const SurfaceFaces<D>& surface) : faces(surface.faces), number(surface.points.size(), -1) {
+Side<D>::Side(const SurfaceFaces<D>& surface)
+    : faces(surface.faces),
+      number(surface.points.size(), -1),
+      undeformed_(surface.undeformed),
+      in_mesh_(surface.number) {
   corner.reserve(faces.size());
   normal.resize(faces.size());
   area.resize(faces.size());
@@ -82,6 +87,23 @@ Side<D>::Side(const SurfaceFaces<D>& surface) : faces(surface.faces), number(sur
       number[v] = static_cast<Index>(node.size());
       node.push_back(static_cast<Index>(v));
     }
+  if (!undeformed_ || undeformed_->curves.empty()) return;
+  for (const Index f : in_mesh_) {
+    bent_.push_back(signorini::stands_for_surface(*undeformed_, f));
+    flat_normal_.push_back(area_normal(points_of(undeformed_->points, undeformed_->boundary[f].vertices)));
+    const double size = length<D>(flat_normal_.back());
+    for (double& c : flat_normal_.back()) c /= size;
+  }
+}
+
+template <int D>
+SurfacePoint<D> Side<D>::surface(Index face, const std::array<double, D>& barycentric,
+                                 const Point<D>& direction) const {
+  SurfacePoint<D> out = surface_at<D>(*undeformed_, in_mesh_[face], barycentric, direction);
+  for (int k = 0; k < D; ++k) out.normal[k] += normal[face][k] - flat_normal_[face][k];
+  const double size = length<D>(out.normal);
+  for (double& c : out.normal) c /= size;
+  return out;
 }
 
 template struct Side<2>;

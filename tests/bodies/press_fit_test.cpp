@@ -1,0 +1,170 @@
+#include <numbers>
+
+#include "tests/bodies/scenes.hpp"
+#include "tests/bodies/sector.hpp"
+#include "tests/support/folder.hpp"
+
+// Rings shrunk on each other, against Lame's solution: the largest pressure is that of a circle, whatever the meshes.
+
+namespace signorini::test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double interference = 1e-3;
+
+/// A quarter of a ring extruded along z; its mesh is a file with the groups `inner`, `outer`, `ends`.
+std::string extruded(const Sector& ring, double height, int layers) {
+  const int in_plane = (ring.along_radius + 1) * (ring.around + 1);
+  const auto node = [&](int i, int j, int k) { return 1 + k * in_plane + i * (ring.around + 1) + j; };
+  std::string nodes, elements;
+  int count = 0;
+  const auto add = [&](int type, int group, const std::vector<int>& corners) {
+    elements += fmt::format("{} {} 2 {} {} {}\n", ++count, type, group, group, fmt::join(corners, " "));
+  };
+  for (int k = 0; k <= layers; ++k)
+    for (int i = 0; i <= ring.along_radius; ++i)
+      for (int j = 0; j <= ring.around; ++j) {
+        const double r = ring.inner + (ring.outer - ring.inner) * i / ring.along_radius;
+        const double angle = pi / 2 * j / ring.around;
+        nodes += fmt::format("{} {:.17g} {:.17g} {:.17g}\n", node(i, j, k), r * std::cos(angle), r * std::sin(angle),
+                             height * k / layers);
+      }
+  // Kuhn's six tetrahedra of a cell; faces along its diagonals.
+  const auto triangles = [&](int group, int a, int b, int c, int d) {
+    add(2, group, {a, b, d}), add(2, group, {a, d, c});
+  };
+  for (int k = 0; k < layers; ++k)
+    for (int j = 0; j < ring.around; ++j)
+      for (const int i : {0, ring.along_radius})
+        triangles(i == 0 ? 1 : 2, node(i, j, k), node(i, j + 1, k), node(i, j, k + 1), node(i, j + 1, k + 1));
+  for (int i = 0; i < ring.along_radius; ++i)
+    for (int j = 0; j < ring.around; ++j) {
+      for (const int k : {0, layers})
+        triangles(3, node(i, j, k), node(i + 1, j, k), node(i, j + 1, k), node(i + 1, j + 1, k));
+      for (int k = 0; k < layers; ++k) {
+        std::array<int, 3> order{0, 1, 2};
+        do {
+          std::array<int, 3> at{i, j, k};
+          std::vector<int> corners{node(at[0], at[1], at[2])};
+          for (const int axis : order) ++at[axis], corners.push_back(node(at[0], at[1], at[2]));
+          add(4, 4, corners);
+        } while (std::ranges::next_permutation(order).found);
+      }
+    }
+  return fmt::format(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n2 1 \"inner\"\n2 2 \"outer\"\n2 3 \"ends\"\n3 4 "
+      "\"inside\"\n$EndPhysicalNames\n$Nodes\n{}\n{}$EndNodes\n$Elements\n{}\n{}$EndElements\n",
+      in_plane * (layers + 1), nodes, count, elements);
+}
+
+struct Fit {
+  int dimension = 2;
+  std::array<int, 2> cells{10, 37};  ///< around a quarter of the shaft, of the hub
+  int order = 1, refinements = 1;
+  std::string slave = "body";
+  double radius = 1;
+  double interference = 1e-3;  ///< over the radius
+
+  static constexpr double young[] = {1, 3}, poisson[] = {0.3, 0.25};
+
+  /// Per body how much its surface moves under a pressure of 1, over the radius.
+  double compliance(int body) const {
+    const double modulus = young[body] / (1 - poisson[body] * poisson[body]), nu = poisson[body] / (1 - poisson[body]);
+    const double a = body == 0 ? 0.5 : 1, b = body == 0 ? 1 : 2;
+    return ((b * b + a * a) / (b * b - a * a) + (body == 0 ? -nu : nu)) / modulus;
+  }
+  double pressure() const { return interference / (compliance(0) + compliance(1)); }
+};
+
+class PressFit : public Folder {
+ protected:
+  std::string body(const Fit& fit, int k) const {
+    const Sector ring{.inner = fit.radius * (k == 0 ? 0.5 : 1),
+                      .outer = fit.radius * (k == 0 ? 1 + fit.interference : 2),
+                      .from = 0,
+                      .to = pi / 2,
+                      .along_radius = fit.cells[k] / 4 + 1,
+                      .around = fit.cells[k]};
+    const std::string material =
+        fmt::format("young = {}\npoisson = {}\norder = {}\n", Fit::young[k], Fit::poisson[k], fit.order);
+    const std::string name = k == 0 ? "shaft" : "hub";
+    if (fit.dimension == 2) return sector(folder_, name, ring, material);
+    std::ofstream(folder_ / (name + ".msh")) << extruded(ring, 0.1 * fit.radius, 1);
+    return fmt::format("[[body]]\nname = \"{}\"\nmesh = \"{}\"\n{}", name, (folder_ / (name + ".msh")).string(),
+                       material) +
+           tables::fix(name, "ends", "[\"free\", \"free\", 0]");
+  }
+
+  /// How far the largest pressure is off.
+  double off(const Fit& fit) const {
+    Driver driver(scene_of(body(fit, 0) + body(fit, 1) + "[symmetry]\nx = 0\ny = 0\n" +
+                           pair("shaft", "outer", "hub", "inner", fmt::format("slave = \"{}\"\n", fit.slave)) +
+                           fmt::format("[refine]\nuniform = {}\n", fit.refinements)));
+    const Report& report = driver.solve();
+    EXPECT_TRUE(report.converged()) << report.reason();
+    const ContactReport& contact = report.last().contact[0];
+    EXPECT_TRUE(contact.resolved);
+    const double area = 2 * pi * fit.radius * (fit.dimension == 2 ? 1 : 0.1 * fit.radius);
+    EXPECT_NEAR(contact.area / area, 1, 0.02);
+    EXPECT_LT(contact.largest_penetration, 0.05 * fit.interference * fit.radius);
+    EXPECT_LT(contact.largest_opening, 0.05 * fit.interference * fit.radius);
+    const double out = contact.max_pressure / fit.pressure() - 1;
+    show("{}D, order {}, {}:{}, slave {}: pressure off by {:.2e}, area by {:.2e}, {} iterations\n", fit.dimension,
+         fit.order, fit.cells[0], fit.cells[1], fit.slave, out, contact.area / area - 1,
+         report.last().summary.iterations);
+    return std::abs(out);
+  }
+
+  void expect_lame(Fit fit, double linear, double quadratic) const {
+    for (const char* slave : {"body", "other"})
+      for (const std::array<int, 2> cells : {std::array{10, 37}, std::array{37, 10}}) {
+        fit.slave = slave, fit.cells = cells;
+        fit.order = 1;
+        EXPECT_LT(off(fit), linear) << fit.cells[0] << ":" << fit.cells[1] << " " << slave;
+        fit.order = 2;
+        EXPECT_LT(off(fit), quadratic) << fit.cells[0] << ":" << fit.cells[1] << " " << slave;
+      }
+  }
+};
+
+TEST_F(PressFit, AsLameSaysIn2D) { expect_lame({.dimension = 2}, 0.05, 0.01); }
+
+// The less the interference the more the meshes would matter.
+TEST_F(PressFit, HowEverLittleTheInterferenceIs) {
+  expect_lame({.dimension = 2, .radius = 40, .interference = 1e-5}, 0.05, 0.01);
+}
+
+TEST_F(PressFit, AsLameSaysIn3D) { expect_lame({.dimension = 3, .refinements = 0}, 0.05, 0.01); }
+
+/// A nut drawn up against a ring whose hole is wider: the ring ends within a face of the nut.
+double nut_and_ring(const char* slave, int order, int refinements) {
+  const std::string material =
+      fmt::format("young = 210000\npoisson = 0.3\nplane = \"axisymmetric\"\norder = {}\n", order);
+  Driver driver(scene_of(tables::block("nut", "[3, -18]", "[9, -10]", "[4, 6]", material) +
+                         tables::block("ring", "[5.5, -10]", "[25, 0]", "[14, 7]", material) +
+                         tables::fix("ring", "top", "[\"free\", 0]") +
+                         tables::fix("nut", "bottom", "[\"free\", 0.01]") +
+                         pair("ring", "bottom", "nut", "top", fmt::format("slave = \"{}\"\n", slave)) +
+                         fmt::format("[refine]\nuniform = {}\n", refinements)));
+  const Report& report = driver.solve();
+  EXPECT_TRUE(report.converged()) << report.reason();
+  const ContactReport& contact = report.last().contact[0];
+  EXPECT_TRUE(contact.peaks_at_edge || !contact.resolved);
+  show("order {}, {} refinements, slave {}: largest pressure {:.4g}, mean {:.4g}\n", order, refinements, slave,
+       contact.max_pressure, length(contact.force) / contact.area);
+  return contact.max_pressure;
+}
+
+// The force at a node that is hardly covered says nothing of the pressure.
+TEST(HardlyCovered, NodesHaveNoLargestPressure) {
+  for (const int order : {1, 2})
+    for (const int refinements : {0, 1, 2, 3}) {
+      const double ring = nut_and_ring("body", order, refinements), nut = nut_and_ring("other", order, refinements);
+      EXPECT_LT(nut, 1.3 * ring) << order << " " << refinements;
+      EXPECT_GT(nut, 0.6 * ring) << order << " " << refinements;
+    }
+}
+
+}  // namespace
+}  // namespace signorini::test
