@@ -33,7 +33,7 @@ struct ContactNode {
   bool hardly_covered() const { return covered < least_covered; }
   /// Whether the other body ends there.
   bool partly_covered() const { return covered < 0.9; }
-  static constexpr double least_covered = 0.25;
+  static constexpr double least_covered = 0.5;
   double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
   FrictionLaw law{};     ///< where there is friction
   /// The tangential traction at the node, exerted by the obstacle, global: see recover_traction(). Where it is not

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
-#include "core/mesh/mirror.hpp"
 
 namespace signorini {
 namespace {
@@ -16,12 +15,13 @@ constexpr double facing = 0.5 - 1e-9;
 
 template <int D, int B>
 ContactSurface<D, B>::ContactSurface(const Nodes<D>& nodes, const Model<B>& model, Index obstacle)
-    : nodes_(nodes), plane_(model.plane) {
+    : nodes_(nodes), plane_(model.plane), extent_(extent(nodes.mesh())) {
   const ObstacleTerm<B>& term = model.obstacles[obstacle];
   if (B == 1 && !term.on)
     volumes_ = node_volumes(nodes, plane_);
   else
     surface_ = term.on ? surface(nodes, select_faces(nodes.mesh(), *term.on, model.t)) : surface(nodes);
+  walls_ = signorini::walls<D, B>(nodes, model, surface_.nodes);
 }
 
 template <int D, int B>
@@ -61,8 +61,6 @@ Point<D> ContactSurface<D, B>::middle(const ContactNode<B>& node) const {
   });
   if (!(area > 0)) return nodes_.at(node.vertex);
   for (double& x : sum) x /= area;
-  for (const Mirror& mirror : nodes_.mesh().mirrors)  // its hat function goes on beyond
-    if (lies_on<D>(mirror, nodes_.at(node.vertex))) sum[mirror.axis] = mirror.at;
   return sum;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "core/fem/contact.hpp"
 #include "core/fem/select.hpp"
+#include "core/fem/walls.hpp"
 
 namespace signorini {
 
@@ -16,7 +17,8 @@ class ContactSurface {
 
   /// See ContactNode::area.
   double area(const ContactNode<B>& node) const;
-  /// Where the mean of a linear pressure over the node's basis function is its value: the centroid of that function.
+  /// Where the mean of a linear pressure over the node's basis function is its value: the centroid of that function on
+  /// the mesh.
   Point<D> middle(const ContactNode<B>& node) const;
   /// The mean of what has a value at points, weighted by the node's basis function.
   template <class Value>
@@ -28,6 +30,9 @@ class ContactSurface {
   /// Numbers in Mesh::boundary of the faces that count at a node.
   std::vector<Index> faces(const ContactNode<B>& node) const;
   Plane plane() const { return plane_; }
+  /// Planes that fixes make planes of symmetry beside the surface.
+  const std::vector<Flat<D>>& walls() const { return walls_; }
+  bool lies_on(const Flat<D>& wall, Index node) const { return signorini::lies_on<D>(wall, nodes_.at(node), extent_); }
 
  private:
   bool counts(Index face, const ContactNode<B>& node) const;
@@ -48,6 +53,8 @@ class ContactSurface {
   const Nodes<D>& nodes_;
   const Plane plane_;
   Surface<D> surface_;
+  std::vector<Flat<D>> walls_;
+  const double extent_;
   std::vector<double> volumes_;  // per node, where the obstacle acts on the body
 };
 

@@ -34,7 +34,7 @@ class PressedFaces {
     faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
     add_strangers(nodes, obstacle);
     connect(nodes);
-    find_mirrors(nodes, surface.plane());
+    find_mirrors(nodes, surface);
   }
 
   Index size() const { return static_cast<Index>(node_.size()); }
@@ -55,8 +55,8 @@ class PressedFaces {
     int rings, most;
     std::size_t enough;
   };
-  /// A node, or its image beyond planes of symmetry or the axis of a body of revolution: a bit for each axis along
-  /// which it is mirrored.
+  /// A node, or its image beyond planes of symmetry or the axis of a body of revolution: a bit for each of them that it
+  /// is mirrored at.
   struct Reached {
     Index node;
     unsigned image = 0;
@@ -76,7 +76,7 @@ class PressedFaces {
           const Reached here = seen[first];
           each_side(on_[here.node], [&](unsigned across) {
             const Reached next{other, (here.image ^ across) & ~on_[other]};  // on a plane it is its own image
-            if (std::ranges::find(seen, next) != seen.end()) return;
+            if (!is_image(next.image) || std::ranges::find(seen, next) != seen.end()) return;
             seen.push_back(next);
             if (counts(other)) found.push_back(next);
           });
@@ -85,8 +85,28 @@ class PressedFaces {
     return found;
   }
 
-  /// Planes of symmetry, and the axis of a body of revolution, each along another axis.
-  const std::vector<Mirror>& mirrors() const { return mirrors_; }
+  /// Where a point is in an image.
+  Point<D> in_image(unsigned image, Point<D> x) const {
+    each_mirror(image, [&](const Flat<D>& mirror) { x = reflected<D>(mirror, x); });
+    return x;
+  }
+  /// Likewise a direction.
+  Point<D> turned(unsigned image, const Point<D>& direction) const {
+    return difference<D>(in_image(image, direction), in_image(image, {}));
+  }
+  /// Takes out of a direction at a node what leads across the planes that it lies on.
+  void keep_within(Index k, Point<D>& direction) const {
+    each_mirror(on_[k], [&](const Flat<D>& mirror) { subtract(dot(direction, mirror.normal), mirror, direction); });
+  }
+  /// The centroid of a node's basis function, which goes on beyond planes of symmetry. (Means around the axis are those
+  /// of rings.)
+  Point<D> middle(Index k, const ContactSurface<D, B>& surface) const {
+    Point<D> out = surface.middle(*node_[k]);
+    each_mirror(on_[k] & ~axis_, [&](const Flat<D>& mirror) {
+      subtract(dot(difference<D>(out, mirror.point), mirror.normal), mirror, out);
+    });
+    return out;
+  }
 
   /// Whether all neighbours are pressed, too.
   bool inside(Index k) const {
@@ -165,27 +185,75 @@ class PressedFaces {
     }
   }
 
-  void find_mirrors(const Nodes<D>& nodes, Plane plane) {
-    mirrors_ = nodes.mesh().mirrors;
-    if (plane == Plane::axisymmetric) mirrors_.push_back({.axis = 0, .at = 0});
-    for (const ContactNode<B>* node : node_) {
-      unsigned& on = on_.emplace_back(0);
-      for (const Mirror& mirror : mirrors_)
-        if (lies_on<D>(mirror, nodes.at(node->vertex))) on |= 1u << mirror.axis;
+  void find_mirrors(const Nodes<D>& nodes, const ContactSurface<D, B>& surface) {
+    const auto add = [&](const Mirror& mirror) {
+      Flat<D>& plane = mirrors_.emplace_back();
+      plane.point[mirror.axis] = mirror.at;
+      plane.normal[mirror.axis] = 1;
+      for (Index k = 0; k < size(); ++k)
+        if (lies_on<D>(mirror, nodes.at(node_[k]->vertex))) on_[k] |= 1u << (mirrors_.size() - 1);
+    };
+    on_.resize(node_.size());
+    for (const Mirror& mirror : nodes.mesh().mirrors) add(mirror);
+    if (surface.plane() == Plane::axisymmetric) {
+      axis_ = 1u << mirrors_.size();
+      add({.axis = 0, .at = 0});
+    }
+    for (const Flat<D>& wall : surface.walls()) {
+      if (mirrors_.size() == most_mirrors) break;
+      mirrors_.push_back(wall);
+      for (Index k = 0; k < size(); ++k)
+        if (surface.lies_on(wall, node_[k]->vertex) && is_smooth_across(k, wall)) on_[k] |= 1u << (mirrors_.size() - 1);
     }
   }
 
-  /// Calls visit() for all subsets of axes.
+  /// What presses turns no more from a node to its image's neighbours than it does to its own: no edge runs along the
+  /// wall.
+  bool is_smooth_across(Index k, const Flat<D>& wall) const {
+    if constexpr (B == D) {
+      const auto& own = node_[k]->direction;
+      double turns = 0;
+      for (const Index other : around_[k])
+        if (pressed(other)) turns = std::max(turns, length<D>(difference<D>(own, node_[other]->direction)));
+      return std::abs(dot(own, wall.normal)) <= turns + smooth;
+    }
+    return false;
+  }
+
+  /// At planes at right angles to each other: what is mirrored at others depends on the order.
+  bool is_image(unsigned image) const {
+    bool out = true;
+    each_mirror(image, [&](const Flat<D>& a) {
+      each_mirror(image,
+                  [&](const Flat<D>& b) { out = out && (&a == &b || std::abs(dot(a.normal, b.normal)) < smooth); });
+    });
+    return out;
+  }
+
+  template <class Use>
+  void each_mirror(unsigned some, const Use& use) const {
+    for (std::size_t m = 0; m < mirrors_.size(); ++m)
+      if (some >> m & 1u) use(mirrors_[m]);
+  }
+
+  static void subtract(double factor, const Flat<D>& mirror, Point<D>& from) {
+    for (int i = 0; i < D; ++i) from[i] -= factor * mirror.normal[i];
+  }
+
+  /// Calls visit() for all subsets of planes.
   template <class Visit>
-  static void each_side(unsigned axes, const Visit& visit) {
-    for (unsigned some = axes;; some = (some - 1) & axes) {
+  static void each_side(unsigned planes, const Visit& visit) {
+    for (unsigned some = planes;; some = (some - 1) & planes) {
       visit(some);
       if (some == 0) return;
     }
   }
 
-  std::vector<Mirror> mirrors_;
-  std::vector<unsigned> on_;  // axes of those that a node lies on
+  static constexpr std::size_t most_mirrors = 32;
+  static constexpr double smooth = 1e-6;
+  std::vector<Flat<D>> mirrors_;
+  unsigned axis_ = 0;         // the bit of that of a body of revolution
+  std::vector<unsigned> on_;  // those that a node lies on
   std::deque<ContactNode<B>> strangers_;
   std::vector<ContactNode<B>*> node_;
   std::vector<bool> pressed_, at_end_;
@@ -220,7 +288,7 @@ class SurfaceSamples {
   TangentPlane<D> plane_at(Index k) const {
     const Point<D>& origin = nodes_.at(faces_.node(k).vertex);
     Point<D> normal = area_normal(nodes_.mesh(), nodes_.mesh().boundary[faces_.face_at(k)]);
-    keep_within<D>(nodes_.mesh().mirrors, origin, normal);
+    faces_.keep_within(k, normal);
     normalise(normal);
     return {origin, tangents(normal)};
   }
@@ -235,20 +303,17 @@ class SurfaceSamples {
     std::vector<Sample<D - 1>> out;
     out.reserve(some.size());
     for (const Reached& s : some) {
-      Point<D> at = middle(s.node);
-      for (const Mirror& mirror : faces_.mirrors())
-        if (s.image >> mirror.axis & 1u) at = reflected<D>(mirror, at);
-      out.push_back({plane(at), {value(s)}});
+      out.push_back({plane(faces_.in_image(s.image, middle(s.node))), {value(s)}});
     }
     return out;
   }
 
- private:
   const Point<D>& middle(Index k) const {
-    if (!middle_[k]) middle_[k] = surface_.middle(faces_.node(k));
+    if (!middle_[k]) middle_[k] = faces_.middle(k, surface_);
     return *middle_[k];
   }
 
+ private:
   const Nodes<D>& nodes_;
   const ContactSurface<D, B>& surface_;
   const PressedFaces<D, B>& faces_;

@@ -44,12 +44,14 @@ class Recovery {
 
   void fit() {
     for (Index k = 0; k < faces_.size(); ++k) {
-      if (!faces_.pressed(k)) continue;
+      if (!tells(k)) continue;
       ContactNode<B>& node = faces_.node(k);
-      square_[k] = fitted(k).value_or(around(k));
+      square_[k] = fitted(k).value_or(node.pressure * node.pressure);
       node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)));
       if (const double least = at_least(k); least > 0) square_[k] = std::max(square_[k], least * least);
     }
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (faces_.pressed(k) && !tells(k)) go_on(k);
     for (Index k = 0; k < faces_.size(); ++k)
       if (!faces_.pressed(k) && !faces_.around(k).empty()) square_[k] = beyond(k);
   }
@@ -176,7 +178,7 @@ class Recovery {
     const TangentPlane<D> plane = samples_.plane_at(k);
     if (!bulges(k, plane, pressure)) return 0;
     const double more = surface_.mean(node, [&](const Point<D>& x) { return pressure(plane(x)); }) -
-                        pressure(plane(surface_.middle(node)));
+                        pressure(plane(samples_.middle(k)));
     const double most = (excess - 1) * node.pressure;
     return std::clamp(more, -most, most);
   }
@@ -202,20 +204,29 @@ class Recovery {
     });
   }
 
-  /// What is known without a fit: the mean, or that of the neighbours.
-  double around(Index k) const {
-    const ContactNode<B>& node = faces_.node(k);
-    double sum = 0;
+  /// To a node that hardly anything is in front of: what its own force says is left out, and nothing is larger there
+  /// than beside it.
+  void go_on(Index k) {
+    ContactNode<B>& node = faces_.node(k);
+    double sum = 0, least = infinity, largest = 0;
     int count = 0;
-    for (const Index other : faces_.around(k))
-      if (node.hardly_covered() && faces_.pressed(other)) sum += faces_.node(other).pressure, ++count;
-    const double mean = count > 0 ? sum / count : node.pressure;
-    return mean * mean;
+    for (const Index other : faces_.around(k)) {
+      if (!faces_.pressed(other)) continue;
+      const double there = faces_.node(other).recovered;
+      sum += there, ++count;
+      least = std::min(least, there), largest = std::max(largest, there);
+    }
+    if (count > 0) {
+      const auto square = fitted(k);
+      const double found = square ? std::sqrt(std::max(*square, 0.0)) : sum / count;
+      node.recovered = std::clamp(found, least, largest);
+    }
+    square_[k] = node.recovered * node.recovered;
   }
 
   std::optional<double> fitted(Index k) const {
     const auto some = samples(k);
-    if (!inside_[k] && (some.size() < enough<D> || (faces_.pressed(k) && rises(k)))) return {};
+    if (!inside_[k] && (some.size() < enough<D> || (tells(k) && rises(k)))) return {};
     return fitted_value(some);
   }
 
@@ -238,15 +249,25 @@ class Recovery {
     return faces_.node(k).pressure - at_edge * largest;
   }
 
-  /// At a node without contact.
+  /// At a node without contact. Beside one that is hardly covered alone there is nothing to go on from.
   double beyond(Index k) const {
     double sum = 0;
     int count = 0;
     bool punched = false;
     for (const Index other : faces_.around(k))
       if (faces_.pressed(other)) sum += square_[other], ++count, punched = punched || rises(other);
+    if (count == 0) return -hardly_covered_beside(k);
     const auto value = fitted(k);
     return value && !punched && *value <= falls * sum / count ? *value : -sum / count;
+  }
+
+  double hardly_covered_beside(Index k) const {
+    double largest = 0;
+    for (std::size_t f = 0; f < faces_.faces().size(); ++f)
+      if (std::ranges::find(faces_.corners(f), k) != faces_.corners(f).end())
+        for (const Index other : faces_.corners(f))
+          if (faces_.pressed(other)) largest = std::max(largest, square_[other]);
+    return largest;
   }
 
   /// Measure of the part of a face where the linear function with the squares at its corners is positive, as far as

@@ -87,10 +87,8 @@ class TractionRecovery {
 
   /// The same, at a mirror image of the node as well.
   Vector mean_at(const Reached& place) const {
-    Vector out = mean(place.node);
-    for (int i = 0; i < B; ++i)
-      if (place.image >> i & 1u) out[i] = -out[i];
-    return out;
+    if constexpr (B == D) return faces_.turned(place.image, mean(place.node));
+    return mean(place.node);
   }
 
   /// How much less than friction bears there is along a direction of slip, as a mean around the node.

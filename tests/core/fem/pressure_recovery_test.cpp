@@ -122,5 +122,107 @@ TEST(PressureRecovery, LinearPressuresAreExact) {
   }
 }
 
+/// What a plane at x = 0 is to the body.
+enum class Side { end, mirror, wall, inclined_wall };
+
+/// The pressures recovered on the bottom of a body under one that falls from the plane on.
+template <int D>
+std::vector<double> recovered_beside(Side side, int order) {
+  Mesh<D> mesh;
+  refine_uniformly(distorted_mesh<D>(5), mesh);
+  if (side == Side::mirror) mesh.mirrors = {{.axis = 0, .at = 0}};
+  const Nodes<D> nodes(mesh, order);
+  const auto where = [](int axis) {
+    Selection on;
+    on.where = expression([axis](const Site& s) { return s.x[axis] < 1e-9 ? 1.0 : 0.0; });
+    return on;
+  };
+  Model<D> model;
+  model.obstacles = {{nullptr, where(D - 1), ""}};
+  if (side == Side::wall || side == Side::inclined_wall) {
+    Fix<D> fix{.on = where(0)};
+    fix.value[0] = Field(0);
+    model.fixes = {fix};
+  }
+  const ContactSurface<D, D> surface(nodes, model, 0);
+  std::vector<ContactNode<D>> contact;
+  for (Index p = 0; p < nodes.size(); ++p) {
+    if (nodes.at(p)[D - 1] > 1e-9) continue;
+    ContactNode<D> node{};
+    node.vertex = p;
+    node.contact = true;
+    if (side == Side::inclined_wall) node.direction[0] = 0.1;
+    node.direction[D - 1] = 1;
+    node.area = surface.area(node);
+    node.pressure = surface.mean(node, [](const Point<D>& x) { return 2 + std::cos(4 * x[0]); });
+    contact.push_back(node);
+  }
+  recover_pressure(nodes, surface, 0, 0, contact);
+  std::vector<double> out(contact.size());
+  std::ranges::transform(contact, out.begin(), &ContactNode<D>::recovered);
+  return out;
+}
+
+template <int D>
+void expect_walls_are_mirrors() {
+  for (const int order : {1, 2}) {
+    const auto end = recovered_beside<D>(Side::end, order), mirror = recovered_beside<D>(Side::mirror, order);
+    EXPECT_NE(end, mirror);
+    const auto wall = recovered_beside<D>(Side::wall, order);
+    ASSERT_EQ(wall.size(), mirror.size());
+    for (std::size_t k = 0; k < wall.size(); ++k) EXPECT_NEAR(wall[k], mirror[k], 1e-12);
+  }
+}
+
+/// A fix that keeps a flat part on its plane is a plane of symmetry.
+TEST(PressureRecovery, GoesOnBeyondWallsAsBeyondPlanesOfSymmetry) {
+  expect_walls_are_mirrors<2>();
+  expect_walls_are_mirrors<3>();
+}
+
+/// The obstacle's image has an edge there.
+TEST(PressureRecovery, EndsAtWallsThatAnObstacleIsInclinedTo) {
+  const auto end = recovered_beside<2>(Side::end, 1), wall = recovered_beside<2>(Side::inclined_wall, 1);
+  for (std::size_t k = 0; k < wall.size(); ++k) EXPECT_NEAR(wall[k], end[k], 1e-12);
+}
+
+/// On the bottom of a square: another body is in front of what is left of `end`, with a pressure of 1, and of so little
+/// of one node that its force makes a hundred of it.
+void expect_none_from_hardly_covered(double end, Index last_pressed) {
+  const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {10, 10});
+  const Nodes<2> nodes(mesh);
+  Selection on;
+  on.where = expression([](const Site& s) { return s.x[1] < 1e-9 ? 1.0 : 0.0; });
+  Model<2> model;
+  model.obstacles = {{nullptr, on, ""}};
+  const ContactSurface<2, 2> surface(nodes, model, 0);
+  std::vector<ContactNode<2>> contact;
+  for (Index p = 0; p < nodes.size(); ++p) {
+    const Point<2>& x = nodes.at(p);
+    if (x[1] > 1e-9) continue;
+    ContactNode<2> node{};
+    node.vertex = p;
+    node.direction = {0, 1};
+    node.covered = x[0] < end ? 1 : 0.1;
+    const auto column = static_cast<Index>(std::lround(10 * x[0]));
+    node.contact = last_pressed < 0 ? node.hardly_covered() : column <= last_pressed;
+    node.area = surface.area(node);
+    node.recovered = node.pressure = node.contact ? node.hardly_covered() ? 100 : 1 : 0;
+    contact.push_back(node);
+    if (node.hardly_covered()) break;
+  }
+  const RecoveredPressure found = recover_pressure(nodes, surface, 0, 0, contact);
+  EXPECT_TRUE(std::isfinite(found.area));
+  EXPECT_GE(found.area, 0);
+  if (last_pressed < 0) return;
+  for (const ContactNode<2>& node : contact) EXPECT_LE(node.recovered, 1 + 1e-12);
+  EXPECT_NEAR(found.area, end, 0.1);
+}
+
+TEST(PressureRecovery, ForcesAtNodesThatAreHardlyCoveredAreNoPressures) {
+  expect_none_from_hardly_covered(0.55, 6);
+  expect_none_from_hardly_covered(0.55, -1);  // it alone is pressed
+}
+
 }  // namespace
 }  // namespace signorini::testing
