@@ -7,7 +7,7 @@
 namespace signorini {
 
 /// Principal strains of more than this, stretching or pressing, are large: linear elasticity is off by as much.
-inline constexpr double large_strain = 0.1;
+inline constexpr double large_strain = 0.2;
 
 /// How small the strains of a displacement are, which linear elasticity takes them to be; at the centroids of elements.
 template <int D>
