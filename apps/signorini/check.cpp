@@ -61,6 +61,8 @@ void print_geometry(const std::vector<SurfacePiece>& pieces) {
     if (!piece.center.empty()) fmt::print(", center [{:.6g}]", fmt::join(piece.center, ", "));
     if (piece.kind == "cone") fmt::print(", half angle {:.6g}", piece.second);
     if (!piece.center.empty() && piece.kind != "cone") fmt::print(", radius {:.6g}", piece.radius);
+    if (piece.center.empty() && piece.second > 0)
+      fmt::print(", angles up to {:.3g} degrees", piece.second * 180 / std::numbers::pi);
     fmt::print("\n");
   }
   if (pieces.size() > most) fmt::print("  and {} more\n", pieces.size() - most);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/interfaces.hpp"
 #include "core/geometry/recognise.hpp"
 #include "core/mesh/bends.hpp"
 #include "core/mesh/curve.hpp"
@@ -116,16 +117,17 @@ class Chooser {
     for (const Face<D>& face : mesh.boundary) faces_.push_back(face.vertices);
   }
 
-  void run() {
+  /// @param moves whether vertices go onto shapes, and elements with several faces on one are divided
+  void run(bool moves) {
     if (!mesh_.bends.empty() && surfaces_ == Surfaces::automatic) return keep_elements();
     mesh_.bends = {};
     mesh_.curves.clear();
     for (Face<D>& face : mesh_.boundary) face.curve = -1;
     smooth_ = smooth({});
     for (const std::vector<Index>& piece : pieces()) choose(piece);
-    move_onto_shapes();
+    if (moves) move_onto_shapes();
     if (patches_) mesh_.patches = std::make_shared<const std::vector<CubicPatch<D>>>(std::move(smooth_.patches));
-    separate_curved_faces(mesh_);
+    if (moves) separate_curved_faces(mesh_);
   }
 
  private:
@@ -153,19 +155,23 @@ class Chooser {
   /// what they were put on.
   void keep_elements() {
     smooth_ = smooth([&](std::size_t face, int tip) { return joint_normal(face, tip); });
+    for (const Face<D>& face : mesh_.boundary) curved_.push_back(face.curve >= 0);
     mesh_.curves = {{.kind = CurveKind::elements}};  // what is not renumbered below
     for (const std::vector<Index>& piece : pieces()) {
-      const auto curved = [&](Index f) { return mesh_.boundary[f].curve >= 0; };
-      if (std::ranges::none_of(piece, curved)) {
-        note(flat_kind(), piece, 0);
-        continue;
-      }
-      if (fit(piece)) continue;
-      note("second order", piece, off_of_elements(piece));
-      for (const Index f : piece)
-        if (curved(f)) mesh_.boundary[f].curve = static_cast<Index>(mesh_.curves.size());
+      std::vector<Index> left = piece;
+      find_shapes(left);
+      if (left.empty()) continue;
+      note("second order", left, off_of_elements(left));
+      for (const Index f : left)
+        if (curved_[f] != 0) mesh_.boundary[f].curve = static_cast<Index>(mesh_.curves.size());
       mesh_.curves.push_back({.kind = Curve<D>::Kind::elements});
     }
+    const auto is_straight = [](const Bends<D>& bends) { return bends == Bends<D>{}; };
+    if (std::ranges::any_of(curved_, [](std::uint8_t c) { return c != 0; }) ||
+        !std::ranges::all_of(mesh_.bends, is_straight))
+      return;
+    mesh_.bends = {};
+    mesh_.curves.clear();
   }
 
   double off_of_elements(const std::vector<Index>& piece) const {
@@ -227,8 +233,7 @@ class Chooser {
     if (surfaces_ == Surfaces::facets) return note("facets", piece, off_patches(piece));
     if (surfaces_ == Surfaces::smooth) return make_smooth(piece);
     std::vector<Index> left = piece;
-    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts})
-      if (!bent || by != Grouping::none) fit_groups(left, by);
+    find_shapes(left, bent);
     if (left.empty()) return;
     if (surfaces_ == Surfaces::fit) return note("facets", left, off_patches(left));
     make_smooth(left);
@@ -237,16 +242,101 @@ class Chooser {
   /// What faces of one group have in common, beside that they are connected.
   enum class Grouping { none, flatness, parts };
 
+  /// Leaves those faces that are on no shape, neither with all others nor with some.
+  /// @param bent what is flat as a whole goes on bent beyond planes
+  void find_shapes(std::vector<Index>& faces, bool bent = false) {
+    for (const Grouping by : {Grouping::none, Grouping::flatness, Grouping::parts})
+      if (!bent || by != Grouping::none) fit_groups(faces, by);
+    if (surfaces_ == Surfaces::automatic) grow_shapes(faces);
+  }
+
+  /// Shapes that some faces beside each other are on, with all that is on these farther away.
+  void grow_shapes(std::vector<Index>& faces) {
+    constexpr int most_attempts = 300;
+    constexpr std::size_t few = D == 2 ? 6 : 16;  // vertices
+    std::set<Index> open(faces.begin(), faces.end());
+    const Neighbours at = neighbours(faces);
+    int attempts = 0;
+    for (const Index first : faces) {
+      if (!open.contains(first) || attempts >= most_attempts) continue;
+      std::vector<Index> group = connected(first, at, [&](Index f, const std::vector<Index>& so_far) {
+        return open.contains(f) && vertices_of(so_far).size() < few;
+      });
+      if (vertices_of(group).size() < few) continue;
+      ++attempts;
+      std::optional<Recognised<D>> found = shape_of(group);
+      for (std::size_t before = 0; found && before < group.size();) {
+        before = group.size();
+        const double reach = rounding * size_of(group);
+        group = connected(first, at, [&](Index f, const std::vector<Index>&) {
+          return open.contains(f) && is_on(found->curve, f, reach);
+        });
+        found = group.size() < before ? std::nullopt : shape_of(group);
+      }
+      if (!found) continue;
+      put_on(*found, group);
+      for (const Index f : group) open.erase(f);
+    }
+    faces.assign(open.begin(), open.end());
+  }
+
+  std::set<Index> vertices_of(const std::vector<Index>& faces) const {
+    std::set<Index> out;
+    for (const Index f : faces) out.insert(faces_[f].begin(), faces_[f].end());
+    return out;
+  }
+
+  /// Whether a face lies along a curve, with all its nodes within `reach`.
+  bool is_on(const Curve<D>& curve, Index f, double reach) const {
+    std::vector<Point<D>> points, normals;
+    for (const Index v : faces_[f]) points.push_back(mesh_.points[v]);
+    if (!mesh_.bends.empty()) add_middles({f}, points, normals);
+    return is_along(curve, {f}) && std::ranges::all_of(points, [&](const Point<D>& p) {
+             const auto off = height<D>(curve, p);
+             return off && std::abs(off->distance) <= reach;
+           });
+  }
+
   /// Leaves those faces whose group is no shape.
   void fit_groups(std::vector<Index>& faces, Grouping by) {
     std::vector<Index> left;
     for (const std::vector<Index>& group : groups(faces, by)) {
-      if (const double off = off_plane(group); off <= flat * size_of(group))
+      if (const double off = is_curved(group) ? infinity : off_plane(group); off <= flat * size_of(group))
         note(flat_kind(), group, off);
       else if (!fit(group))
         left.insert(left.end(), group.begin(), group.end());
     }
     faces = std::move(left);
+  }
+
+  bool is_curved(const std::vector<Index>& faces) const {
+    return !curved_.empty() && std::ranges::any_of(faces, [&](Index f) { return curved_[f] != 0; });
+  }
+  /// Of a second-order file, whose nodes tell it, or by its neighbours.
+  bool is_flat(Index f) const { return curved_.empty() ? smooth_.flat[f] != 0 : curved_[f] == 0; }
+
+  using Neighbours = std::map<std::array<Index, D - 1>, std::vector<Index>>;
+  Neighbours neighbours(const std::vector<Index>& faces) const {
+    Neighbours out;
+    for (const Index f : faces)
+      for (int tip = 0; tip < D; ++tip) out[joint(f, tip)].push_back(f);
+    return out;
+  }
+
+  /// The faces that are reached from one through others that belong to it as well.
+  /// @param belongs (face, those found so far)
+  template <class Belongs>
+  std::vector<Index> connected(Index first, const Neighbours& at, const Belongs& belongs) const {
+    std::vector<Index> group{first};
+    std::set<Index> seen{first};
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (int tip = 0; tip < D; ++tip)
+        for (const Index g : at.at(joint(group[i], tip)))
+          if (!seen.contains(g) && belongs(g, group)) {
+            seen.insert(g);
+            group.push_back(g);
+          }
+    return group;
   }
 
   std::vector<std::vector<Index>> groups(const std::vector<Index>& faces, Grouping by) {
@@ -255,26 +345,16 @@ class Chooser {
       for (std::size_t k = 0; k < mesh_.parts.size(); ++k)
         for (const Index f : mesh_.parts[k].faces) parts_of_[f].push_back(static_cast<Index>(k));
     }
-    std::map<std::array<Index, D - 1>, std::vector<Index>> at;
-    std::map<Index, bool> open;
-    for (const Index f : faces) {
-      open[f] = true;
-      for (int tip = 0; tip < D; ++tip) at[joint(f, tip)].push_back(f);
-    }
+    const Neighbours at = neighbours(faces);
+    std::set<Index> open(faces.begin(), faces.end());
     std::vector<std::vector<Index>> out;
-    const auto together = [&](Index f, Index g) {
-      return (by == Grouping::none || smooth_.flat[f] == smooth_.flat[g]) &&
-             (by != Grouping::parts || parts_of_[f] == parts_of_[g]);
-    };
     for (const Index first : faces) {
-      if (!std::exchange(open[first], false)) continue;
-      std::vector<Index> group{first};
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        const Index f = group[i];
-        for (int tip = 0; tip < D; ++tip)
-          for (const Index g : at[joint(f, tip)])
-            if (together(f, g) && std::exchange(open[g], false)) group.push_back(g);
-      }
+      if (!open.contains(first)) continue;
+      std::vector<Index> group = connected(first, at, [&](Index f, const std::vector<Index>&) {
+        return open.contains(f) && (by == Grouping::none || is_flat(f) == is_flat(first)) &&
+               (by != Grouping::parts || parts_of_[f] == parts_of_[first]);
+      });
+      for (const Index f : group) open.erase(f);
       out.push_back(std::move(group));
     }
     return out;
@@ -321,29 +401,45 @@ class Chooser {
       any = true;
     }
     note(any ? "smooth" : "facets", piece, off);
+    for (const Index f : piece)
+      if (any && mesh_.boundary[f].curve >= 0)
+        mesh_.pieces.back().second = std::max(mesh_.pieces.back().second, smooth_.turn[f]);
     if (any) mesh_.curves.push_back({.kind = Curve<D>::Kind::patches});
     patches_ = patches_ || any;
   }
 
   bool fit(const std::vector<Index>& piece) {
+    const auto found = shape_of(piece);
+    if (found) put_on(*found, piece);
+    return found.has_value();
+  }
+
+  std::optional<Recognised<D>> shape_of(const std::vector<Index>& piece) const {
     std::vector<Point<D>> points, normals;
-    std::set<Index> seen;
+    std::map<Index, Point<D>> at;  // the sum of the normals of faces around a vertex
     for (const Index f : piece)
-      for (int i = 0; i < D; ++i)
-        if (seen.insert(faces_[f][i]).second) {
-          points.push_back(mesh_.points[faces_[f][i]]);
-          normals.push_back(smooth_.normals[f][i]);
-        }
+      for (const Index v : faces_[f]) {
+        const Point<D> n = unit_normal(mesh_, mesh_.boundary[f]);
+        for (int k = 0; k < D; ++k) at[v][k] += n[k];
+      }
+    for (auto& [v, n] : at) {
+      const double size = length<D>(n);
+      for (double& x : n) x /= size;
+      points.push_back(mesh_.points[v]);
+      normals.push_back(n);
+    }
     if (!mesh_.bends.empty()) add_middles(piece, points, normals);
     const double size = size_of(piece);
-    const auto found =
-        recognise<D>(points, normals, rounding * size, (surfaces_ == Surfaces::fit ? near : rounding) * size);
-    if (!found || !is_along(found->curve, piece)) return false;
+    auto found = recognise<D>(points, normals, rounding * size, (surfaces_ == Surfaces::fit ? near : rounding) * size);
+    if (found && !is_along(found->curve, piece)) found.reset();
+    return found;
+  }
+
+  void put_on(const Recognised<D>& shape, const std::vector<Index>& piece) {
     const auto number = static_cast<Index>(mesh_.curves.size());
-    mesh_.curves.push_back(found->curve);
+    mesh_.curves.push_back(shape.curve);
     for (const Index f : piece) mesh_.boundary[f].curve = number;
-    note(name(found->curve.kind), piece, found->deviation, &found->curve);
-    return true;
+    note(name(shape.curve.kind), piece, shape.deviation, &shape.curve);
   }
 
   /// Of the edges of curved faces.
@@ -377,7 +473,9 @@ class Chooser {
     int side = 0;
     return std::ranges::all_of(piece, [&](Index f) {
       for (int i = 0; i < D; ++i) {
-        const auto off = height<D>(curve, mesh_.points[faces_[f][i]]);
+        const Point<D>& p = mesh_.points[faces_[f][i]];
+        if (curve.kind == CurveKind::cone && least_radius<D>(curve, p) <= rounding * size_of({f})) continue;  // the tip
+        const auto off = height<D>(curve, p);
         if (!off) return false;
         const double along = dot(off->normal, corner_normal(mesh_, mesh_.boundary[f], i));
         const int here = along > 0 ? 1 : -1;
@@ -427,6 +525,7 @@ class Chooser {
   std::span<const Mirror> beyond_;
   std::vector<std::array<Index, D>> faces_;
   SmoothBoundary<D> smooth_;
+  std::vector<std::uint8_t> curved_;  // per face, of second-order files
   std::vector<std::vector<Index>> parts_of_;
   bool patches_ = false;
 };
@@ -435,7 +534,21 @@ class Chooser {
 
 template <int D>
 void give_geometry(Mesh<D>& mesh, Surfaces surfaces, double crease, std::span<const Mirror> beyond) {
-  Chooser<D>(mesh, surfaces, crease, beyond).run();
+  const bool told = !mesh.bends.empty() && surfaces == Surfaces::automatic;  // inside, too
+  Chooser<D>(mesh, surfaces, crease, beyond).run(true);
+  if (told || surfaces == Surfaces::facets) return;
+  for (const auto& [region, other] : neighbouring_regions(mesh)) {
+    Mesh<D> inner;
+    inner.points = mesh.points;
+    inner.elements = mesh.elements;
+    inner.boundary = faces_between(mesh, region, other);
+    Chooser<D>(inner, surfaces, crease, beyond).run(false);
+    bend_elements(mesh, inner);
+    for (SurfacePiece& piece : inner.pieces) {
+      piece.kind = "inner " + piece.kind;
+      mesh.pieces.push_back(std::move(piece));
+    }
+  }
 }
 
 template void give_geometry(Mesh<2>&, Surfaces, double, std::span<const Mirror>);

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
 #include "core/mesh/simplex.hpp"
-#include "core/mesh/subsimplices.hpp"
 
 namespace signorini::geometry {
 namespace {
@@ -43,37 +42,12 @@ Point<3> area_normal(const std::array<Point<3>, 3>& p) {
   return cross(difference<3>(p[1], p[0]), difference<3>(p[2], p[0]));
 }
 
-/// Numbers that have been found to be one.
-class Groups {
- public:
-  explicit Groups(std::size_t n) : root_(n) { std::iota(root_.begin(), root_.end(), Index{0}); }
-  Index find(Index i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-  void join(Index i, Index j) { root_[find(i)] = find(j); }
-  /// Per number that of its group, from 0 in the order of the first ones.
-  std::vector<Index> numbered(Index& count) {
-    std::vector<Index> number(root_.size(), -1), out(root_.size());
-    count = 0;
-    for (std::size_t i = 0; i < root_.size(); ++i) {
-      Index& n = number[find(static_cast<Index>(i))];
-      if (n < 0) n = count++;
-      out[i] = n;
-    }
-    return out;
-  }
-
- private:
-  std::vector<Index> root_;
-};
-
 template <int D>
 class Smoother {
  public:
   Smoother(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces, double crease,
            const JointNormal<D>& joint_normal)
-      : points_(points), faces_(faces), cosine_(std::cos(crease)), joint_normal_(joint_normal) {
+      : points_(points), faces_(faces), crease_(crease), cosine_(std::cos(crease)), joint_normal_(joint_normal) {
     for (const auto& face : faces) normal_.push_back(unit<D>(area_normal(corners_of(face))));
   }
 
@@ -99,41 +73,19 @@ class Smoother {
     return p;
   }
 
-  std::array<Index, D - 1> joint_of(std::size_t face, int tip) const {
-    std::array<Index, D - 1> out;
-    for (int i = 0; i < D - 1; ++i) out[i] = faces_[face][(tip + 1 + i) % D];
-    return sorted(out);
-  }
-
-  /// What faces have in common; joint `tip` of a face lies opposite to that corner.
+  /// What faces have in common without an edge of the body.
   void find_joints() {
-    const auto count = static_cast<Offset>(faces_.size() * D);
-    if constexpr (D == 2) {
-      for (Offset i = 0; i < count; ++i) joint_.push_back(joint_of(i / D, static_cast<int>(i % D))[0]);
-      joints_ = static_cast<Index>(points_.size());
-    } else {
-      const Numbering edges = number_subsimplices<2>(static_cast<Index>(points_.size()), count, [&](Offset i) {
-        return joint_of(static_cast<std::size_t>(i / D), static_cast<int>(i % D));
-      });
-      joint_ = edges.number;
-      joints_ = edges.distinct;
-    }
-    std::vector<std::array<Index, 2>> at(static_cast<std::size_t>(joints_), {-1, -1});
-    std::vector<int> faces_at(static_cast<std::size_t>(joints_), 0);
-    for (Offset i = 0; i < count; ++i)
-      if (const int k = faces_at[joint_[i]]++; k < 2) at[joint_[i]][k] = static_cast<Index>(i);
-    across_.assign(static_cast<std::size_t>(count), -1);
-    for (Index j = 0; j < joints_; ++j) {
-      if (faces_at[j] != 2) continue;
-      const auto [a, b] = at[j];
-      if (dot(normal_at(a), normal_at(b)) < cosine_) continue;
-      across_[a] = b;
-      across_[b] = a;
-    }
-  }
-
-  Point<D> normal_at(Index i) const {
-    return joint_normal_ ? joint_normal_(i / D, i % D) : normal_[static_cast<std::size_t>(i / D)];
+    const Joints<D> joints = geometry::find_joints<D>(static_cast<Index>(points_.size()), faces_);
+    const Edges edges = find_edges<D>(points_, faces_, joints, crease_, joint_normal_);
+    joint_ = joints.number;
+    joints_ = joints.count;
+    across_ = joints.beyond;
+    out_.turn.assign(faces_.size(), 0);
+    for (std::size_t i = 0; i < across_.size(); ++i)
+      if (edges.sharp[joint_[i]] != 0)
+        across_[i] = -1;
+      else if (across_[i] >= 0)
+        out_.turn[i / D] = std::max(out_.turn[i / D], edges.angle[i]);
   }
 
   /// Corners of faces that belong together: at one vertex, and not across a crease.
@@ -309,7 +261,7 @@ class Smoother {
     is_crease_.assign(static_cast<std::size_t>(joints_), 0);
     for (Index i = 0; i < static_cast<Index>(across_.size()); ++i) {
       if (across_[i] >= 0 || is_crease_[joint_[i]]++) continue;
-      const auto [a, b] = joint_of(i / D, i % D);
+      const auto [a, b] = joint_of<D>(faces_[i / D], i % D);
       ends[a].push_back({joint_[i], b});
       ends[b].push_back({joint_[i], a});
     }
@@ -371,7 +323,7 @@ class Smoother {
 
   std::span<const Point<D>> points_;
   const std::vector<std::array<Index, D>>& faces_;
-  double cosine_;
+  double crease_, cosine_;
   const JointNormal<D>& joint_normal_;
   std::vector<Point<D>> normal_;  // of the flat faces
   std::vector<Index> joint_;      // per face and tip

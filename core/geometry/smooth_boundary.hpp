@@ -1,19 +1,19 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <span>
 #include <vector>
 
+#include "core/geometry/edges.hpp"
 #include "core/mesh/cubic_patch.hpp"
 
 namespace signorini::geometry {
 
-/// Faces that meet at a larger angle meet at an edge of the body (2D: a corner): 35 degrees.
+/// Faces that meet at a larger angle meet at an edge of the body (2D: a corner) in any case: 35 degrees.
 inline constexpr double default_crease = 35 * std::numbers::pi / 180;
 
-/// A smooth surface (2D: a curve) through the vertices of flat faces that keeps creases: cubic patches, one per face,
-/// that have edges in common where faces have, and vertex normals in common but across creases.
+/// A smooth surface (2D: a curve) through the vertices of flat faces that keeps creases, see find_edges(): cubic
+/// patches, one per face, that have edges in common where faces have, and vertex normals in common but across creases.
 ///
 /// Normals are those of local polynomials through the vertex (jets: Cazals and Pouget, Estimating differential
 /// quantities using polynomial fitting of osculating jets, 2005), fitted to the vertices around it on its side of
@@ -26,15 +26,12 @@ struct SmoothBoundary {
   std::vector<Index> piece;            ///< per face the smooth piece it belongs to, from 0
   Index pieces = 0;
   std::vector<std::uint8_t> flat;                ///< per face whether it is of a flat part
+  std::vector<double> turn;                      ///< per face the largest angle to a neighbour on its side of creases
   std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
 };
 
-/// The unit normal of a curved face where it meets a neighbour in all its corners but `tip`; what a mesh knows of it.
-template <int D>
-using JointNormal = std::function<Point<D>(std::size_t face, int tip)>;
-
 /// @param faces oriented alike: normals to the left hand (D = 2: to the right) of the order of the corners
-/// @param crease angle between normals in radians, from 0 to pi
+/// @param crease angle between normals in radians, from 0 to pi, from which on there is a crease in any case
 /// @param joint_normal in place of the flat faces' normals
 template <int D>
 SmoothBoundary<D> smooth_boundary(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,

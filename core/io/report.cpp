@@ -1,6 +1,7 @@
 #include "core/io/report.hpp"
 
 #include <fmt/format.h>
+#include <numbers>
 
 #include <algorithm>
 
@@ -198,7 +199,10 @@ Json step(const StepReport& step) {
 
 Json surface_piece(const SurfacePiece& piece) {
   Json json{{"kind", piece.kind}, {"faces", piece.faces}, {"deviation", piece.deviation}, {"size", piece.size}};
-  if (piece.center.empty()) return json;
+  if (piece.center.empty()) {
+    if (piece.second > 0) json["angle"] = piece.second * 180 / std::numbers::pi;
+    return json;
+  }
   json["center"] = piece.center;
   if (!piece.axis.empty()) json["axis"] = piece.axis;
   if (piece.kind != "cone") json["radius"] = piece.radius;

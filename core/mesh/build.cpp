@@ -40,7 +40,6 @@ std::vector<Bends<D>> find_bends(const RawMesh<D>& raw, std::string_view place) 
   const Numbering number = number_edges<D>(static_cast<Index>(raw.points.size()), raw.elements);
   std::vector<Point<D>> bend(number.distinct, Point<D>{});
   std::vector<Index> through(number.distinct, -1);
-  bool curved = false;
   for (std::size_t e = 0; e < raw.elements.size(); ++e)
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Index m = raw.middle[e][k], edge = number.number[e * edges.size() + k];
@@ -64,9 +63,7 @@ std::vector<Bends<D>> find_bends(const RawMesh<D>& raw, std::string_view place) 
                                        fmt::join(a, ", "), fmt::join(b, ", "), fmt::join(raw.points[m], ", ")));
       if (far <= straight * size) continue;
       bend[edge] = off;
-      curved = true;
     }
-  if (!curved) return {};
   std::vector<Bends<D>> out(raw.elements.size());
   for (std::size_t e = 0; e < out.size(); ++e)
     for (std::size_t k = 0; k < edges.size(); ++k) out[e][k] = bend[number.number[e * edges.size() + k]];

@@ -23,7 +23,7 @@ struct RawMesh {
 /// normal to -z are), finds the boundary and its parts, and validates. An element that a vertex has turned inside out
 /// overlaps others, whatever its orientation. Points in the middle of edges make the mesh's elements curved
 /// (Mesh::bends) and its curved faces those of one curve of the kind `elements`; where they are in the middle up to
-/// rounding they do nothing.
+/// rounding bends are zero.
 template <int D>
 Mesh<D> build_mesh(RawMesh<D> raw, std::string_view place);
 

@@ -59,7 +59,7 @@ struct SurfacePiece {
   double deviation = 0;  ///< of vertices from a shape; of other kinds the largest distance from the flat faces
   double size = 0;       ///< diagonal of the box around it
   std::vector<double> center{}, axis{};  ///< of shapes, see Curve; empty where there is none
-  double radius = 0, second = 0;         ///< likewise
+  double radius = 0, second = 0;         ///< likewise; of smooth pieces `second` is the largest angle smoothed over
 };
 
 /// By how much the midpoints of an element's edges are off the middle between their ends, in the order of

@@ -272,7 +272,7 @@ TEST(BodyGeometry, GroupsThatAreShapesAreFittedOneByOne) {
     }
   alone.parts.clear();
   give_geometry(alone, Surfaces::automatic);  // a single edge may be part of anything
-  EXPECT_EQ(kinds(alone), (std::multiset<std::string>{"smooth", "line"}));
+  EXPECT_EQ(kinds(alone), (std::multiset<std::string>{"circle", "smooth", "line"}));
 }
 
 // Lines and bows of a stadium run into each other smoothly; lines of several edges tell them apart.
@@ -316,9 +316,11 @@ TEST(BodyGeometry, SecondOrderElementsAreTheGeometryUnlessToldOtherwise) {
   EXPECT_EQ(std::ranges::count(hierarchy(facets, 1).finest().points, raw.points[3]), 0);
 }
 
+enum class Middles { none, straight, on_circle };
+
 /// A fan of n triangles around the middle of a unit circle.
-/// @param curved whether the outer edges have their midpoints on the circle
-Mesh<2> fan(Index n, bool curved) {
+/// @param middles where outer edges have a node between their ends
+Mesh<2> fan(Index n, Middles middles) {
   RawMesh<2> raw;
   const auto on_circle = [n](double i) {
     const double angle = 2 * std::numbers::pi * i / n;
@@ -328,12 +330,13 @@ Mesh<2> fan(Index n, bool curved) {
   raw.points.push_back({0, 0});
   for (Index i = 0; i < n; ++i) {
     raw.elements.push_back({n, i, (i + 1) % n});
-    if (!curved) continue;
+    if (middles == Middles::none) continue;
     auto& middle = raw.middle.emplace_back();
     middle.fill(-1);
     for (std::size_t k = 0; k < 3; ++k)
       if (simplex_edges<2>()[k] == std::array{1, 2}) middle[k] = static_cast<Index>(raw.points.size());
-    raw.points.push_back(on_circle(i + 0.5));
+    raw.points.push_back(middles == Middles::on_circle ? on_circle(i + 0.5)
+                                                       : midpoint<2>(on_circle(i), on_circle((i + 1) % n)));
   }
   return build_mesh<2>(raw, "test");
 }
@@ -341,14 +344,86 @@ Mesh<2> fan(Index n, bool curved) {
 // However long its elements are, a circle is one where they bend along it; polygons keep their corners.
 TEST(BodyGeometry, LongSecondOrderElementsOnACircleStandForIt) {
   for (const Index n : {4, 5, 6, 8, 10, 12}) {
-    Mesh<2> circle = fan(n, true), polygon = fan(n, false);
+    Mesh<2> circle = fan(n, Middles::on_circle), polygon = fan(n, Middles::straight), flat = fan(n, Middles::none);
     give_geometry(circle, Surfaces::automatic);
     EXPECT_EQ(kinds(circle), std::multiset<std::string>{"circle"}) << n;
     EXPECT_LT(off_unit_sphere(circle), 1e-14) << n;
-    if (n > 10) continue;  // more than 35 degrees
     give_geometry(polygon, Surfaces::automatic);
     EXPECT_EQ(kinds(polygon).count("line"), static_cast<std::size_t>(n));
+    EXPECT_TRUE(polygon.bends.empty() && polygon.curves.empty());
+    give_geometry(flat, Surfaces::automatic);
+    EXPECT_EQ(kinds(flat).count("line"), n > 10 ? 0u : static_cast<std::size_t>(n));  // more than 35 degrees
   }
+}
+
+/// Tetrahedra between the axis and a surface of revolution: from points (r, z), the first and the last one on the axis.
+Mesh<3> turned(const std::vector<Point<2>>& section, Index around) {
+  RawMesh<3> raw;
+  const auto rows = static_cast<Index>(section.size());
+  const auto at = [&](Index j, Index i) { return 1 + j * around + i % around; };
+  double middle = 0;
+  for (const Point<2>& p : section) middle += p[1] / rows;
+  raw.points.push_back({0, 0, middle});
+  for (const Point<2>& p : section)
+    for (Index i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around;
+      raw.points.push_back({p[0] * std::cos(a), p[0] * std::sin(a), p[1]});
+    }
+  for (Index j = 0; j + 1 < rows; ++j)
+    for (Index i = 0; i < around; ++i) {
+      const Index a = section[j][0] == 0 ? at(j, 0) : at(j, i), b = section[j][0] == 0 ? a : at(j, i + 1),
+                  c = section[j + 1][0] == 0 ? at(j + 1, 0) : at(j + 1, i),
+                  d = section[j + 1][0] == 0 ? c : at(j + 1, i + 1);
+      if (a != b) raw.elements.push_back({0, a, b, c});
+      if (c != d) raw.elements.push_back({0, b, d, c});
+    }
+  return build_mesh<3>(std::move(raw), "test");
+}
+
+// A pin with a conical end, whose edge is one of 30 degrees; and a cone with its tip.
+TEST(BodyGeometry, ConesAreFoundBesideCylindersAndWithTheirTips) {
+  const double slope = std::tan(std::numbers::pi / 6);
+  Mesh<3> pin = turned({{0, -0.6}, {0.5, -0.6}, {0.5, -0.3}, {0.5, 0}, {0.5 - 0.2 * slope, 0.2}, {0, 0.2}}, 24);
+  give_geometry(pin, Surfaces::automatic);
+  EXPECT_EQ(kinds(pin), (std::multiset<std::string>{"plane", "cylinder", "cone", "plane"}));
+  Mesh<3> cone = turned({{0, 0}, {1, 0}, {0.6, 0.8}, {0.3, 1.4}, {0, 2}}, 20);
+  give_geometry(cone, Surfaces::automatic);
+  EXPECT_EQ(kinds(cone), (std::multiset<std::string>{"plane", "cone"}));
+  const Mesh<3> fine = hierarchy(cone, 2).finest();
+  for (const Face<3>& face : fine.boundary)
+    for (const Index v : face.vertices) {
+      const Point<3>& p = fine.points[v];
+      EXPECT_NEAR(std::min(p[2], (2 - p[2]) / 2 - std::hypot(p[0], p[1])), 0, 1e-12);
+    }
+}
+
+// Cylinder and sphere run into each other without an edge.
+TEST(BodyGeometry, ShapesThatRunIntoEachOtherAreToldApart) {
+  std::vector<Point<2>> section{{0, -1}, {1, -1}, {1, -0.7}, {1, -0.4}};
+  for (int k = 0; k < 6; ++k)
+    section.push_back({std::cos(k * std::numbers::pi / 12), std::sin(k * std::numbers::pi / 12)});
+  section.push_back({0, 1});
+  Mesh<3> mesh = turned(section, 24);
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"plane", "cylinder", "sphere"}));
+}
+
+// What is round between two materials is round as a surface is.
+TEST(BodyGeometry, FacesBetweenMaterialsAreSmooth) {
+  Mesh<2> mesh = ring(24, 2, 1, 2);
+  for (const auto& element : mesh.elements) {
+    double r = 0;
+    for (const Index v : element) r += length<2>(mesh.points[v]) / 3;
+    mesh.region.push_back(r < 1.5 ? -1 : 0);
+  }
+  give_geometry(mesh, Surfaces::automatic);
+  EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"circle", "circle", "inner circle"}));
+  const Mesh<2> fine = hierarchy(mesh, 3).finest();
+  double area = 0;
+  for (std::size_t e = 0; e < fine.elements.size(); ++e)
+    if (fine.region[e] < 0) area += signed_volume<2>(corners<2>(fine.points, fine.elements[e]));
+  const double exact = std::numbers::pi * 1.25;
+  EXPECT_NEAR(area, exact, 3e-4 * exact);  // flat faces between the materials: 2e-2
 }
 
 // Refinement then goes on along the circle, not along the parabolas of the elements.

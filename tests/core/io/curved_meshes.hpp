@@ -30,7 +30,7 @@ void expect_curved(const Mesh<D>& flat, const Read& read, bool vtk) {
   const auto straight = std::get<Mesh<D>>(read(sample));
   EXPECT_EQ(straight.points, flat.points);
   EXPECT_EQ(straight.elements, flat.elements);
-  EXPECT_TRUE(straight.bends.empty());
+  for (const Bends<D>& bends : straight.bends) EXPECT_EQ(bends, Bends<D>{});
   EXPECT_TRUE(straight.curves.empty());
 
   for (Point<3>& p : sample.points) p = place(p);

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/joints.hpp"
+
+namespace signorini::geometry {
+
+/// The unit normal of a curved face where it meets a neighbour in all its corners but `tip`; what a mesh knows of it.
+template <int D>
+using JointNormal = std::function<Point<D>(std::size_t face, int tip)>;
+
+struct Edges {
+  std::vector<std::uint8_t> sharp;  ///< per joint: faces that have it in common meet at an edge of the body
+  std::vector<double> angle;        ///< per face and tip, between normals, in radians; 0 where no face is beyond
+};
+
+/// Tells edges of a body (2D: corners) from joints between flat faces that stand for a round surface: by what each side
+/// shows when it is seen for itself.
+///
+/// Faces in one plane are one plate. A plate of several faces across a joint is flat: nobody divides the chord of an
+/// arc. Beside other plates, the surface goes on with the curvature that its faces there have: the quadratic surface
+/// through the vertices on one side of the joint, tangent to flat plates, has a normal at the joint. Where the normals
+/// of both sides are nearer to each other than half the angle between the faces, the joint is one of a round surface.
+/// Four points on an arc may be a chamfered block as well: so there have to be joints on both sides that turn on, or on
+/// one side one that has been found to be round before. What nothing tells to be round is an edge, whatever its angle.
+///
+/// Of curved faces the angle between their normals is taken as it is, beside that by which they turn themselves.
+/// @param crease angle in radians from which on there is an edge in any case
+template <int D>
+Edges find_edges(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
+                 const Joints<D>& joints, double crease, const JointNormal<D>& joint_normal = {});
+
+}  // namespace signorini::geometry
