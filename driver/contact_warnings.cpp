@@ -279,6 +279,16 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
                             angle * 180 / std::numbers::pi)
               : ""));
     };
+    const auto add_smoothed = [&](const char* whose, const SmoothedOver& over) {
+      if (!(over.error() > noticeable * (depth > 0 ? depth : displacement))) return;
+      warnings.push_back(fmt::format(
+          "{}: where they touch, the {} is taken for a smooth surface over faces that meet at up to {:.3g} degrees, "
+          "and "
+          "is {:.3g} off these, where {}displacements are up to {:.3g}: such a surface is as good as its vertices; "
+          "expected smaller faces, or, where an edge is meant, a smaller 'crease'",
+          model.obstacles[k].origin, whose, over.angle * 180 / std::numbers::pi, over.by,
+          depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
+    };
     std::vector<bool> touching(nodes.size()), at_vertex;
     for (const ContactNode<B>& node : results.contact.nodes)
       if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
@@ -287,6 +297,8 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
     const Chords chords = by_shape ? Chords{} : chord_sagitta(hierarchy, std::move(at_vertex));
     add("body", chords.sagitta, chords.angle);
     add("obstacle", results.deformed[k]->sagitta, 0);
+    add_smoothed("body", chords.smoothed);
+    add_smoothed("obstacle", results.deformed[k]->smoothed);
   }
   return warnings;
 }

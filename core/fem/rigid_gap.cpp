@@ -148,7 +148,11 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
     for (; node != state.nodes.end() && node->vertex == gap.node; ++node)
       contact = contact || (node->contact && node->obstacle == obstacle);
     if constexpr (D == 3)
-      if (contact && faceted) out.sagitta = std::fmax(out.sagitta, faceted->sagitta_at(moved.at(gap.node).data()));
+      if (contact && faceted) {
+        out.sagitta = std::fmax(out.sagitta, faceted->sagitta_at(moved.at(gap.node).data()));
+        const SmoothedOver over = faceted->smoothed_at(moved.at(gap.node).data());
+        if (over.error() > out.smoothed.error()) out.smoothed = over;
+      }
     if (contact) out.opening = std::max(out.opening, gap.distance);
     out.penetration = std::max(out.penetration, -gap.distance);
     if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.node));

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "core/fem/contact.hpp"
+#include "core/mesh/chords.hpp"
 
 namespace signorini {
 
@@ -12,6 +13,7 @@ struct DeformedContact {
   double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle
   Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
   double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
+  SmoothedOver smoothed{};  ///< likewise
 };
 
 /// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between

@@ -127,17 +127,27 @@ template <int D>
 Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked) {
   std::vector<WideJoint<D>> wide;
   Chords largest;
+  SmoothedOver smooth;
   each_marked_joint(hierarchy, std::move(marked), [&](const Mesh<D>& mesh, const Side& a, const Side& b) {
     const Face<D>&one = mesh.boundary[a.face], &other = mesh.boundary[b.face];
-    if (one.curve >= 0 || other.curve >= 0) return;
+    const auto is_patch = [&](Index curve) { return curve >= 0 && mesh.curves[curve].kind == CurveKind::patches; };
+    const bool smoothed = one.curve == other.curve && is_patch(one.curve);
+    if (!smoothed && (one.curve >= 0 || other.curve >= 0)) return;
     const Point<D> here = across(mesh, one, a.tip), there = across(mesh, other, b.tip);
     const double size = std::min(length<D>(here), length<D>(there)), angle = turn<D>(here, there);
+    if (smoothed) {
+      const SmoothedOver over{angle * size / 8, angle};
+      if (over.error() > smooth.error()) smooth = over;
+      return;
+    }
     if (const double off = sagitta(angle, size); off > largest.sagitta) largest = {off, angle};
     if (angle > largest_turn && angle <= widest)
       wide.push_back({angle, size, {direction(mesh, one), direction(mesh, other)}});
   });
   const Chords wider = widest_chords(wide);
-  return wider.sagitta > largest.sagitta ? wider : largest;
+  Chords out = wider.sagitta > largest.sagitta ? wider : largest;
+  out.smoothed = smooth;
+  return out;
 }
 
 template Chords chord_sagitta(const MeshHierarchy<2>&, std::vector<bool>);

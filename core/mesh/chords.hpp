@@ -14,9 +14,18 @@ inline constexpr double largest_turn = 35 * std::numbers::pi / 180;
 /// @param across extent of the smaller face across what both have in common
 double sagitta(double angle, double across);
 
+/// Where a smooth surface has taken the place of flat faces that meet at an angle.
+struct SmoothedOver {
+  double by = 0;     ///< how far it is off them
+  double angle = 0;  ///< in radians
+  /// About how far it may be off the true surface, if that is smooth: by the fourth power of the size of faces.
+  double error() const { return by * angle * angle; }
+};
+
 struct Chords {
-  double sagitta = 0;  ///< the largest one
-  double angle = 0;    ///< between the faces there, in radians
+  double sagitta = 0;       ///< the largest one
+  double angle = 0;         ///< between the faces there, in radians
+  SmoothedOver smoothed{};  ///< the one with the largest error, of faces on patches
 };
 
 /// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a

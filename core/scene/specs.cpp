@@ -33,7 +33,8 @@ constexpr KeySpec body[] = {
      "of a body from a mesh, what its boundary faces stand for. smooth: a smooth surface through the vertices; fit: "
      "planes, cylinders, cones, spheres, tori (2D: lines, circles), else facets; auto: shapes that fit up to rounding, "
      "else the mesh's own curved elements, else smooth"},
-    {"crease", number, "35", "(0, 180)", "", "beside `geometry`: faces that meet at more degrees meet at an edge"},
+    {"crease", number, "35", "(0, 180)", "",
+     "beside `geometry`: faces that meet at more degrees meet at an edge in any case"},
     {"size", field, "", "(0, inf)", "",
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };
@@ -137,7 +138,8 @@ constexpr KeySpec cylinder_obstacle[] = {
 constexpr KeySpec surface_obstacle[] = {
     {"file", file, nullptr, "", "", "a triangle surface in OFF, OBJ, STL or PLY"},
     {"geometry", text, "smooth", "smooth | facets", "", "smooth: a smooth surface through the vertices"},
-    {"crease", number, "35", "(0, 180)", "", "triangles that meet at more degrees meet at an edge of the obstacle"},
+    {"crease", number, "35", "(0, 180)", "",
+     "triangles that meet at more degrees meet at an edge of the obstacle in any case"},
 };
 constexpr KeySpec expression_obstacle[] = {
     {"distance", field, nullptr, "", "", "signed distance, positive outside the obstacle"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/base/dot.hpp"
@@ -82,6 +83,16 @@ class SurfaceDistance : public FacetedDistance {
     }
   }
 
+  SmoothedOver smoothed_at(const double* point) const noexcept override {
+    if (patches_.empty()) return {};
+    try {
+      const Index t = surface_.nearest_triangle(difference<3>({point[0], point[1], point[2]}, surface_.units().origin));
+      return {bulge_[t], turn_[t]};
+    } catch (const std::exception&) {
+      return {};
+    }
+  }
+
   Distance at(const double* point, const double*, Status& status) const noexcept override {
     try {
       return distance({point[0], point[1], point[2]});
@@ -156,7 +167,9 @@ class SurfaceDistance : public FacetedDistance {
   }
 
   void smooth(double crease) {
-    patches_ = smooth_boundary<3>(surface_.points(), surface_.triangles(), crease).patches;
+    SmoothBoundary<3> smooth = smooth_boundary<3>(surface_.points(), surface_.triangles(), crease);
+    patches_ = std::move(smooth.patches);
+    turn_ = std::move(smooth.turn);
     for (const CubicPatch<3>& patch : patches_) bulge_.push_back(bulge<3>(patch));
     most_bulge_ = bulge_.empty() ? 0 : *std::ranges::max_element(bulge_);
   }
@@ -222,6 +235,7 @@ class SurfaceDistance : public FacetedDistance {
   double rounding_, same_;  ///< lengths up to which positions are one: computed, and on the surface
   std::vector<Point<3>> face_normals_;
   std::vector<CubicPatch<3>> patches_;  ///< per triangle of a smooth surface
+  std::vector<double> turn_;            ///< of each the largest angle that was smoothed over
   std::vector<double> bulge_;           ///< of each, and the largest
   double most_bulge_ = 0;
 };
