@@ -254,11 +254,11 @@ class Chooser {
   void grow_shapes(std::vector<Index>& faces) {
     constexpr int most_attempts = 300;
     constexpr std::size_t few = D == 2 ? 6 : 16;  // vertices
-    std::set<Index> open(faces.begin(), faces.end());
+    std::set<Index> open(faces.begin(), faces.end()), tried;
     const Neighbours at = neighbours(faces);
     int attempts = 0;
     for (const Index first : faces) {
-      if (!open.contains(first) || attempts >= most_attempts) continue;
+      if (!open.contains(first) || tried.contains(first) || attempts >= most_attempts) continue;
       std::vector<Index> group = connected(first, at, [&](Index f, const std::vector<Index>& so_far) {
         return open.contains(f) && vertices_of(so_far).size() < few;
       });
@@ -273,6 +273,7 @@ class Chooser {
         });
         found = group.size() < before ? std::nullopt : shape_of(group);
       }
+      tried.insert(group.begin(), group.end());
       if (!found) continue;
       put_on(*found, group);
       for (const Index f : group) open.erase(f);

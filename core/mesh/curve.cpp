@@ -57,7 +57,8 @@ std::optional<Height<D>> height(const Curve<D>& curve, const Point<D>& p) {
     return Height<D>{distance - curve.radius, radial};
   }
   const Around<D> at(curve, p);
-  if (curve.kind == cone && at.radius == 0 && at.along_axis == 0) return Height<D>{0, along<D>({}, -1, curve.axis)};
+  // A cone's tip is on it, and no direction leads there.
+  if (curve.kind == cone && at.radius == 0) return Height<D>{-std::sin(curve.second) * at.along_axis, {}};
   if (!(at.radius > 0)) return {};
   if (curve.kind == cylinder) return Height<D>{at.radius - curve.radius, at.out};
   if (curve.kind == cone) {

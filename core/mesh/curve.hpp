@@ -14,8 +14,8 @@ struct Height {
   Point<D> normal{};
 };
 
-/// Of a curve with a closed form; nothing where all of its points are equally near (the centre, the axis), and for
-/// other curves.
+/// Of a curve with a closed form; nothing where all of its points are equally near (the centre, the axis; on that of a
+/// cone there is no direction), and for other curves.
 template <int D>
 std::optional<Height<D>> height(const Curve<D>& curve, const Point<D>& p);
 
