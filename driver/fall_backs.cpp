@@ -41,6 +41,7 @@ std::unique_ptr<NestedSolver<D, B>> NestedSolver<D, B>::other_way(const Scene::S
   auto other = std::make_unique<NestedSolver>(hierarchy_, options, registry_, progress_, times_, nodes_);
   if (pairs_.given()) other->take_contact(pairs_.all(), forces_);
   other->before_ = before_;
+  other->pairs_.come_after(pairs_);
   return other;
 }
 
@@ -110,6 +111,7 @@ template <int D, int B>
 void NestedSolver<D, B>::come_back() {
   if (!other_ || other_->options_.method == options_.method) return;
   before_ = std::move(other_->before_);
+  pairs_.come_after(other_->pairs_);
   other_.reset();
 }
 

@@ -35,13 +35,21 @@ class LevelPairs {
 
   /// In a load step that follows another one: where a displacement of the finest mesh has taken bodies past each other,
   /// in the mean of where they nearly touch, by a part of an element since they last found each other, find() finds
-  /// them there from now on.
+  /// them there from now on. That depends on the displacement and on where they found each other, not on where
+  /// unknowns are jumps: these are others for every start and hierarchy.
   /// @return whether it has
   bool follow(const Model<B>& model, const std::vector<double>& u);
   /// Whether it would.
   bool would_follow(const Model<B>& model, const std::vector<double>& u) const {
-    return shift_after(model, u) != shift_;
+    return shift_after({shift_, all_.back()}, model, u) != shift_;
   }
+
+  /// Steps after this one begin from where bodies have found each other now.
+  void accept() { accepted_ = {shift_, all_.back()}; }
+  /// Such a step begins, or begins again, with the last one's displacement: follows it from there.
+  void begin_step(const Model<B>& model, const std::vector<double>& u) { shift_ = shift_after(accepted_, model, u); }
+  /// Steps begin from where those of another one's do.
+  void come_after(const LevelPairs& other) { accepted_ = other.accepted_; }
 
   /// From now on these are all that may touch, per mesh, whatever the model says.
   void give(std::vector<Pairs> pairs);
@@ -70,7 +78,13 @@ class LevelPairs {
   void connect(std::size_t level, std::span<Prolongation> between);
 
  private:
-  std::vector<Point<B>> shift_after(const Model<B>& model, const std::vector<double>& u) const;
+  /// Where bodies found each other, on the finest mesh.
+  struct Place {
+    std::vector<Point<B>> shift;
+    Pairs all;
+  };
+
+  std::vector<Point<B>> shift_after(const Place& place, const Model<B>& model, const std::vector<double>& u) const;
   Prolongation interpolation(std::size_t refinement) const;
   bool held(const Model<B>& model) const;
 
@@ -79,6 +93,7 @@ class LevelPairs {
   const std::size_t first_;
   std::vector<Pairs> all_, chosen_;  // per mesh
   std::vector<Point<B>> shift_;
+  Place accepted_;
   std::vector<std::array<std::shared_ptr<const Jumps<B>>, 2>> connected_;  // per refinement: of the interpolation
   bool given_ = false;
   bool held_ = false;  // prescribed values hold all bodies

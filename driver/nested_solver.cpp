@@ -513,6 +513,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
 template <int D, int B>
 void NestedSolver<D, B>::accept() {
   if (other_) return other_->accept();
+  pairs_.accept();
   before_.swap(now_);
   for (LevelSolution<B>& of_level : now_) of_level = {};
 }
@@ -530,10 +531,10 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   come_back();
   if (other_) return other_->solve_after(model, u);
   before_.back().u = u;
-  pairs_.follow(model, u);
+  pairs_.begin_step(model, u);
   Solution<B> solution = solve_safely(model);
   const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
-  for (int again = 0; again < most_slides && solution.summary.converged(); ++again) {
+  for (int again = 0; !other_ && again < most_slides && solution.summary.converged(); ++again) {
     if (!pairs_.follow(model, displacement())) return solution;
     progress_.phase("bodies have slid past each other, and are paired anew");
     std::vector<Stage> before = std::move(solution.summary.stages);
@@ -541,7 +542,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
     solution = solve_safely(model);
     solution.summary.put_in_front(std::move(before));
   }
-  solution.slides_on = solution.summary.converged() && pairs_.would_follow(model, displacement());
+  if (!other_)  // which has followed by itself
+    solution.slides_on = solution.summary.converged() && pairs_.would_follow(model, displacement());
   return solution;
 }
 

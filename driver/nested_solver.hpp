@@ -86,7 +86,7 @@ class NestedSolver {
   void forget_matrices();
 
   /// In the last solve, per obstacle by how much slaves were taken to have moved past masters; empty: not.
-  const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
+  const std::vector<Point<B>>& shift() const { return other_ ? other_->shift() : pairs_.shift(); }
 
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return other_ ? other_->by_matrix() : first_ > 0; }
