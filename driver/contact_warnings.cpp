@@ -122,17 +122,20 @@ std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& mo
             "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
             "another side meant?",
             term.origin));
-      const PrescribedNodes fixed = prescribed_nodes(nodes, collect_fixes<D, D>(nodes, model), coupling);
-      if (fixed.normal > 0 && fixed.normal < fixed.all)
+      const std::vector<FixedDirections<D>> fixes = collect_fixes<D, D>(nodes, model);
+      const PrescribedNodes fixed = prescribed_nodes(nodes, fixes, coupling);
+      Index lost = fixed.normal;
+      if (term.obstacle->functional()) couple_sides_with_friction<D>(nodes, model, term, faces, fixes, {}, &lost);
+      if (lost > 0 && fixed.normal > 0 && fixed.normal < fixed.all)
         warnings.push_back(fmt::format(
             "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the normal: "
             "nothing keeps the other body off them; expected free nodes, or the other side as the slave ('slave')",
             term.origin, fixed.normal, fixed.all));
-      if (term.obstacle->friction() && fixed.without_friction())
+      if (term.obstacle->friction() && lost > 0 && lost > fixed.normal)
         warnings.push_back(fmt::format(
             "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the surface: "
             "no friction acts there along that; expected free nodes, or the other side as the slave ('slave')",
-            term.origin, fixed.some, fixed.all));
+            term.origin, lost, fixed.all));
     }
   return warnings;
 }

@@ -66,8 +66,10 @@ class Coupler {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
     const Mesh<D>& mesh = nodes_.mesh();
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
-    const MortarCoupling<D> found =
-        couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, shifted_points(obstacle, faces.slave));
+    const std::vector<Point<D>> points = shifted_points(obstacle, faces.slave);
+    const MortarCoupling<D> found = term.obstacle->functional()
+                                        ? couple_sides_with_friction<D>(nodes_, model_, term, faces, fixes_, points)
+                                        : couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, points);
     if (shift_.empty() && !term.resolve)
       refuse_deep<D>(mesh, term, deepest_overlap<D>(mesh, term, faces, model_.t, found.deepest));
     const std::size_t before = rows_.size();

@@ -137,7 +137,7 @@ void refuse_unseen_overlap(const Nodes<D>& nodes, const Model<D>& model) {
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                const std::vector<Index>& slave, const std::vector<Index>& master,
-                               std::span<const Point<D>> points) {
+                               std::span<const Point<D>> points, std::span<const Index> left_out) {
   const Mesh<D>& mesh = nodes.mesh();
   if (points.empty()) points = mesh.points;
   const auto of_slave = corners(mesh, slave), of_master = corners(mesh, master);
@@ -149,8 +149,76 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
     options.depth = coarsest_length(mesh, slave);
   const std::vector<double> added = added_gaps(nodes, term, slave);
   options.added_gap = added;
+  options.left_out = left_out;
   return couple<D>({points, of_slave, term.origin, nodes.order(), &mesh, slave},
                    {points, of_master, term.origin, nodes.order(), &mesh, master}, options);
+}
+
+namespace {
+
+/// Whether what is prescribed at a slave's node, along one direction, is prescribed for what it sees of the master.
+template <int D>
+bool goes_along(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes, const MortarCoupling<D>& coupling,
+                Index k, const double* direction, double value) {
+  double sum = 0, size = std::abs(value);
+  for (Offset j = coupling.row[k]; j < coupling.row[k + 1]; ++j) {
+    const FixedDirections<D>* fixed = fixed_at(fixes, nodes.of_vertex(coupling.column[j]));
+    if (!fixed) return false;
+    double left = 1;
+    for (int i = 0; i < fixed->count; ++i) {
+      double along = 0;
+      for (int m = 0; m < D; ++m) along += direction[m] * fixed->direction[i][m];
+      left -= along * along;
+      sum += coupling.value[j] * along * fixed->value[i];
+      size = std::max(size, std::abs(fixed->value[i]));
+    }
+    if (left > rounding) return false;
+  }
+  return std::abs(value - sum) <= rounding * size;
+}
+
+/// The slave's vertices where a fix, not a plane of symmetry, prescribes something that the master does not go along
+/// with; ascending.
+template <int D>
+std::vector<Index> held_apart(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
+                              const MortarCoupling<D>& coupling) {
+  std::vector<Index> out;
+  for (Index k = 0; k < coupling.nodes() && !fixes.empty(); ++k) {
+    const FixedDirections<D>* fixed = fixed_at(fixes, nodes.of_vertex(coupling.node[k]));
+    bool apart = false;
+    for (int i = 0; fixed && i < fixed->count; ++i)
+      apart =
+          apart || (fixed->fix[i] >= 0 && !goes_along(nodes, fixes, coupling, k, fixed->direction[i], fixed->value[i]));
+    if (apart) out.push_back(coupling.node[k]);
+  }
+  return out;
+}
+
+/// Those of some vertices, ascending, that are on no face all of whose vertices are among them.
+template <int D>
+std::vector<Index> with_neighbours(const Mesh<D>& mesh, const std::vector<Index>& faces, std::vector<Index> some) {
+  const auto among = [&](Index v) { return std::ranges::binary_search(some, v); };
+  std::vector<Index> alone;
+  for (const Index f : faces)
+    if (const auto& corners = mesh.boundary[f].vertices; std::ranges::all_of(corners, among))
+      alone.insert(alone.end(), corners.begin(), corners.end());
+  std::ranges::sort(alone);
+  std::erase_if(some, [&](Index v) { return std::ranges::binary_search(alone, v); });
+  return some;
+}
+
+}  // namespace
+
+template <int D>
+MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                             const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
+                                             std::span<const Point<D>> points, Index* lost) {
+  MortarCoupling<D> found = couple_sides<D>(nodes, model, term, faces.slave, faces.master, points);
+  const std::vector<Index> apart = held_apart(nodes, fixes, found);
+  const std::vector<Index> left_out = with_neighbours(nodes.mesh(), faces.slave, apart);
+  if (lost) *lost = static_cast<Index>(apart.size() - left_out.size());
+  return left_out.empty() ? std::move(found)
+                          : couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, left_out);
 }
 
 template <int D>
@@ -234,10 +302,16 @@ template PairedFaces paired_faces(const Mesh<2>&, const ObstacleTerm<2>&, double
 template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double);
 template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
                                            const std::vector<Index>&, const std::vector<Index>&,
-                                           std::span<const Point<2>>);
+                                           std::span<const Point<2>>, std::span<const Index>);
+template MortarCoupling<2> couple_sides_with_friction<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                                         const PairedFaces&, const std::vector<FixedDirections<2>>&,
+                                                         std::span<const Point<2>>, Index*);
 template MortarCoupling<3> couple_sides<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
                                            const std::vector<Index>&, const std::vector<Index>&,
-                                           std::span<const Point<3>>);
+                                           std::span<const Point<3>>, std::span<const Index>);
+template MortarCoupling<3> couple_sides_with_friction<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                                         const PairedFaces&, const std::vector<FixedDirections<3>>&,
+                                                         std::span<const Point<3>>, Index*);
 template std::vector<Point<2>> displaced_points<2>(const Nodes<2>&, const std::vector<double>&);
 template std::vector<Point<3>> displaced_points<3>(const Nodes<3>&, const std::vector<double>&);
 

@@ -49,10 +49,21 @@ double added_on_face(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Poi
 /// through a body, as a face and the one on its back would: not deeper than the bodies overlap, two of one body not
 /// deeper than an element of the coarsest mesh. Its nodes are vertices of the mesh.
 /// @param points where the vertices of the mesh are; none: as the mesh has them
+/// @param left_out see CoupleOptions
 template <int D>
 MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                const std::vector<Index>& slave, const std::vector<Index>& master,
-                               std::span<const Point<D>> points = {});
+                               std::span<const Point<D>> points = {}, std::span<const Index> left_out = {});
+
+/// The same with friction. What a fix prescribes at a node of the slave no unknown there is a jump along, and no
+/// friction could act on the master. Such nodes are left out, and the share that they have in friction and pressure is
+/// their neighbours'; but for faces all of whose nodes are such, and for nodes whose part of the master is prescribed
+/// to go along with them, as where fixes stand for a plane of symmetry.
+/// @param lost gets at how many nodes friction along something is lost all the same; null: not asked
+template <int D>
+MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                             const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
+                                             std::span<const Point<D>> points = {}, Index* lost = nullptr);
 
 /// Error(Exit::input) for bodies that overlap at the start, and of which no faces see that: they would pass through
 /// each other.

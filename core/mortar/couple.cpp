@@ -89,7 +89,10 @@ class Gathering {
   }
 
   void run(const CoupleOptions& options, MortarCoupling<D>& out) {
-    for (Index p = 0; p < size(); ++p) nodes_.push_back(sum(p, options));
+    for (Index p = 0; p < size(); ++p) {
+      nodes_.push_back(sum(p, options));
+      orphans_ = orphans_ || nodes_.back().place == Place::orphan;
+    }
     front_.assign(slave_.node.size(), 0);
     each_share([&](Face face, Index p, double share, double) {
       if (faces(face, nodes_[p].normal)) front_[p] += share;
@@ -180,6 +183,10 @@ class Gathering {
       out.place = P > 1 && size > 0 ? Place::orphan : Place::alone;
       return out;
     }
+    if (std::ranges::binary_search(options.left_out, slave_.node[p])) {
+      out.place = Place::orphan;
+      return out;
+    }
     // ∫ ψ_p (jump) · (direction) <= ∫ ψ_p (distance) with one jump for all faces of the node: the left-hand side is
     // that times the sum of directions, whose length divides both.
     out.common = length<D>(out.normal);
@@ -197,7 +204,7 @@ class Gathering {
       nearest = std::min(nearest, s.record->nearest);
       farthest = std::max(farthest, s.record->farthest);
       gap += add(s, s.corner, s.record->share[s.corner]);
-      if constexpr (P > 1) gap += add_orphans(s, part_of_orphans(*s.record, s.corner));
+      if (orphans_) gap += add_orphans(s, part_of_orphans(*s.record, s.corner));
     }
     out.node.push_back(slave_.node[p]);
     out.weight.push_back(node.weight);
@@ -279,6 +286,7 @@ class Gathering {
   std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
   std::vector<double> front_;           // area of a node in faces along its normal
   std::vector<Node> nodes_;
+  bool orphans_ = false;  // there are some
   std::vector<Index> place_;
   std::vector<Weight> row_, own_;
 };

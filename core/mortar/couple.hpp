@@ -36,6 +36,9 @@ struct CoupleOptions {
   /// Per point what counts as more distance of the slave there, in between linearly; of what comes out only the deepest
   /// overlap does. None: nothing.
   std::span<const double> added_gap{};
+  /// Points of the slave, ascending, that are to be no slave nodes: what they are a part of goes to the other nodes of
+  /// their faces, as far as these have any.
+  std::span<const Index> left_out{};
 };
 
 /// Where slave and master overlap most.
@@ -58,7 +61,7 @@ struct DeepestOverlap {
 /// gaps. Where the master covers less than about half of a quadratic face the mean of a corner's function over that is
 /// negative. A node whose D_p is not a tenth of what it is where all of it is covered is left alone, and what it is a
 /// part of goes to the face's other nodes: it is among their q then, with a weight of the other sign, and gap_p is that
-/// of all of them: no mean any more.
+/// of all of them: no mean any more. So it is with nodes that are left out, of elements of any order.
 template <int D>
 struct MortarCoupling {
   std::vector<Index> node;       ///< slave nodes with a partner, ascending; what follows is per entry of it
