@@ -40,13 +40,16 @@ constexpr int most_slides = 4;
 /// so many operations. (Cantilevers from 100:1 to 1000:1 in six units of length each differ by 2 to 7 of them.)
 constexpr double of_assembly = 6;
 
-/// Friction opposes the motion since the last step, of which x is the solution, relative to the obstacle, whose own
+/// Friction opposes the motion since the last step, of which u is the displacement, relative to the obstacle, whose own
 /// motion is there already.
 template <int B>
-void remember(const std::vector<double>& x, DiscreteProblem<B>& problem) {
-  Constraints<B>& c = problem.constraints;
-  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
+void remember(const std::vector<double>& u, Discretization<B>& discretization) {
+  Constraints<B>& c = discretization.problem.constraints;
+  const std::vector<double> x = c.last.empty() ? std::vector<double>() : to_local(discretization.problem, u);
+  for (std::size_t slot = 0; !x.empty() && slot < c.vector.size(); ++slot)
     for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
+  for (HeldBound<B>& held : discretization.held)
+    for (int k = 0; k < B; ++k) held.last[k] += u[Offset{held.bound.vertex} * B + k];
 }
 
 template <int D>
@@ -108,8 +111,8 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   if (changed_[level]) find_pressure_space(model, level);
   if (level == first_ && changed_[level]) matrices_.forget_products();
   DiscreteProblem<B>& problem = solution.discretization.problem;
-  if (model.follows && !problem.constraints.last.empty() && !before_[level].u.empty())
-    remember(to_local(problem, before_[level].u), problem);
+  if (model.follows && !before_[level].u.empty()) remember(before_[level].u, solution.discretization);
+  rest_where_prescribed(problem);
   if (model.follows) before_[level].numbers.hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
   if (!forces_.empty()) {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double positive_force = 1e-8;  // of the largest force
 constexpr double on_bound = 1e-12;       // of the numbers compared
+constexpr double at_rest = 1e-9;         // of the largest displacement: what solvers leave of no motion
 
 template <int B>
 class NodeReader {
@@ -95,21 +96,19 @@ class NodeReader {
     if (!node.friction) return;
     bool sticks = true;
     double work = 0;
-    const bool between_bodies = is_jump(p);
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
-      // No jump of two bodies is along what is prescribed: nothing of it acts on the master.
-      if (between_bodies && (problem_.fixed[p] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
-      // What holds a prescribed component hides the force along it, and other obstacles what slips.
+      // What holds a prescribed component hides the force along it, and other obstacles what slips. (A pair of bodies
+      // goes along with what is prescribed: without a motion along it, see rest_where_prescribed().)
       const bool hidden = has_facets(slot) || problem_.fixed[p] >> k & 1u;
       const double force = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
-      sticks = sticks && moved == 0;
+      sticks = sticks && std::fabs(moved) <= at_rest * size_;
       work += force * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
     node.sticks = sticks;
-    node.dissipated = std::max(-work, 0.0);  // what is left of the other sign is rounding
+    node.dissipated = sticks ? 0 : std::max(-work, 0.0);  // what is left of the other sign is rounding
     if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
@@ -143,11 +142,30 @@ class NodeReader {
     for (double& d : node.direction) d *= sign;
     const PrescribedRows<B>& rows = discretization_.prescribed;
     push(node, sign * rows.force(rows.at(bound.vertex), held.along.data(), x_));
+    lead(held, u, node);
     return node;
   }
 
  private:
-  bool is_jump(Index p) const { return problem_.jumps && std::ranges::binary_search(problem_.jumps->vector, p); }
+  /// Friction at a node that is held and led along the obstacle.
+  void lead(const HeldBound<B>& held, const std::array<double, B>& u, ContactNode<B>& node) const {
+    std::array<double, B> slip;
+    double across = 0, square = 0;
+    for (int i = 0; i < B; ++i) across += (u[i] - held.last[i]) * node.direction[i];
+    for (int i = 0; i < B; ++i) {
+      slip[i] = u[i] - held.last[i] - across * node.direction[i];
+      square += slip[i] * slip[i];
+    }
+    const double bound = held.law.bound + held.law.coefficient * std::max(node.pressure, 0.0), way = std::sqrt(square);
+    if (!(bound > 0) || way <= at_rest * size_) return;
+    node.friction = true;
+    node.law = held.law;
+    node.dissipated = bound * way;
+    for (int i = 0; i < B; ++i) {
+      node.tangential[i] = -bound * slip[i] / way;
+      node.force[i] += node.tangential[i];
+    }
+  }
 
   /// One bound of a direction at a slot with faces.
   struct Side {
@@ -283,6 +301,11 @@ template <int B>
 void release(ContactNode<B>& node) {
   node.contact = false;
   node.pressure = 0;
+  if (node.law.coefficient > 0) {  // what does not press is not held back
+    node.friction = false;
+    node.dissipated = 0;
+    node.tangential = {};
+  }
   node.force = node.tangential;
 }
 

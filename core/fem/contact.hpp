@@ -10,7 +10,8 @@ struct ContactNode {
   Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
   bool contact;    ///< the unknown lies on the bound
   /// All components along the obstacle's normal are prescribed: how the force divides between the obstacle and what
-  /// holds the vertex is not determined. All that presses along the normal is counted as the obstacle's.
+  /// holds the vertex is not determined. All that presses along the normal is counted as the obstacle's, and what that
+  /// makes of friction where the vertex is led along the obstacle: all of it against that motion, none without one.
   bool held;
   double gap;  ///< distance to the nearer bound, along `direction`
   /// Integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle without faces

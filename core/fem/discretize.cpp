@@ -355,6 +355,12 @@ class Discretizer {
 
   void hold(const Bound<B>& bound) {
     HeldBound<B> held{bound, bound.direction};
+    const Friction* friction = model_.obstacles[bound.obstacle].obstacle->friction();
+    const Index slot = constraints().slot[bound.vertex];
+    if (friction && bound.data >= 0 && (slot < 0 || out_.functional[slot] < 0)) {  // else there is a functional
+      held.law = friction->law(functionals_[bound.data].data.data());
+      held.last = functionals_[bound.data].motion;
+    }
     if (const double* N = problem().frames.dual_at(bound.vertex))
       block::transposed_product<B>(N, bound.direction.data(), held.along.data());
     out_.held.push_back(held);

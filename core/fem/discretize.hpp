@@ -27,7 +27,9 @@ struct FacetSource {
 template <int B>
 struct HeldBound {
   Bound<B> bound;
-  std::array<double, B> along;  ///< its direction in local coordinates: the force along it is that of `prescribed`
+  std::array<double, B> along;   ///< its direction in local coordinates: the force along it is that of `prescribed`
+  FrictionLaw law{};             ///< of what it holds back, if anything
+  std::array<double, B> last{};  ///< where the node was after the last load step, and what the obstacle has moved since
 };
 
 /// A model on a mesh, ready to be solved, and what is needed to interpret its solution.

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/solver/discrete_problem.hpp"
@@ -14,6 +16,28 @@ bool sticks(const Constraints<B>& c, Index slot, const double* x) {
   for (int k = 0; k < B; ++k)
     if (c.tangential[slot] >> k & 1u && x[k] != c.last[Offset{slot} * B + k]) return false;
   return true;
+}
+
+/// What is prescribed where a vector was after the last load step, but for rounding of coordinates and of the
+/// obstacle's motion, rests there: rounding is no slip that all of friction is against. Of a jump that is so whatever
+/// is prescribed: unless the other body goes along, friction knows nothing of it.
+template <int B>
+void rest_where_prescribed(DiscreteProblem<B>& problem) {
+  constexpr double rounding = 1e-12;  // of the numbers that motions are differences of
+  Constraints<B>& c = problem.constraints;
+  if (c.tangential.empty()) return;
+  double size = 0;
+  for (const auto* numbers : {&c.last, &problem.start})
+    for (const double v : *numbers) size = std::max(size, std::abs(v));
+  for (std::size_t slot = 0; slot < c.tangential.size(); ++slot) {
+    const Index p = c.vector[slot];
+    const bool jump = problem.jumps && std::ranges::binary_search(problem.jumps->vector, p);
+    for (int k = 0; k < B; ++k) {
+      double& last = c.last[slot * B + k];
+      const double now = problem.start[Offset{p} * B + k];
+      if ((problem.fixed[p] >> k & 1u) && (jump || std::abs(now - last) <= rounding * size)) last = now;
+    }
+  }
 }
 
 /// Lets vectors of a start on the finer level stick where all of the coarse slots stick that they are interpolated
