@@ -19,6 +19,7 @@
 #include "driver/problem.hpp"
 #include "driver/strain_warnings.hpp"
 #include "driver/touching_bodies.hpp"
+#include "driver/turned_friction.hpp"
 
 namespace signorini {
 namespace {
@@ -58,6 +59,7 @@ template <int D, int B>
 void BodyRun<D, B>::begin(double t) {
   follows_ = false;
   accepted_t_ = 0;
+  accepted_contact_ = {};
   if (body().parts.empty()) return;
   if constexpr (D == B)
     slaves_ = choose_slaves(Nodes(hierarchy_.levels.front()), build_model<B>(scene_, D, registry_, t, body_));
@@ -112,6 +114,7 @@ void BodyRun<D, B>::start_from(const std::vector<double>& u) {
 template <int D, int B>
 void BodyRun<D, B>::accept() {
   accepted_ = results_.u;
+  if (remembers()) accepted_contact_ = results_.contact;
   follows_ = true;
   accepted_t_ = t_;
   solver_.accept();
@@ -132,6 +135,11 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
   for (const ObstacleTerm<B>& term : model_.obstacles)
     if (const Stepping* own = stepping(term); own && !own->may_be_cut()) return &term.origin;
   return nullptr;
+}
+
+template <int D, int B>
+bool BodyRun<D, B>::turns_friction() const {
+  return turned_at_newcomers(accepted_contact_, results_.contact);
 }
 
 template <int D, int B>

@@ -40,6 +40,8 @@ class BodyRun {
   bool depends_on_step() const;
   /// The place in the scene of an obstacle that does not admit that the last step is cut; null: there is none.
   const std::string* veto_against_cutting() const;
+  /// Whether the last solve() is of a step that is too long for friction: see turned_at_newcomers().
+  bool turns_friction() const;
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);
@@ -81,6 +83,7 @@ class BodyRun {
   std::vector<SlaveChoice> slaves_;             // of all steps
   Model<B> model_;                              // of the last step
   std::vector<double> accepted_;                // displacements or values; empty: none yet
+  ContactState<B> accepted_contact_;            // where friction depends on it
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;

@@ -19,6 +19,13 @@
 #include "driver/touching_bodies.hpp"
 
 namespace signorini {
+namespace {
+
+/// See turned_at_newcomers().
+const std::string at_newcomers =
+    "most of it acts at nodes that came into contact in this step, and what they moved before they touched counts, too";
+
+}  // namespace
 
 const Progress& Driver::waiting() {
   static const Progress progress;
@@ -153,10 +160,14 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
                                 whole ? "" : fmt::format(", its part from t = {} to {}", by.from, by.to)));
   std::vector<std::string> warnings = report_.warnings;  // those of what fails are of no use
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
-  const bool stuck = is_stuck(report), parts_differ = stuck && may_be_cut(by, report);
+  const bool stuck = is_stuck(report);
+  bool turned = false;
+  for (std::size_t body = 0; body < bodies(); ++body) turned = turned || (!stuck && turns_friction(body));
+  const bool parts_differ = (stuck || turned) && may_be_cut(by, report);
   const std::string* veto = parts_differ ? veto_against_cutting() : nullptr;
   if (parts_differ && !veto) {
-    note_failure(by, report.summary);
+    note_failure(by, stuck ? "no solution was found" : "friction turned round", report.summary.iterations,
+                 stuck ? report.summary.reason : at_newcomers);
     const double middle = by.from + (by.to - by.from) / 2;
     return advance({by.number, by.from, middle, by.halvings + 1}, done) &&
            advance({by.number, middle, by.to, by.halvings + 1}, done);
@@ -165,7 +176,10 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   if (stuck && !whole)
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
-  if (veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
+  if (stuck && veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
+  if (turned)
+    warnings.push_back(fmt::format("step {}: at t = {} friction has turned round: {}; expected shorter steps ([steps])",
+                                   by.number, by.to, at_newcomers));
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();
@@ -187,21 +201,25 @@ const std::string* Driver::veto_against_cutting() const {
   return nullptr;
 }
 
-/// A part differs from the whole where something of the failed body depends on t, or on the step.
+bool Driver::turns_friction(std::size_t body) const {
+  return visit(body, [](const auto& run) { return run.turns_friction(); });
+}
+
+/// A part differs from the whole where something of the body in question depends on t, or on the step.
 bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
-    if (!report.bodies[body].summary.converged() &&
+    if ((!report.bodies[body].summary.converged() || turns_friction(body)) &&
         (uses_t(solved_, solved_.bodies[body]) || visit(body, [](const auto& run) { return run.depends_on_step(); })))
       return true;
   return false;
 }
 
-void Driver::note_failure(const LoadStep& by, const Summary& summary) {
-  report_.failed.push_back({by.number, by.from, by.to, summary.iterations, summary.reason});
-  report_.warnings.push_back(fmt::format("step {}: from t = {} to {} no solution was found, and it was cut in two: {}",
-                                         by.number, by.from, by.to, summary.reason));
+void Driver::note_failure(const LoadStep& by, const char* what, int iterations, const std::string& reason) {
+  report_.failed.push_back({by.number, by.from, by.to, iterations, reason});
+  report_.warnings.push_back(
+      fmt::format("step {}: from t = {} to {} {}, and it was cut in two: {}", by.number, by.from, by.to, what, reason));
 }
 
 void Driver::forget_matrices() {

@@ -86,8 +86,9 @@ class Driver {
   StepReport solve_step(const LoadStep& by, std::vector<std::string>& warnings);
   bool is_stuck(const StepReport& report) const;
   const std::string* veto_against_cutting() const;
+  bool turns_friction(std::size_t body) const;
   bool may_be_cut(const LoadStep& by, const StepReport& report) const;
-  void note_failure(const LoadStep& by, const Summary& summary);
+  void note_failure(const LoadStep& by, const char* what, int iterations, const std::string& reason);
   void accept();
   void add_step(StepReport report);
   void finish();
