@@ -94,7 +94,8 @@ to know:
 - What is negative by rounding alone counts as zero: `friction = "0.3 - 0.2 * x"` at x = 1.5.
 - With quadratic elements friction holds for the coefficients of nodes. A midpoint that sticks keeps its coefficient, and moves by a
   tenth of what each end of its edge does ([solver.md](solver.md), "Quadratic elements").
-- Nodes all of whose components are prescribed have no friction; they count in `nodes` alone.
+- Nodes all of whose components are prescribed slip where they are led along the obstacle, with all of friction against
+  that; others of them count in `nodes` alone.
 - With `coulomb` a fix must not prescribe the displacement along the obstacle's normal, and no other obstacle may hold the
   body along another direction, where there is friction: the force that presses is not known there. Such scenes are refused.
 - For large coefficients Coulomb's law may have no solution, or several. Where the iteration finds none it ends with exit
@@ -193,6 +194,10 @@ middle of its `t`, and each part again where it fails, `halvings` times at most.
 forgotten: parts start from the last step that was solved. The report lists the parts among its `steps`, and what failed
 under `failed_steps`; a warning says it. Where the smallest part fails, too, the run ends there with exit status 3. The
 steps before it are kept.
+
+A step that is solved is cut, too, where friction of an obstacle acts against what it was in the last step, and most of it
+at nodes that have come into contact since: what these moved before they touched counts in a step, as where a blade rolls
+onto a drum. Where it may not be cut any more a warning says so.
 
 Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction or another energy of its own. Such a body
 remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that failed.
