@@ -11,7 +11,6 @@
 #include "core/fem/element.hpp"
 #include "core/geometry/body_geometry.hpp"
 #include "core/io/mesh_file.hpp"
-#include "core/io/surface_complaint.hpp"
 #include "core/mesh/join.hpp"
 #include "core/mesh/meridian.hpp"
 #include "core/mesh/mirror.hpp"
@@ -88,9 +87,7 @@ struct Mesher {
     try {
       return geometry::engine().mesh(shape, target_size<D>(body, progress));
     } catch (const geometry::ShapeError& error) {
-      std::string more;
-      if constexpr (std::is_same_v<Shape, geometry::Solid>) more = surface_complaint(shape.file);
-      input_error(body.source.of(error.key()), error.complaint() + (more.empty() ? "" : "; ") + more);
+      input_error(body.source.of(error.key()), error.complaint());
     }
   }
 };

@@ -4,7 +4,6 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/shapes.hpp"
-#include "core/io/surface_complaint.hpp"
 
 namespace signorini {
 namespace {
@@ -27,8 +26,7 @@ struct Converter {
     try {
       return geometry::engine().surface(s.file.string(), s.crease);
     } catch (const Error& error) {
-      const std::string more = surface_complaint(s.file);
-      throw Error(error.status(), fmt::format("{}: {}{}{}", origin, error.what(), more.empty() ? "" : "; ", more));
+      throw Error(error.status(), fmt::format("{}: {}", origin, error.what()));
     }
   }
   Result operator()(const Scene::ExpressionShape& s) const {

@@ -4,7 +4,6 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Mesh_3/Robust_intersection_traits_3.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -17,11 +16,10 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "core/geometry/cgal/checks.hpp"
+#include "core/io/surface_reader.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -37,51 +35,15 @@ using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
 using CrossingKernel = CGAL::Mesh_3::Robust_intersection_traits_3_new<Kernel>;
 using AABBTree = CGAL::AABB_tree<CGAL::AABB_traits<CrossingKernel, Primitive>>;
 using Side = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel, CGAL::Default, AABBTree>;
-using Polygons = std::vector<std::vector<std::size_t>>;
 
 Kernel::Point_3 cgal(const Point<3>& p) { return {p[0], p[1], p[2]}; }
 Point<3> plain(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// CGAL takes memory for what the header of an OFF file promises before it reads on.
-void check_counts(const std::string& file) {
-  if (CGAL::IO::internal::get_file_extension(file) != "off") return;
-  std::ifstream stream(file, std::ios::binary);
-  const CGAL::File_scanner_OFF header(stream, false);
-  const auto bytes = std::filesystem::file_size(file);
-  if (header.size_of_vertices() > bytes || header.size_of_facets() > bytes)
-    input_error(file, fmt::format("the header promises {} vertices and {} faces, more than the {} bytes of the file "
-                                  "can hold",
-                                  header.size_of_vertices(), header.size_of_facets(), bytes));
-}
-
-bool read_polygons(const std::string& file, std::vector<Kernel::Point_3>& points, Polygons& polygons) {
-  try {
-    return CGAL::IO::read_polygon_soup(file, points, polygons, CGAL::parameters::verbose(false));
-  } catch (const std::bad_alloc&) {
-    input_error(file, "there is not enough memory for the vertices and faces that the file promises");
-  }
-}
-
-void read_soup(const std::string& file, std::vector<Kernel::Point_3>& points, Polygons& polygons) {
-  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file))
-    input_error(file, "the file cannot be read; expected a triangle surface");
-  check_counts(file);
-  if (!read_polygons(file, points, polygons))
-    input_error(file, "no surface in the format that the name tells; expected OFF, OBJ, STL or PLY");
-  if (polygons.empty()) input_error(file, "no faces; expected a triangle surface");
-  for (std::size_t i = 0; i < points.size(); ++i) require_finite(file, fmt::format("vertex {}", i), plain(points[i]));
-  for (std::size_t f = 0; f < polygons.size(); ++f) {
-    if (polygons[f].size() < 3)
-      input_error(file, fmt::format("face {} has {} vertices; expected at least 3", f, polygons[f].size()));
-    for (const std::size_t v : polygons[f])
-      if (v >= points.size()) input_error(file, fmt::format("face {} names vertex {} of {}", f, v, points.size()));
-  }
-}
-
 void read(const std::string& file, SurfaceMesh& mesh) {
+  PolygonSoup soup = read_surface(file);
+  auto& polygons = soup.faces;
   std::vector<Kernel::Point_3> points;
-  Polygons polygons;
-  read_soup(file, points, polygons);
+  std::transform(soup.points.begin(), soup.points.end(), std::back_inserter(points), cgal);
   PMP::repair_polygon_soup(points, polygons);
   PMP::orient_polygon_soup(points, polygons);
   if (polygons.empty()) input_error(file, "all faces are degenerate; expected a triangle surface");
