@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <mutex>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -11,6 +14,20 @@
 
 namespace signorini {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// All that there are.
+struct Living {
+  std::mutex mutex;
+  std::vector<AtomicFiles*> files;
+};
+Living& living() {
+  static auto* all = new Living;  // outlives whoever is in it
+  return *all;
+}
+
+}  // namespace
 
 AtomicFiles::AtomicFiles(fs::path folder, std::function<bool(const std::string&)> ours,
                          std::span<const fs::path> inputs)
@@ -24,9 +41,22 @@ AtomicFiles::AtomicFiles(fs::path folder, std::function<bool(const std::string&)
     remove_traces();
     fail(error);
   }
+  const std::lock_guard lock(living().mutex);
+  living().files.push_back(this);
 }
 
-AtomicFiles::~AtomicFiles() { remove_traces(); }
+AtomicFiles::~AtomicFiles() {
+  {
+    const std::lock_guard lock(living().mutex);
+    std::erase(living().files, this);
+  }
+  remove_traces();
+}
+
+void AtomicFiles::abandon_all() noexcept {
+  const std::lock_guard lock(living().mutex);
+  for (AtomicFiles* files : living().files) files->remove_traces();
+}
 
 void AtomicFiles::fail(const fs::filesystem_error& error) const {
   input_error(folder_.string(), fmt::format("cannot write results here: {}", error.code().message()));
@@ -100,9 +130,16 @@ std::vector<fs::path> AtomicFiles::commit() try {
 
 void write_text(const fs::path& file, const std::string& text) {
   std::ofstream out(file, std::ios::binary);
+  errno = 0;
   out << text;
   out.close();
-  if (!out) input_error(file.string(), "cannot be written: is the disk full?");
+  if (out) return;
+  const int reason = errno;
+  std::error_code none;
+  fs::remove(file, none);
+  input_error(file.string(), reason == 0
+                                 ? "cannot be written: is the disk full?"
+                                 : fmt::format("cannot be written: {}; is the disk full?", std::strerror(reason)));
 }
 
 }  // namespace signorini

@@ -32,6 +32,9 @@ class AtomicFiles {
   /// Renames all files written so far and returns their final names, sorted.
   std::vector<std::filesystem::path> commit();
 
+  /// Removes what is not committed of all runs of this process, which is about to end while their thread hangs.
+  static void abandon_all() noexcept;
+
  private:
   void create_folder();
   std::vector<std::filesystem::path> earlier() const;
@@ -47,7 +50,7 @@ class AtomicFiles {
   bool committed_ = false;
 };
 
-/// Writes a whole file; Error(Exit::input) naming it when that fails (a full disk, for example).
+/// Writes a whole file; where that fails (on a full disk, for example) there is none, and Error(Exit::input) names it.
 void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace signorini

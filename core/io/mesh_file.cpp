@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/io/foreign_formats.hpp"
 #include "core/io/msh_reader.hpp"
 #include "core/io/read_file.hpp"
 #include "core/io/vtu_reader.hpp"
@@ -12,9 +13,12 @@ AnyMesh parse_mesh(std::string_view content, std::string_view place, FileGroups*
   std::size_t first = content.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;  // byte order mark
   first = content.find_first_not_of(" \t\r\n", first);
   if (first == std::string_view::npos) input_error(place, "the mesh file is empty");
-  if (content[first] == '$') return read_msh(content, place, groups);
+  const auto holds = [&](std::string_view section) { return content.find(section, first) != std::string_view::npos; };
+  // Comments of other formats begin likewise.
+  if (content[first] == '$' && (holds("$MeshFormat") || holds("$NOD"))) return read_msh(content, place, groups);
   if (content[first] == '<') return read_vtu(content.substr(first), place, groups);
-  input_error(place, fmt::format("neither a Gmsh MSH file, which starts with '$MeshFormat', nor a VTU file, which is "
+  if (const std::string foreign = foreign_format(content, place); !foreign.empty()) input_error(place, foreign);
+  input_error(place, fmt::format("neither a Gmsh MSH file, which has a section $MeshFormat, nor a VTU file, which is "
                                  "XML; found byte 0x{:02x} first",
                                  static_cast<unsigned char>(content[first])));
 }

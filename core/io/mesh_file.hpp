@@ -23,10 +23,10 @@ struct FileGroups {
   std::vector<OffBoundary> off_boundary;
 };
 
-/// Reads a Gmsh MSH file (2.2 or 4.1, ASCII or binary) or a VTU file, told apart by their content. Tetrahedra make a
-/// Mesh<3>; triangles without tetrahedra, all in one plane z = const, a Mesh<2>. Physical groups of faces become parts
-/// by their name, or by their number where they have none; in VTU files the groups are the values of an integer cell
-/// array ("gmsh:physical", "CellEntityIds", "physical", "medit:ref" or "PhysicalIds").
+/// Reads a Gmsh MSH file (1, 2.0 to 2.2, 4.0 or 4.1, ASCII or binary) or a VTU file, told apart by their content.
+/// Tetrahedra make a Mesh<3>; triangles without tetrahedra, all in one plane z = const, a Mesh<2>. Physical groups of
+/// faces become parts by their name, or by their number where they have none; in VTU files the groups are the values of
+/// an integer cell array ("gmsh:physical", "CellEntityIds", "physical", "medit:ref" or "PhysicalIds").
 ///
 /// Anything wrong is an Error(Exit::input) naming the file and the line or byte.
 /// @param groups is told the groups that are no parts, or not as a whole

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -23,6 +24,8 @@ bool MshInput::at_end() {
   return position_ == content_.size();
 }
 
+bool MshInput::next_is(char c) { return !at_end() && content_[position_] == c; }
+
 std::string_view MshInput::word() {
   skip_space();
   const std::size_t start = position_;
@@ -42,15 +45,22 @@ void MshInput::expect(std::string_view marker) {
   const std::size_t start = position_;
   if (const std::string_view found = word(); found != marker) {
     position_ = start;
-    if (marker.substr(0, found.size()) == found) ends(std::string(marker).c_str());
-    fail(fmt::format("expected {}", marker));
+    if (start + found.size() == content_.size() && marker.starts_with(found)) ends(std::string(marker).c_str());
+    fail(fmt::format("expected {}, found '{}'", marker, found.substr(0, 40)));
   }
 }
 
 void MshInput::skip_past(std::string_view marker) {
-  const std::size_t found = content_.find(fmt::format("\n{}", marker), position_);
-  if (found == std::string_view::npos) fail(fmt::format("the file ends without {}", marker));
-  position_ = found + 1 + marker.size();
+  const auto lower = [](unsigned char c) { return std::tolower(c); };
+  for (std::size_t line = position_; line < content_.size();) {
+    const std::size_t start = std::min(content_.find_first_not_of(" \t", line), content_.size());
+    if (std::ranges::equal(content_.substr(start, marker.size()), marker, {}, lower, lower)) {
+      position_ = start + marker.size();
+      return;
+    }
+    line = std::min(content_.find_first_of("\r\n", start), content_.size() - 1) + 1;
+  }
+  fail(fmt::format("the file ends without {}", marker));
 }
 
 template <class T>

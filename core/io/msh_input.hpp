@@ -20,9 +20,10 @@ class MshInput {
 
   bool at_end();            ///< after white space
   std::string_view word();  ///< up to white space
+  bool next_is(char c);     ///< after white space
   std::string_view rest_of_line();
   void expect(std::string_view marker);
-  /// Skips everything up to the line `marker` and that line itself.
+  /// Skips everything up to `marker` in the beginning of a line, whatever the case of its letters, and that itself.
   void skip_past(std::string_view marker);
 
   /// The next number in the format of the file; `meaning` is for messages.
@@ -34,8 +35,9 @@ class MshInput {
     else
       return narrow<T>(text_integer(meaning), meaning);
   }
-  /// An integer that is text in binary files, too.
+  /// Numbers that are text in binary files, too.
   Offset text_integer(const char* meaning);
+  double text_real(const char* meaning);
   /// A count of things that take at least so many bytes each: more than the file can hold is an error, so that no
   /// count makes us allocate more than a small multiple of the file's size.
   Offset count(Offset n, Offset least_text, Offset least_binary, const char* meaning) const;
@@ -65,7 +67,6 @@ class MshInput {
     return static_cast<T>(value);
   }
   void skip_space();
-  double text_real(const char* meaning);
   template <class T>
   T parse(const char* kind, const char* meaning);
   [[noreturn]] void ends(const char* meaning) const;

@@ -1,11 +1,15 @@
 #include "core/io/msh_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/io/mesh_file_data.hpp"
@@ -56,15 +60,19 @@ void drop_repeated(FileCells<Corners>& cells, Index vertices) {
   cells = std::move(kept);
 }
 
+/// Sections by the names of version 1, which have no $MeshFormat before them, and of the others.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> names_of_version_1 = {
+    {{"NOD", "Nodes"}, {"ELM", "Elements"}}};
+
 class MshReader {
  public:
   MshReader(std::string_view content, std::string_view place) : in_(content, place) {}
 
   AnyMesh read(FileGroups* groups) {
     while (!in_.at_end()) read_section();
-    for (const char* needed : {"MeshFormat", "Nodes", "Elements"})
-      if (!done_.contains(needed)) in_.fail(fmt::format("the file ends without ${}", needed));
-    if (version_ == 2 && entities_.size() > 1) {
+    for (const char* needed : {"Nodes", "Elements"})
+      if (!done_.contains(needed)) in_.fail(fmt::format("the file has no section ${}", needed));
+    if (version_ < 3 && entities_.size() > 1) {
       const auto n = static_cast<Index>(data_.points.size());
       if (data_.tetrahedra.vertices.empty())
         drop_repeated(data_.triangles, n);
@@ -80,27 +88,33 @@ class MshReader {
     const std::string_view marker = in_.word();
     if (marker.size() < 2 || marker[0] != '$')
       in_.fail(fmt::format("expected a section such as $Nodes, found '{}'", marker.substr(0, 40)));
-    const std::string name(marker.substr(1)), end = "$End" + name;
+    std::string name(marker.substr(1)), end = "$End" + name;
+    for (const auto& [old, now] : names_of_version_1)
+      if (name == old) {
+        if (version_ != 0 && version_ != 1) in_.fail(fmt::format("${} in a file of version {}", name, version_));
+        version_ = 1;
+        name = now;
+        end = fmt::format("$END{}", old);
+      }
     const bool known =
         name == "MeshFormat" || name == "PhysicalNames" || name == "Entities" || name == "Nodes" || name == "Elements";
     if (name == "PartitionedEntities") in_.fail("partitioned meshes are not read: save the mesh without partitions");
     if (!known) return in_.skip_past(end);
     if (!done_.insert(name).second) in_.fail(fmt::format("second section ${}", name));
-    if (name != "MeshFormat" && !done_.contains("MeshFormat")) in_.fail("expected $MeshFormat first");
+    if (name != "MeshFormat" && version_ == 0) in_.fail("expected $MeshFormat first");
     if (in_.binary) in_.rest_of_line();
     if (name == "MeshFormat") read_format();
     if (name == "PhysicalNames") read_names();
     if (name == "Entities") read_entities();
-    if (name == "Nodes") version_ == 4 ? read_nodes_4() : read_nodes_2();
-    if (name == "Elements") version_ == 4 ? read_elements_4() : read_elements_2();
+    if (name == "Nodes") version_ >= 4 ? read_nodes_4() : read_nodes_2();
+    if (name == "Elements") version_ >= 4 ? read_elements_4() : version_ == 1 ? read_elements_1() : read_elements_2();
     in_.expect(end);
   }
 
   void read_format() {
-    const std::string_view version = in_.word();
-    if (version != "2.2" && version != "4.1" && version != "2" && version != "2.1")
-      in_.fail(fmt::format("found MSH version '{}', expected 2.2 or 4.1", version.substr(0, 20)));
-    version_ = version[0] - '0';
+    version_ = in_.text_real("the version of the format");
+    if (std::ranges::find(versions, version_) == versions.end())
+      in_.fail(fmt::format("found MSH version {}, expected one of 1 | {}", version_, fmt::join(versions, " | ")));
     const Offset kind = in_.text_integer("the file type"), size = in_.text_integer("the data size");
     if (kind != 0 && kind != 1) in_.fail(fmt::format("found file type {}, expected 0 (ASCII) or 1 (binary)", kind));
     if (size != 8) in_.fail(fmt::format("found data size {}, expected 8", size));
@@ -115,7 +129,8 @@ class MshReader {
   void read_names() {
     const Offset n = in_.count(in_.text_integer("the number of names"), 6, 6, "names");
     for (Offset i = 0; i < n; ++i) {
-      const Offset dimension = in_.text_integer("a dimension"), tag = in_.text_integer("a physical tag");
+      Offset dimension = any_dimension, tag = in_.text_integer("a dimension or a physical tag");
+      if (!in_.next_is('"')) dimension = std::exchange(tag, in_.text_integer("a physical tag"));
       const std::string_view text = in_.rest_of_line();
       const std::size_t first = text.find('"'), last = text.rfind('"');
       if (first == last) in_.fail(fmt::format("expected a name in quotation marks, found '{}'", text.substr(0, 80)));
@@ -124,7 +139,7 @@ class MshReader {
   }
 
   void read_entities() {
-    if (version_ != 4) in_.fail("$Entities in a file of version 2");
+    if (version_ < 4) in_.fail(fmt::format("$Entities in a file of version {}", version_));
     std::array<Offset, 4> counts;
     for (Offset& n : counts) n = in_.number<Offset>("a number of entities");
     for (int dimension = 0; dimension <= 3; ++dimension) {
@@ -135,7 +150,7 @@ class MshReader {
 
   void read_entity(int dimension) {
     const int tag = in_.number<std::int32_t>("an entity's tag");
-    for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.number<double>("a bounding box");
+    for (int k = 0; k < (dimension == 0 && version_ > 4 ? 3 : 6); ++k) in_.number<double>("a bounding box");
     const Offset n = in_.count(in_.number<Offset>("the number of physical tags"), 2, 4, "physical tags");
     Physicals physicals;
     for (Offset k = 0; k < n; ++k) physicals.push_back(in_.number<std::int32_t>("a physical tag"));
@@ -169,19 +184,19 @@ class MshReader {
 
   void read_nodes_4() {
     const Offset blocks = in_.count(in_.number<Offset>("the number of blocks"), 8, 20, "blocks");
-    const Offset n = in_.count(in_.number<Offset>("the number of nodes"), 8, 32, "nodes");
+    const Offset n = in_.count(in_.number<Offset>("the number of nodes"), 8, node_bytes(), "nodes");
     reserve_nodes(n);
-    for (const char* meaning : {"the least node tag", "the greatest node tag"}) in_.number<Offset>(meaning);
+    skip_range_of_tags("node");
     for (Offset block = 0; block < blocks; ++block) {
-      const int dimension = in_.number<std::int32_t>("an entity's dimension");
-      in_.number<std::int32_t>("an entity's tag");
+      const int dimension = read_block_entity().dimension;
       const bool parametric = in_.number<std::int32_t>("whether nodes have parameters") != 0;
-      const Offset size = in_.count(in_.number<Offset>("the number of nodes in a block"), 8, 32, "nodes");
+      const Offset size = in_.count(in_.number<Offset>("the number of nodes in a block"), 8, node_bytes(), "nodes");
       if (dimension < 0 || dimension > 3) in_.fail(fmt::format("found an entity of dimension {}", dimension));
       if (size > n - static_cast<Offset>(data_.points.size()))
         in_.fail(fmt::format("more than the {} nodes announced", n));
-      for (Offset i = 0; i < size; ++i) nodes_.add(in_.number<Offset>("a node's tag"));
+      for (Offset i = 0; version_ > 4 && i < size; ++i) nodes_.add(in_.number<Offset>("a node's tag"));
       for (Offset i = 0; i < size; ++i) {
+        if (version_ == 4) nodes_.add(in_.number<std::int32_t>("a node's tag"));
         read_point();
         for (int k = 0; parametric && k < dimension; ++k) in_.number<double>("a node's parameter");
       }
@@ -191,10 +206,33 @@ class MshReader {
     nodes_.close(in_);
   }
 
+  struct BlockEntity {
+    int dimension, tag;
+  };
+  BlockEntity read_block_entity() {
+    const auto dimension = [&] { return in_.number<std::int32_t>("an entity's dimension"); };
+    const int first = version_ == 4 ? in_.number<std::int32_t>("an entity's tag") : dimension();
+    return version_ == 4 ? BlockEntity{dimension(), first}
+                         : BlockEntity{first, in_.number<std::int32_t>("an entity's tag")};
+  }
+
+  void skip_range_of_tags(const char* of) {
+    for (const char* which : {"least", "greatest"})
+      if (version_ > 4) in_.number<Offset>(fmt::format("the {} {} tag", which, of).c_str());
+  }
+
+  // At least, of binary files of version 4.
+  Offset node_bytes() const { return version_ > 4 ? 32 : 28; }
+  Offset element_bytes() const { return version_ > 4 ? 16 : 8; }
+
+  /// The number of a node or an element.
+  Offset read_tag(const char* meaning) {
+    return version_ > 4 ? in_.number<Offset>(meaning) : Offset{in_.number<std::int32_t>(meaning)};
+  }
+
   Index read_node() {
-    const Offset tag =
-        version_ == 4 ? in_.number<Offset>("an element's node") : Offset{in_.number<std::int32_t>("an element's node")};
-    return nodes_.find(tag, in_);
+    ++nodes_read_;
+    return nodes_.find(read_tag("an element's node"), in_);
   }
 
   template <int Corners>
@@ -262,10 +300,14 @@ class MshReader {
     return tags;
   }
 
-  void read_tagged_cell(int type, int tag_count, Offset label) {
-    const Tags tags = read_tags(tag_count);
+  void read_tagged_cell(int type, const Tags& tags, Offset label) {
     const Physicals physicals = tags.physical == 0 ? Physicals{} : Physicals{tags.physical};
     read_cell(type, label, entity(type, tags.physical, tags.entity, physicals));
+  }
+
+  void read_labelled_cell(int type, int tag_count, Offset label) {
+    const Tags tags = read_tags(tag_count);
+    read_tagged_cell(type, tags, label);
   }
 
   void read_elements_2() {
@@ -282,23 +324,40 @@ class MshReader {
         in_.fail(fmt::format("found a block of {} elements with {} tags, expected 1 to {} elements with 0 or more tags",
                              size, tags, n - i));
       for (int k = 0; k < size; ++k, ++i)
-        read_tagged_cell(type, tags, in_.binary ? in_.number<std::int32_t>("an element's number") : first);
+        read_labelled_cell(type, tags, in_.binary ? in_.number<std::int32_t>("an element's number") : first);
+    }
+  }
+
+  /// Lines of element, type, physical and elementary tag, count of nodes and these.
+  void read_elements_1() {
+    need_nodes();
+    const Offset n = in_.count(in_.text_integer("the number of elements"), 6, 6, "elements");
+    for (Offset i = 0; i < n; ++i) {
+      const Offset label = in_.text_integer("an element's number");
+      const auto type = in_.number<std::int32_t>("an element's type");
+      const Tags tags = read_tags(2);
+      const Offset nodes = in_.text_integer("an element's number of nodes");
+      const Offset before = nodes_read_;
+      read_tagged_cell(type, tags, label);
+      if (nodes_read_ - before != nodes)
+        in_.fail(
+            fmt::format("element {} has {} nodes, expected {} of type {}", label, nodes, nodes_read_ - before, type));
     }
   }
 
   void read_elements_4() {
     need_nodes();
     const Offset blocks = in_.count(in_.number<Offset>("the number of blocks"), 8, 20, "blocks");
-    const Offset n = in_.count(in_.number<Offset>("the number of elements"), 4, 16, "elements");
-    for (const char* meaning : {"the least element tag", "the greatest element tag"}) in_.number<Offset>(meaning);
+    const Offset n = in_.count(in_.number<Offset>("the number of elements"), 4, element_bytes(), "elements");
+    skip_range_of_tags("element");
     Offset found = 0;
     for (Offset block = 0; block < blocks; ++block) {
-      const int dimension = in_.number<std::int32_t>("an entity's dimension");
-      const int tag = in_.number<std::int32_t>("an entity's tag");
+      const auto [dimension, tag] = read_block_entity();
       const int type = in_.number<std::int32_t>("an element type");
-      const Offset size = in_.count(in_.number<Offset>("the number of elements in a block"), 4, 16, "elements");
+      const Offset size =
+          in_.count(in_.number<Offset>("the number of elements in a block"), 4, element_bytes(), "elements");
       const Index where = entity(dimension, 0, tag, entity_physicals_[{dimension, tag}]);
-      for (Offset i = 0; i < size; ++i) read_cell(type, in_.number<Offset>("an element's number"), where);
+      for (Offset i = 0; i < size; ++i) read_cell(type, read_tag("an element's number"), where);
       found += size;
     }
     if (found != n) in_.fail(fmt::format("found {} elements, announced were {}", found, n));
@@ -312,14 +371,18 @@ class MshReader {
     std::vector<std::string> result;
     for (const int tag : entities_[entity]) {
       const Offset positive = std::abs(Offset{tag});
-      const auto name = names_.find({dimension, positive});
+      auto name = names_.find({dimension, positive});
+      if (name == names_.end()) name = names_.find({any_dimension, positive});
       result.push_back(name == names_.end() || name->second.empty() ? fmt::format("{}", positive) : name->second);
     }
     return result;
   }
 
   MshInput in_;
-  int version_ = 0;
+  static constexpr std::array versions{2.0, 2.1, 2.2, 4.0, 4.1};  // that $MeshFormat tells
+  static constexpr Offset any_dimension = -1;                     // of names before version 2.1
+  double version_ = 0;                                            // until it is known
+  Offset nodes_read_ = 0;
   std::set<std::string> done_;
   std::map<std::pair<Offset, Offset>, std::string> names_;     // by dimension and physical tag
   std::map<std::pair<int, int>, Physicals> entity_physicals_;  // version 4, by dimension and tag

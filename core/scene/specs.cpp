@@ -15,7 +15,7 @@ constexpr KeySpec body[] = {
     {"name", text, nullptr, "", "", "what other tables call the body"},
     {"shape", text, "", "", "", "one of the shapes below; either this or `mesh`"},
     {"mesh", file, "", "", "",
-     "Gmsh MSH 2.2 or 4.1 (ASCII or binary) or VTU, of first or second order; physical groups become named parts"},
+     "Gmsh MSH 1, 2 or 4 (ASCII or binary) or VTU, of first or second order; physical groups become named parts"},
     {"equation", text, "elasticity", "elasticity | diffusion", "", "diffusion: one scalar unknown"},
     {"young", field, "", "(0, inf)", "", "Young's modulus; required for elasticity"},
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
