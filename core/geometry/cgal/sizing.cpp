@@ -23,6 +23,9 @@ constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 // Vertices granted to them, and queries between two looks at whether the user interrupts.
 constexpr double spare_vertices = 3e5, queries_per_poll = 64;
 
+// Where 5 to 20 for each element are usual, and more on a mesh of few.
+constexpr double few_queries = 1e4, queries_per_element = 50;
+
 // Sizes of fewer spacings of floating point numbers leave no room for vertices between vertices.
 constexpr double least_spacings = 8;
 
@@ -85,10 +88,12 @@ void Sizing<D>::fail(const std::string& complaint) const {
 
 template <int D>
 void Sizing<D>::no_end() const {
-  fail(fmt::format(
-      "the mesh does not come to an end{}{}; expected a size that varies gradually, on a shape without gaps "
-      "and angles far below it",
-      narrowest_.empty() ? "" : ": ", narrowest_));
+  throw NoEnd(
+      shape_, "size",
+      fmt::format(
+          "the mesh does not come to an end{}{}; expected a size that varies gradually, on a shape without gaps "
+          "and angles far below it",
+          narrowest_.empty() ? "" : ": ", narrowest_));
 }
 
 template <int D>
@@ -101,6 +106,11 @@ void Sizing<D>::expect(double elements) {
   limit_ = evaluations_ + spare_evaluations<D> + 100 * elements;
   query_limit_ = queries_ + spare_evaluations<D> + 200 * elements;
   most_vertices_ = static_cast<std::size_t>(spare_vertices + elements);
+}
+
+template <int D>
+void Sizing<D>::be_impatient(double elements) const {
+  query_limit_ = queries_ + few_queries + queries_per_element * elements;
 }
 
 template <int D>

@@ -7,6 +7,12 @@
 
 namespace signorini::geometry {
 
+/// A mesher that does not come to its end.
+class NoEnd : public ShapeError {
+ public:
+  using ShapeError::ShapeError;
+};
+
 /// The user's size field made safe for a mesher: values are checked (ShapeError unless finite and positive),
 /// cut at `ceiling`, the largest size that still resolves the shape, and counted, so that a field or a shape that would
 /// never let the mesher end is an error instead.
@@ -26,15 +32,18 @@ class Sizing {
   double asked(Point<D> p) const;
   /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
   void poll() const { size_(last_); }
-  /// Counts a question that the mesher asks of the domain; polls every few of them. Throws ShapeError when they get too
+  /// Counts a question that the mesher asks of the domain; polls every few of them. Throws NoEnd when they get too
   /// many.
   void count_query() const;
   /// Bounds the numbers of evaluations, queries and vertices from now on by the elements to be expected. Throws
   /// ShapeError when these are too many for memory, or for a mesh of 2e8 elements.
   void expect(double elements);
+  /// Bounds queries by a small multiple of what shapes without narrow details take of so many elements, until expect()
+  /// is called again.
+  void be_impatient(double elements) const;
   /// The mesher has to give up at so many vertices.
   std::size_t most_vertices() const { return most_vertices_; }
-  /// Throws ShapeError: too many evaluations, or a failure that has the same cause.
+  /// Throws NoEnd: too many evaluations, or a failure that has the same cause.
   [[noreturn]] void no_end() const;
   /// Throws ShapeError when the shape is so thin that it takes very many elements wherever the sizes asked for until
   /// now are larger than it.
@@ -48,7 +57,8 @@ class Sizing {
   OwnUnits<D> units_;
   std::string shape_, narrowest_;
   mutable Point<D> last_{};
-  double limit_ = 1e7, query_limit_ = 1e7;
+  double limit_ = 1e7;
+  mutable double query_limit_ = 1e7;
   std::size_t most_vertices_ = 0;
   mutable double evaluations_ = 0, queries_ = 0, smallest_ = infinity;
 };

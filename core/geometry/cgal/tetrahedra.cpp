@@ -20,8 +20,10 @@
 #include "core/geometry/cgal/checks.hpp"
 #include "core/geometry/cgal/crease_spacing.hpp"
 #include "core/geometry/cgal/peel.hpp"
+#include "core/geometry/cgal/reconnect.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/hinges.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -276,7 +278,12 @@ void exude(Complex& complex, const Sizing<3>& sizing) {
   }
 }
 
-Complex refine(const Domain& domain, const Sizing<3>& sizing) {
+/// Whether the refinement goes on until the surface is a manifold. Near sharp angles between faces it may do so for
+/// ever without a further vertex: those that it asks for are too close to edges.
+enum class Surface { manifold, any };
+
+/// @param factor of the sizes
+Complex refine(const Domain& domain, const Sizing<3>& sizing, Surface surface, double factor) {
   CGAL::get_default_random() = CGAL::Random(0);
   MeshDomain mesh_domain(&domain, &sizing);
   std::vector<std::vector<Kernel::Point_3>> creases;
@@ -287,13 +294,14 @@ Complex refine(const Domain& domain, const Sizing<3>& sizing) {
   mesh_domain.add_features(creases.begin(), creases.end());
 
   namespace p = CGAL::parameters;
-  const Criteria criteria(p::edge_size = ScaledSize{&sizing, edge_bound}, p::facet_angle = 25,
-                          p::facet_size = ScaledSize{&sizing, facet_bound},
-                          p::facet_distance = ScaledSize{&sizing, domain.flatness()}, p::cell_radius_edge_ratio = 2,
-                          p::cell_size = ScaledSize{&sizing, cell_bound});
+  const Criteria criteria(p::edge_size = ScaledSize{&sizing, factor * edge_bound}, p::facet_angle = 25,
+                          p::facet_size = ScaledSize{&sizing, factor * facet_bound},
+                          p::facet_distance = ScaledSize{&sizing, factor * domain.flatness()},
+                          p::cell_radius_edge_ratio = 2, p::cell_size = ScaledSize{&sizing, factor * cell_bound});
   CGAL::Mesh_error_code error = CGAL::CGAL_MESH_3_NO_ERROR;
   auto complex = CGAL::make_mesh_3<Complex>(
-      mesh_domain, criteria, p::manifold(), p::no_perturb(), p::no_exude(),
+      mesh_domain, criteria, surface == Surface::manifold ? p::manifold() : p::non_manifold(), p::no_perturb(),
+      p::no_exude(),
       p::mesh_3_options(p::maximal_number_of_vertices = sizing.most_vertices(), p::pointer_to_error_code = &error));
   if (error != CGAL::CGAL_MESH_3_NO_ERROR) sizing.no_end();
   return complex;
@@ -333,6 +341,43 @@ std::vector<double> sampled_sizes(const Domain& domain, const Sizing<3>& sizing)
   return sizes;
 }
 
+/// In the domain's own coordinates, without parts.
+Mesh<3> mesh_of(const Domain& domain, const Sizing<3>& sizing, Surface surface, double factor,
+                std::vector<bool>& on_crease) {
+  on_crease.clear();
+  Complex complex = refine(domain, sizing, surface, factor);
+  exude(complex, sizing);
+  Mesh<3> mesh = extract(complex, on_crease);
+  if (mesh.elements.empty()) throw ShapeError(domain.name(), "size", "too large to resolve the shape");
+  replace_flat_elements(mesh);
+  mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
+  peel_slivers(mesh);
+  return mesh;
+}
+
+bool is_manifold(const Mesh<3>& mesh) {
+  const Hinges hinges = find_hinges(mesh);
+  return hinges.vertices.empty() && hinges.edges.empty();
+}
+
+/// Where a manifold is not come to soon, one is hoped for without asking for it, then at sizes somewhat smaller: near
+/// sharp angles it depends on where the first vertices happen to be. (Not at once: the meshes of all other shapes are
+/// as they are.)
+Mesh<3> patient_mesh(const Domain& domain, Sizing<3>& sizing, double elements, std::vector<bool>& on_crease) {
+  sizing.be_impatient(elements);
+  try {
+    return mesh_of(domain, sizing, Surface::manifold, 1, on_crease);
+  } catch (const NoEnd&) {
+  }
+  for (const double factor : {1.0, 0.9, 0.8, 0.7, 0.6}) {
+    sizing.expect(elements / (factor * factor * factor));
+    Mesh<3> mesh = mesh_of(domain, sizing, Surface::any, factor, on_crease);
+    if (is_manifold(mesh)) return mesh;
+  }
+  sizing.expect(elements);
+  return mesh_of(domain, sizing, Surface::manifold, 1, on_crease);
+}
+
 }  // namespace
 
 Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
@@ -341,17 +386,11 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
                    domain.units(), domain.name());
   const auto sizes = sampled_sizes(domain, sizing);
   sizing.check_thickness(domain.volume());
-  sizing.expect(expected_elements<3>(domain.volume(), sizes));
+  const double elements = expected_elements<3>(domain.volume(), sizes);
+  sizing.expect(elements);
   check_crease_spacing(domain, sizing);
-
-  Complex complex = refine(domain, sizing);
-  exude(complex, sizing);
   std::vector<bool> on_crease;
-  Mesh<3> mesh = extract(complex, on_crease);
-  complex.clear();
-  if (mesh.elements.empty()) throw ShapeError(domain.name(), "size", "too large to resolve the shape");
-  mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
-  peel_slivers(mesh);
+  Mesh<3> mesh = patient_mesh(domain, sizing, elements, on_crease);
   domain.finish(mesh, on_crease);
   require_valid(domain.name(), mesh);
   return mesh;

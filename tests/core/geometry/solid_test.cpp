@@ -92,6 +92,83 @@ TEST(Solid, FlatFacesAreFilledAtAnySizeAndInAnyPosition) {
       }
 }
 
+Surface octahedron() {
+  return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+          {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+}
+
+/// The hull of the points at unit distance from the origin that a group of symmetries makes of one, by its planes.
+Surface cuboctahedron() {
+  Surface s;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.0, 1.0}) {
+      s.points.push_back({a, b, 0});
+      s.points.push_back({a, 0, b});
+      s.points.push_back({0, a, b});
+    }
+  const auto plane = [&](const std::array<double, 3>& n, double distance) {
+    std::vector<int> face;
+    for (int v = 0; v < 12; ++v)
+      if (std::abs(n[0] * s.points[v][0] + n[1] * s.points[v][1] + n[2] * s.points[v][2] - distance) < 1e-12)
+        face.push_back(v);
+    return face;
+  };
+  const auto add = [&](int a, int b, int c, const std::array<double, 3>& n) {
+    const auto &p = s.points[a], &q = s.points[b], &r = s.points[c];
+    const std::array<double, 3> u{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v{r[0] - p[0], r[1] - p[1], r[2] - p[2]};
+    const double side =
+        n[0] * (u[1] * v[2] - u[2] * v[1]) + n[1] * (u[2] * v[0] - u[0] * v[2]) + n[2] * (u[0] * v[1] - u[1] * v[0]);
+    s.triangles.push_back(side > 0 ? std::array{a, b, c} : std::array{a, c, b});
+  };
+  for (int k = 0; k < 3; ++k)
+    for (const double sign : {-1.0, 1.0}) {
+      std::array<double, 3> n{};
+      n[k] = sign;
+      const auto f = plane(n, 1);  // a square: the vertex opposite to the first one is the one farthest from it
+      int opposite = 1;
+      for (int i = 1; i < 4; ++i) {
+        const auto &p = s.points[f[0]], &q = s.points[f[i]];
+        if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1.9) opposite = i;
+      }
+      for (int i = 1; i < 4; ++i)
+        if (i != opposite) add(f[0], f[i], f[opposite], n);
+    }
+  for (int k = 0; k < 8; ++k) {
+    const std::array<double, 3> n{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0};
+    const auto f = plane(n, 2);
+    add(f[0], f[1], f[2], n);
+  }
+  return s;
+}
+
+// Their vertices lie on one sphere, and four at a time in planes.
+TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
+  Surface bipyramid = octahedron();
+  for (auto& p : bipyramid.points) p[2] *= 0.5;
+  for (const auto& [name, surface, volume] : {Named{"octahedron", octahedron(), 4.0 / 3},
+                                              {"cuboctahedron", cuboctahedron(), 20.0 / 3},
+                                              {"bipyramid", bipyramid, 2.0 / 3},
+                                              {"cube", cube(-1, 1), 8}})
+    for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
+      for (const double h : {3.0, 1.5, 1.0, 0.7, 0.5, 0.35}) {
+        SCOPED_TRACE(fmt::format("{}, size {}", name, h));
+        const Mesh<3> m = mesh(TemporaryFile("solid.off", s.off()), h);
+        test::expect_consistent(m);
+        EXPECT_NEAR(test::volume(m), volume, 1e-9 * volume);
+        EXPECT_GT(test::smallest_angle(m), 1);
+      }
+}
+
+// An octahedron with a vertex pulled out.
+TEST(Solid, FarCornersAreFilled) {
+  Surface s = octahedron();
+  s.points[0] = {1.1, 0.07, 0};
+  s.points[1] = {-1, 4, 0};
+  const Mesh<3> m = mesh(TemporaryFile("far.off", s.off()), 0.7);
+  test::expect_consistent(m);
+  EXPECT_GT(test::smallest_angle(m), 1);
+}
+
 TEST(Solid, RealSurfacesAreFilled) {
   const char* folder = std::getenv("SIGNORINI_MESHES");
   if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj, fandisk.obj and rocker-arm.obj";
@@ -123,13 +200,20 @@ TEST(Solid, RealSurfacesAreFilled) {
 
 TEST(SolidErrors, NameWhatIsWrongWithTheFile) {
   EXPECT_THAT(test::input_error_of([] { engine().mesh(geometry::Shape3(Solid{"/none.off"}), test::constant<3>(1)); }),
-              HasSubstr("/none.off: the file cannot be read"));
-  EXPECT_THAT(complaint(TemporaryFile("text.off", "no surface")), HasSubstr("expected OFF, OBJ, STL or PLY"));
+              HasSubstr("/none.off: no such surface file"));
+  EXPECT_THAT(complaint(TemporaryFile("text.off", "no surface")), HasSubstr("line 1: found 'no', expected 'OFF'"));
   EXPECT_THAT(complaint(TemporaryFile("cube.xyz", cube(0, 1).off())), HasSubstr("expected OFF, OBJ, STL or PLY"));
   EXPECT_THAT(complaint(TemporaryFile("empty.off", "OFF\n0 0 0\n")), HasSubstr("expected"));
   EXPECT_THAT(complaint(TemporaryFile("line.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n2 0 1\n")),
               HasSubstr("face 0 has 2 vertices"));
   EXPECT_THAT(complaint(TemporaryFile("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")), HasSubstr("expected"));
+}
+
+TEST(SolidErrors, APlyFileWithAPropertyBeforeItsElement) {
+  EXPECT_THAT(complaint(TemporaryFile("crash.ply",
+                                      "ply\nformat ascii 1.0\nproperty float x\nelement face 1\n"
+                                      "property list uchar int vertex_indices\nend_header\n3 0 1 2\n")),
+              HasSubstr("line 3: a property before any element"));
 }
 
 TEST(SolidErrors, NameCountsThatTheFileCannotHold) {
