@@ -21,7 +21,8 @@ void solve_command(const SolveArguments& arguments);
 struct QpArguments {
   std::filesystem::path matrix, load, lower, upper, start, near_null, coordinates;
   std::filesystem::path out, report;
-  int block = 0;                      // recognised in the matrix
+  int block = 0;  // recognised in the matrix
+  bool one_triangle = false;
   std::vector<std::string> settings;  ///< "solver.cycle=W"
   std::optional<double> tolerance;    ///< go before those
   std::optional<std::string> method;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -47,8 +48,9 @@ constexpr const char* check_exit_status = R"(Exit status:
   130  interrupted (Ctrl-C))";
 
 constexpr const char* qp_notes =
-    R"(Files are Matrix Market files: coordinate or array, real or integer, general or symmetric, packed by gzip or not. Of a
-vector in coordinates what is left out is zero. inf and -inf in bounds mean none. Output files are replaced when all are
+    R"(Files are Matrix Market files: coordinate or array, real or integer, general or symmetric, packed by gzip or not. A
+file that says 'symmetric' in its first line holds the lower triangle of its matrix alone, and stands for the whole; one
+that says 'general' holds all of it, unless --one-triangle says otherwise. Of a vector in coordinates what is left out is zero. inf and -inf in bounds mean none. Output files are replaced when all are
 complete, links followed; devices and pipes are written through. What is read-only or an input is refused. Where an
 output goes to standard output, the summary goes to standard error.
 
@@ -155,6 +157,8 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   file("--coordinates", qp.coordinates, "positions of elastic vectors, one row each, in place of --near-null");
   file("--out", qp.out, "file for the solution, '-' for standard output; default: print a summary only");
   file("--report", qp.report, "JSON file for what the solver did, '-' for standard output");
+  command->add_flag("--one-triangle", qp.one_triangle,
+                    "A is stored by its lower or its upper triangle alone, although its file says 'general'");
   command->add_option("--block", qp.block, "consecutive unknowns that belong together, as those of a mesh vertex")
       ->check(CLI::IsMember({1, 2, 3}))
       ->default_str("what the matrix looks like");
@@ -241,6 +245,7 @@ int run(int argc, char** argv) {
 
 int guarded_run(int argc, char** argv) {
   catch_interrupts();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow any more is one on a full disk
   name_plugins_that_crash();
   keep_freed_memory();
   try {

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "apps/signorini/show.hpp"
 #include "apps/signorini/show_steps.hpp"
@@ -184,41 +185,50 @@ bool is_result_file(const std::string& name) {
 
 namespace {
 
-/// Calls draw(painter), or says why there is none.
+void warn_once(Report& report, const std::string& warning) {
+  if (std::ranges::find(report.warnings, warning) == report.warnings.end()) report.warnings.push_back(warning);
+}
+
+/// Calls draw(painter, file) for a picture of that name, or says why there is none: the other results do without.
 template <class Draw>
-void paint(Report& report, const Draw& draw) {
+void paint(AtomicFiles& files, const std::string& name, Report& report, const Draw& draw) {
+  const std::filesystem::path file = files.stage(name);
   try {
-    draw(painter());
+    draw(painter(), file);
   } catch (const Error& error) {
-    if (error.status() != Exit::plugin) throw;
-    const std::string warning = fmt::format("no pictures were drawn: {}", error.what());
-    if (std::ranges::find(report.warnings, warning) == report.warnings.end()) report.warnings.push_back(warning);
+    std::string reason = error.what();
+    if (reason.starts_with(file.string())) reason.replace(0, file.string().size(), name);
+    warn_once(report,
+              fmt::format("{}: {}", error.status() == Exit::plugin ? "no pictures were drawn" : "a picture is missing",
+                          reason));
+  } catch (const std::bad_alloc&) {
+    warn_once(report, fmt::format("a picture is missing: {}: there is not enough memory", name));
   }
 }
 
 }  // namespace
 
 void draw_convergence(AtomicFiles& files, Report& report) {
-  paint(report,
-        [&](const Painter& draw) { draw.convergence(files.stage("convergence.png"), report.last().summary.history); });
+  paint(files, "convergence.png", report,
+        [&](const Painter& draw, const auto& file) { draw.convergence(file, report.last().summary.history); });
 }
 
 template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                  const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
                  const std::vector<int>& numbers, const std::string& suffix, Report& report) {
-  paint(report, [&](const Painter& draw) {
+  paint(files, "result" + suffix + ".png", report, [&](const Painter& draw, const auto& file) {
     const auto panels =
         result_panels<D, B>(shown(hierarchy, nodes, results, stress, contact, numbers), report.warnings);
-    if (!panels.empty()) draw.panels(files.stage("result" + suffix + ".png"), panels);
+    if (!panels.empty()) draw.panels(file, panels);
   });
 }
 
 void draw_steps(AtomicFiles& files, Report& report) {
   if (!report.has_steps()) return;
-  paint(report, [&](const Painter& draw) {
+  paint(files, "steps.png", report, [&](const Painter& draw, const auto& file) {
     const std::vector<Panel> panels = steps_panels(report);
-    if (!panels.empty()) draw.panels(files.stage("steps.png"), panels);
+    if (!panels.empty()) draw.panels(file, panels);
   });
 }
 

@@ -88,6 +88,7 @@ class QpRun {
   void read() {
     progress_.phase("reading");
     matrix_ = read_matrix(arguments_.matrix);
+    if (arguments_.one_triangle) complete(matrix_);
     if (matrix_.rows == 0 || matrix_.rows != matrix_.columns)  // before its rows are asked of the vectors
       input_error(arguments_.matrix.string(),
                   fmt::format("found {} rows and {} columns, expected a square matrix of one row at least",
@@ -100,6 +101,16 @@ class QpRun {
       throw Error(Exit::usage, fmt::format("{} is both --out and --report", arguments_.out.string()));
     time_.read = lap_.lap();
     stop_if_interrupted();
+  }
+
+  void complete(SparseRows& matrix) const {
+    try {
+      matrix = from_triangle(matrix);
+    } catch (const Error& error) {
+      input_error(arguments_.matrix.string(), fmt::format("{}; expected one triangle of a matrix alone, in a file that "
+                                                          "says 'general' (--one-triangle)",
+                                                          error.what()));
+    }
   }
 
   /// What is refused here is wrong with the matrix.

@@ -3,16 +3,19 @@
 #include <elf.h>
 #include <execinfo.h>
 #include <link.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iterator>
+#include <system_error>
 
 #include "core/base/error.hpp"
 
@@ -100,7 +103,46 @@ void on_exit_of_plugin() {
   if (const Library* plugin = plugin_on_stack()) end_for(*plugin, "the plugin ended the program by exit()");
 }
 
+// Threads ignore this signal where nobody handles it.
+constexpr int look_at_stack = SIGURG;
+std::atomic<int> looked = 0;
+std::atomic<const Library*> at_work = nullptr;
+
+void on_look(int) {
+  const int error = errno;
+  if (const Library* plugin = plugin_on_stack()) at_work = plugin;
+  ++looked;
+  errno = error;
+}
+
+/// Has all other threads look; how many.
+int ask_threads() {
+  int asked = 0;
+  std::error_code gone;
+  for (std::filesystem::directory_iterator task("/proc/self/task", gone), end; task != end; task.increment(gone)) {
+    const int thread = std::atoi(task->path().filename().c_str());
+    if (thread == gettid()) continue;
+    asked += syscall(SYS_tgkill, getpid(), thread, look_at_stack) == 0;
+  }
+  return asked;
+}
+
 }  // namespace
+
+std::string plugin_at_work() {
+  if (count.load() == 0) return {};
+  struct sigaction look {};
+  look.sa_handler = on_look;
+  look.sa_flags = SA_RESTART;
+  sigemptyset(&look.sa_mask);
+  sigaction(look_at_stack, &look, nullptr);
+  looked = 0;
+  at_work = nullptr;
+  const int asked = ask_threads();
+  for (int wait = 0; looked < asked && wait < 100; ++wait) usleep(1000);
+  const Library* found = at_work;
+  return found ? found->file : std::string();
+}
 
 void name_plugins_that_crash() {
   if (before) return;  // done

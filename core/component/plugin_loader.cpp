@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -89,6 +90,22 @@ void add_all_of(const fs::path& file, Registry& registry) {
   }
 }
 
+// What anybody may change is nobody's code. A folder like /tmp, whose files others may not replace, still takes new
+// ones from everybody; one below it that is the user's own is safe.
+void reject_writable_by_all(const fs::path& file) {
+  const auto open_to_all = [](const fs::path& path) {
+    struct stat found {};
+    return stat(path.c_str(), &found) == 0 && (found.st_mode & S_IWOTH) != 0;
+  };
+  const fs::path folder = file.parent_path();
+  if (open_to_all(folder))
+    reject(file, fmt::format("everybody may put files into its folder {0}, so it is not loaded; expected a folder that "
+                             "others may not write into (chmod o-w {0})",
+                             folder.string()));
+  if (open_to_all(file))
+    reject(file, "everybody may change it, so it is not loaded; expected a file that others may not write (chmod o-w)");
+}
+
 // Static constructors and damaged files can end the program in ways that nothing in it can hold.
 void reject_fatal(const fs::path& file) {
   const std::string end = fatal_end([&] {
@@ -115,6 +132,7 @@ void PluginLoader::load(const fs::path& name) {
   const fs::path file = fs::absolute(name);  // a bare name would send dlopen through its own search path
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) reject(file, "there is no such file");
+  reject_writable_by_all(file);
   if (const std::string missing = missing_of_elf(file); !missing.empty()) reject(file, missing);
   reject_fatal(file);
   add_all_of(file, registry_);
@@ -139,6 +157,7 @@ std::vector<PluginLoader::Rejected> PluginLoader::load_all() {
     try {
       if (loaded.count(file.string()) == 0) load(file);
     } catch (const Error& error) {
+      if (error.status() == Exit::interrupted) throw;
       rejected.push_back({file.string(), std::string(error.what()).substr(file.string().size() + 2)});
     }
   }

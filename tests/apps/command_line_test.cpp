@@ -213,6 +213,53 @@ TEST_F(CommandLine, ResultsThatAreWrittenKeepTheirStatusWhereNothingCanBePrinted
   }
 }
 
+// As with `ulimit -f`.
+class LargestFile {
+ public:
+  explicit LargestFile(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &now);
+  }
+  ~LargestFile() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(CommandLine, AFileThatMayNotGrowIsAFullDisk) {
+  write("membrane.toml", membrane);
+  pid_t child = 0;
+  {
+    const LargestFile limit(2000);
+    child = start("signorini", {"solve", "membrane.toml", "--out", "o"});
+  }
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 2) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(StartsWith("signorini: error: "), HasSubstr("cannot be written: File too large")));
+  EXPECT_THAT(written(), IsEmpty());
+}
+
+TEST_F(CommandLine, APictureThatCannotBeWrittenIsMissingAlone) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  const auto size = [&](const char* name) { return fs::file_size(folder_ / "o" / name); };
+  const auto enough =
+      std::max({size("report.json"), size("solution.vtu"), size("convergence.csv"), size("phases.csv")});
+  ASSERT_GT(size("result.png"), enough + 1000);
+  pid_t child = 0;
+  {
+    const LargestFile limit(enough + 1000);
+    child = start("signorini", {"solve", "membrane.toml", "--out", "p"});
+  }
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("warning: a picture is missing: result.png: cannot be written: File too large"));
+  EXPECT_THAT(report("p").at("warnings").dump(), HasSubstr("a picture is missing: result.png"));
+  EXPECT_THAT(written("p"), testing::IsSupersetOf({"report.json", "solution.vtu", "convergence.csv"}));
+  EXPECT_THAT(written("p"), testing::Not(testing::Contains("result.png")));
+}
+
 TEST_F(CommandLine, APipeIsNoScene) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   const Ended ended = signorini({"check", "pipe"});

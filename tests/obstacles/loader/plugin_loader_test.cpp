@@ -345,6 +345,22 @@ TEST(PluginLoader, ARelativePathInTheEnvironmentIsAnError) {
   EXPECT_THROW(PluginLoader{registry}, Error);
 }
 
+TEST(PluginLoader, WhatEverybodyMayWriteIsNotLoaded) {
+  for (const auto& [of_folder, of_file] : {std::pair{0777, 0644}, {01777, 0644}, {0755, 0666}}) {
+    const Folder folder;
+    folder.add("good", "good");
+    fs::permissions(folder.path() / library("good"), static_cast<fs::perms>(of_file));
+    fs::permissions(folder.path(), static_cast<fs::perms>(of_folder));
+    Registry registry;
+    PluginLoader loader(registry, {folder.path()});
+    const auto rejected = loader.load_all();
+    ASSERT_EQ(rejected.size(), 1u);
+    EXPECT_THAT(rejected[0].reason, AllOf(testing::StartsWith("everybody may"), HasSubstr("chmod o-w")));
+    EXPECT_THROW(loader.require("good"), Error);
+    EXPECT_FALSE(registry.has("obstacle", "good"));
+  }
+}
+
 TEST(PluginLoader, TheScenesFoldersComeBeforeTheEnvironment) {
   const Folder scene, environment;
   scene.add("good", "good");
