@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -30,10 +31,18 @@ class Walk {
       else
         plain(c);
     }
+    if (!open_.empty()) fail_open("the end of the file");
   }
 
  private:
   [[noreturn]] void fail(const std::string& message) const { input_error(fmt::format("{}:{}", name_, line_), message); }
+
+  /// Where the bracket is that is open.
+  [[noreturn]] void fail_open(const std::string& before) const {
+    input_error(fmt::format("{}:{}", name_, open_line_.back()),
+                fmt::format("the '{}' in this line is not closed: expected '{}' before {}",
+                            open_.back() == ']' ? '[' : '{', open_.back(), before));
+  }
 
   void plain(char c) {
     if (static_cast<unsigned char>(c) >= 127 || (c < ' ' && c != '\t' && c != '\n' && c != '\r'))
@@ -54,6 +63,7 @@ class Walk {
   }
 
   void begin_value() {
+    if (in_value_ && !open_.empty()) fail_open(fmt::format("the next '=', which is in line {}", line_));
     if (in_value_) input_error(fmt::format("{}:{}", name_, value_line_), "a second '=' before the value's end");
     in_value_ = true;
     value_line_ = line_;
@@ -62,12 +72,14 @@ class Walk {
   void bracket(char c) {
     if (c == '[' || c == '{') {
       open_.push_back(c == '[' ? ']' : '}');
+      open_line_.push_back(line_);
       if (open_.size() > deepest_brackets) fail(fmt::format("more than {} nested brackets", deepest_brackets));
     }
     if (c != ']' && c != '}') return;
     if (open_.empty()) fail(fmt::format("a '{}' that closes nothing", c));
     if (open_.back() != c) fail(fmt::format("expected '{}', found '{}'", open_.back(), c));
     open_.pop_back();
+    open_line_.pop_back();
   }
 
   // The TOML library takes any first character of a table's name for a quote.
@@ -122,6 +134,7 @@ class Walk {
   const std::string& name_;
   std::size_t at_ = 0, line_ = 1, value_line_ = 1;
   std::string open_;  // the brackets that will close what is open
+  std::vector<std::size_t> open_line_;
   int dots_ = 0;
   bool in_value_ = false;
 };

@@ -118,6 +118,15 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"MissingObstacleShape", punch, "shape = \"plane\"\n", "", 2,
                "scene.toml:36: obstacle.0.point: missing key 'shape': 'point' is a key of shape 'plane'"},
         Broken{"UnknownOption", membrane, "lower =", "lowr =", 2, "lower"},
+        Broken{"FrictionOfAnotherType", punch, "shape = \"plane\"", "shape = \"plane\"\nfriction = 0.3", 2,
+               "scene.toml:36: obstacle.0.friction: obstacle 'contact' has no option 'friction', which is one of type "
+               "'coulomb'"},
+        Broken{"FrictionOfAnotherTypeBySymbol", punch, "shape = \"plane\"", "shape = \"plane\"\nmu = 0.3", 2,
+               "obstacle 'contact' has no option 'mu', 'friction' is one of type 'coulomb'"},
+        Broken{"FrictionBySymbol", punch, "type = \"contact\"", "type = \"coulomb\"\nmu = 0.3", 2,
+               "obstacle 'coulomb' has no option 'mu', did you mean 'friction'?"},
+        Broken{"LoadByForce", punch, "[refine]", "[[load]]\nbody = \"b\"\ntraction = [0, 0, 1]\n[refine]", 2,
+               "unknown key 'traction', did you mean 'value'?"},
         Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2,
                "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
                "'elasticity'; expected a type for elastic bodies, such as 'contact'"},
