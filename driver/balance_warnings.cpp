@@ -80,9 +80,11 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
     const double contact = largest_contact(report, report.balance[part].body);
     if (loads == 0 && acting > rounding && left > uneven * acting && contact > noticeable * acting)
       warnings.push_back(
-          fmt::format("body '{}': forces balance up to {:.2g}, where {:.2g} acts: some of them are not "
-                      "known; a smaller tolerance may help",
-                      report.balance[part].body, left, acting));
+          fmt::format("body '{}': forces balance up to {:.2g}, where {:.2g} acts: some of them are not known; {}",
+                      report.balance[part].body, left, acting,
+                      report.summary.outcome == Outcome::rounding
+                          ? "that is what the machine's precision leaves of a mesh and material like these"
+                          : "a smaller tolerance may help"));
     if (!(loads > 0 && left > noticeable * loads)) continue;
     warnings.push_back(
         fmt::format("body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside "

@@ -55,9 +55,12 @@ ContactSummary<B> of_whole(ContactSummary<B> contact, const Whole& whole) {
   return contact;
 }
 
-/// Of a disk with that area; in a plane half the width.
-double radius(int dimension, Plane plane, double area) {
-  return dimension == 3 || plane == Plane::axisymmetric ? std::sqrt(area / std::numbers::pi) : area / 2;
+/// Of the strip, the disk or the ball with that measure.
+/// @param inside the obstacle acts on all of the body, as those of scalars do, else on its boundary
+double radius(int dimension, Plane plane, bool inside, double measure) {
+  const int of_contact = dimension - (inside ? 0 : 1) + (plane == Plane::axisymmetric ? 1 : 0);
+  if (of_contact == 1) return measure / 2;
+  return of_contact == 2 ? std::sqrt(measure / std::numbers::pi) : std::cbrt(0.75 * measure / std::numbers::pi);
 }
 
 /// Adds the moment of a force at a lever: three entries, or that about the z-axis alone.
@@ -184,7 +187,10 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
     for (int i = 0; i < D; ++i) report.motion.push_back(about[i] - start[i]);
   }
   add_moments(nodes, scene.bodies[body].plane, results, reports);
-  for (ContactReport& report : reports) report.radius = radius(D, scene.bodies[body].plane, report.area);
+  for (ContactReport& report : reports) {
+    const bool inside = B == 1 && !scene.obstacles[report.obstacle].on;
+    report.radius = radius(D, scene.bodies[body].plane, inside, report.area);
+  }
   add_reachable(results, reports);
   for (std::size_t k = 0; k < reports.size(); ++k)
     for (std::size_t i = 0; i < D && B == D; ++i)

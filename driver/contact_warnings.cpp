@@ -23,7 +23,7 @@ namespace {
 static_assert(largest_turn == geometry::default_crease);
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
-constexpr double noticeable = 0.01;  // of the displacements where contact is
+constexpr double noticeable = 0.01;  // of the displacements
 constexpr double coarse = 0.1;       // of these, between nodes
 constexpr double rounding = 1e-6;    // of displacements, with what tolerances leave
 constexpr double many = 0.1;         // of the nodes in contact
@@ -76,10 +76,10 @@ std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& m
       // Away from the faces that may touch, a convex obstacle may well reach into the body.
       const bool deeply = start && !everywhere && start->depth > deep * start->extent;
       if (!start || !(start->completely || deeply)) continue;
-      warnings.push_back(
-          fmt::format("{}: the body starts {}inside the obstacle, by {:.3g} of its {:.3g} along the normal "
-                      "there; is the obstacle's normal reversed?",
-                      model.obstacles[k].origin, start->completely ? "completely " : "", start->depth, start->extent));
+      warnings.push_back(fmt::format(
+          "{}: the body starts {}inside the obstacle: it reaches {:.3g} deep, and is {:.3g} thick along the "
+          "obstacle's normal there; is that normal reversed?",
+          model.obstacles[k].origin, start->completely ? "completely " : "", start->depth, start->extent));
     }
   return warnings;
 }

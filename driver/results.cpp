@@ -204,13 +204,35 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
 
 namespace {
 
-std::string cut_warning(const CutSelection& cut, int dimension) {
+/// @param alike further places with this expression
+std::string cut_warning(const CutSelection& cut, const std::vector<std::string>& alike, int dimension) {
   std::string text = fmt::format(
       "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked",
       cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces", cut.picked);
   if (cut.wrong > 0) text += fmt::format(", it does not hold on about {:.2g} of these", cut.wrong);
   if (cut.missed > 0) text += fmt::format(", and it holds on about {:.2g} besides", cut.missed);
-  return text + "; a smaller 'size' or more 'cells' follow it more closely";
+  text += "; a smaller 'size' or more 'cells' follow it more closely";
+  return alike.empty() ? text : text + fmt::format("; so at {}", fmt::join(alike, ", "));
+}
+
+/// One for each expression, which may stand in several places.
+template <int D>
+std::vector<std::string> cut_warnings(const std::vector<CutSelection>& cuts) {
+  std::vector<std::string> warnings;
+  std::vector<const CutSelection*> told;
+  for (const CutSelection& cut : cuts) {
+    const auto same = [&](const CutSelection* other) {
+      return other->selection->where->text() == cut.selection->where->text() &&
+             other->selection->part == cut.selection->part && other->wrong == cut.wrong && other->missed == cut.missed;
+    };
+    if (std::ranges::any_of(told, same)) continue;
+    told.push_back(&cut);
+    std::vector<std::string> alike;
+    for (const CutSelection& other : cuts)
+      if (&other != &cut && same(&other)) alike.push_back(other.selection->origin);
+    warnings.push_back(cut_warning(cut, alike, D));
+  }
+  return warnings;
 }
 
 /// An expression of t says where an obstacle is, and not how it moves along its own surface.
@@ -232,7 +254,8 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
                                    scene.fixes[fixes[conflict.later]].source.table,
                                    scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
                                    conflict.vertices == 1 ? "vertex" : "vertices"));
-  for (const CutSelection& cut : cut_selections(nodes.mesh(), model)) warnings.push_back(cut_warning(cut, D));
+  for (std::string& warning : cut_warnings<D>(cut_selections(nodes.mesh(), model)))
+    warnings.push_back(std::move(warning));
   const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];

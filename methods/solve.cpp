@@ -263,7 +263,7 @@ void check_method(const DiscreteProblem<B>& problem, const SolverOptions& option
   const Method method = check_options(options);
   if (method == Method::pdas && has_functional(problem.segments))
     input_error("solver.method",
-                "'pdas' treats bounds alone, and an obstacle adds a functional to the energy; "
+                "'pdas' treats bounds alone, and an obstacle adds friction or another energy of its own; "
                 "expected 'auto', 'monotone', 'tnnmg' or 'pgs', or 'newton' for friction");
   if (method == Method::newton) NewtonIteration<B>::check(problem);
 }

@@ -168,11 +168,13 @@ class SymmetryCheck {
   }
 
   void check_entry(Index i, Index j, double here, double there) const {
+    constexpr const char* one_triangle =
+        "; where one triangle is given, say so (signorini qp: --one-triangle, or 'symmetric' in the first line of the "
+        "file; C++: from_triangle(A); C: one_triangle = 1)";
     const double size = root_[i] * root_[j];
     if (std::abs(here - there) > rounding * size)
       fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}{}",
-                       i + 1, j + 1, here, j + 1, i + 1, there,
-                       here == 0 || there == 0 ? "; where one triangle is given, say so" : ""));
+                       i + 1, j + 1, here, j + 1, i + 1, there, here == 0 || there == 0 ? one_triangle : ""));
     if (i != j && std::abs(here) > (1 + rounding) * size)
       fail(fmt::format(
           "not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "

@@ -279,8 +279,8 @@ void BoundCombiner<D, B>::find_functional(const Bound<B>* first, const Bound<B>*
     if (bound->data < 0 || is_friction_on_axis(*bound)) continue;
     if (functional_)
       input_error(model_.obstacles[bound->obstacle].origin,
-                  fmt::format("acts at {} together with {}, and two obstacles with a functional (such as friction) at "
-                              "one vertex are not available in this version",
+                  fmt::format("acts at {} together with {}, and two obstacles with friction or another energy of their "
+                              "own at one vertex are not available in this version",
                               position(nodes_, bound->vertex), model_.obstacles[functional_->obstacle].origin));
     functional_ = bound;
   }
@@ -301,7 +301,7 @@ void BoundCombiner<D, B>::refuse_fixed_coordinates(const Bound<B>* first, const 
   const Index obstacle = functional_->obstacle;
   if (std::count_if(first, last, [&](const Bound<B>& bound) { return bound.obstacle == obstacle; }) == 1) return;
   input_error(model_.obstacles[obstacle].origin,
-              fmt::format("has a functional of several directions at {}, where a direction is prescribed, which is not "
+              fmt::format("adds an energy of several directions at {}, where a direction is prescribed, which is not "
                           "available in this version",
                           position(nodes_, functional_->vertex)));
 }

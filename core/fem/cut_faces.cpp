@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
 
+#include "core/base/dot.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
@@ -112,6 +116,40 @@ class CoarsestFace {
   double measure_;
 };
 
+constexpr double sharp = 0.7;  // the cosine of about 45 degrees, at which faces meet at an edge
+
+/// Parts of the boundary of the coarsest mesh that no sharp edge divides.
+template <int D>
+class Pieces {
+ public:
+  explicit Pieces(const Mesh<D>& mesh)
+      : parent_(mesh.boundary.size() / static_cast<std::size_t>(faces_per_coarsest(mesh))) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+    std::map<std::array<Index, D - 1>, Index> first;
+    std::vector<Point<D>> normal;
+    for (Index f = 0; f < std::ssize(parent_); ++f) {
+      const CoarsestFace<D> face(mesh, f);
+      normal.push_back(face.normal());
+      for (int opposite = 0; opposite < D; ++opposite) {
+        std::array<Index, D - 1> ridge;
+        for (int k = 0, i = 0; k < D; ++k)
+          if (k != opposite) ridge[i++] = face.vertices()[k];
+        const auto [entry, is_new] = first.try_emplace(sorted(ridge), f);
+        if (!is_new && dot(normal[f], normal[entry->second]) > sharp) parent_[root(f)] = root(entry->second);
+      }
+    }
+  }
+
+  /// A face that stands for the piece of a face.
+  Index root(Index f) const {
+    while (parent_[f] != f) f = parent_[f];
+    return f;
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
 /// Vertices where faces meet at an angle as small as those of facets that stand for a curved surface.
 template <int D>
 class FacettedVertices {
@@ -130,7 +168,7 @@ class FacettedVertices {
 
  private:
   void add(Index v, const Point<D>& normal) {
-    constexpr double flat = 1 - 1e-10, sharp = 0.7;  // cosines: of about a thousandth of a degree, and of 45
+    constexpr double flat = 1 - 1e-10;  // of about a thousandth of a degree
     double cosine = 0;
     for (int i = 0; i < D; ++i) cosine += normal_[v][i] * normal[i];
     if (cosine > sharp && cosine < flat) is_[v] = true;
@@ -141,24 +179,37 @@ class FacettedVertices {
   std::vector<bool> is_;
 };
 
+// Part of a face beside the one that is meant which an expression such as z > 0.99 for z = 1 holds on as well.
+constexpr double slack = 0.05;
+
 template <int D>
-CutSelection cut(const Mesh<D>& mesh, const Selection& selection, const FacettedVertices<D>& facetted, double t) {
+CutSelection cut(const Mesh<D>& mesh, const Selection& selection, const FacettedVertices<D>& facetted,
+                 const Pieces<D>& pieces, double t) {
   CutSelection out{&selection, 0, 0, 0};
   const Index children = faces_per_coarsest(mesh);
   const std::vector<Index> among = select_faces(mesh, {selection.part, {}, selection.origin}, t),
                            picked = select_faces(mesh, selection, t);
   const auto samples = centroids<D>(parts_of_picked<D>(picked.size() / static_cast<std::size_t>(children)));
+  struct Measure {
+    double all = 0, picked = 0, missed = 0;
+  };
+  std::map<Index, Measure> of_piece;
   auto next = picked.begin();
   for (auto f = among.begin(); f != among.end(); f += children) {
     const CoarsestFace<D> face(mesh, *f / children);
+    Measure& piece = of_piece[pieces.root(*f / children)];
+    piece.all += face.measure();
     if (next != picked.end() && *next == *f) {
       out.picked += face.measure();
+      piece.picked += face.measure();
       if (face.curved() || !facetted.has_any(face.vertices())) out.wrong += face.without(*selection.where, t, samples);
       next += children;
     } else {
-      out.missed += face.where(*selection.where, t);
+      piece.missed += face.where(*selection.where, t);
     }
   }
+  for (const auto& [root, piece] : of_piece)
+    if (piece.picked > 0 || piece.missed > slack * piece.all) out.missed += piece.missed;
   return out;
 }
 
@@ -168,10 +219,11 @@ template <int D, int B>
 std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& model) {
   std::vector<CutSelection> out;
   std::optional<FacettedVertices<D>> facetted;
+  std::optional<Pieces<D>> pieces;
   const auto add = [&](const Selection& selection) {
     if (!selection.where) return;
-    if (!facetted) facetted.emplace(mesh);
-    const CutSelection found = cut(mesh, selection, *facetted, model.t);
+    if (!facetted) facetted.emplace(mesh), pieces.emplace(mesh);
+    const CutSelection found = cut(mesh, selection, *facetted, *pieces, model.t);
     if (found.missed > 0 || found.wrong > 0) out.push_back(found);
   };
   for (const Fix<B>& fix : model.fixes) add(fix.on);

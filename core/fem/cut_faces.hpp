@@ -14,7 +14,8 @@ struct CutSelection {
 
 /// Those of a model's fixes, loads and obstacles. The faces must be picked already: see select_faces(). Faces that
 /// stand for a curved surface which the mesh does not know are never wrong: an expression may hold on that surface
-/// alone.
+/// alone. Nor is a strip missed that is all of its smooth piece of the boundary on which the expression holds, where it
+/// is as narrow as tolerances in expressions are.
 /// @param mesh any of the hierarchy; faces are those of the coarsest one
 template <int D, int B>
 std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& model);

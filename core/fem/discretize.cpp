@@ -245,8 +245,8 @@ class Discretizer {
     if (law.coefficient == 0) return false;
     if (law.bound == 0) return true;
     input_error(term.origin,
-                fmt::format("at ({}) {} is nearer along the same direction, so that the force that the "
-                            "functional depends on is another one's, which is not available in this "
+                fmt::format("at ({}) {} is nearer along the same direction, so that the force that its "
+                            "friction depends on is another one's, which is not available in this "
                             "version",
                             fmt::join(nodes_.at(bound.vertex), ", "), model_.obstacles[along.lower_obstacle].origin));
   }

@@ -9,6 +9,7 @@
 #include "core/fem/paired_sides.hpp"
 #include "core/fem/select.hpp"
 #include "core/geometry/faceted_distance.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini {
 namespace {
@@ -113,6 +114,21 @@ double size_at(const std::vector<double>& u, Index p) {
   return std::sqrt(square);
 }
 
+/// The diagonal of the box around all displacements.
+template <int D>
+double difference_of_displacements(const std::vector<double>& u) {
+  Point<D> range;
+  for (int i = 0; i < D; ++i) {
+    double low = infinity, high = -infinity;
+    for (std::size_t k = i; k < u.size(); k += D) {
+      low = std::min(low, u[k]);
+      high = std::max(high, u[k]);
+    }
+    range[i] = high - low;
+  }
+  return length<D>(range);
+}
+
 template <int B>
 DeformedContact violation(const ContactState<B>& state, Index obstacle) {
   DeformedContact out;
@@ -157,6 +173,8 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
     out.penetration = std::max(out.penetration, -gap.distance);
     if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.node));
   }
+  // Where a body is pressed from behind on something rigid it moves less than what presses it.
+  out.displacement = std::max(out.displacement, difference_of_displacements<D>(u));
   if (term.other) out.beyond = beyond(state, obstacle, all);
   if (all.empty()) out.penetration = out.opening = out.displacement = unknown;
   return out;

@@ -10,7 +10,7 @@ namespace signorini {
 struct DeformedContact {
   double penetration = 0;   ///< of the deformed boundary's vertices, the largest
   double opening = 0;       ///< the largest distance of vertices where contact is claimed
-  double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle
+  double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle, or difference of any two
   Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
   double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
   SmoothedOver smoothed{};  ///< likewise

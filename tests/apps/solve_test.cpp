@@ -247,14 +247,15 @@ TEST_F(Solve, SaysThatABodyStartsInsideAnObstacle) {
   ASSERT_EQ(signorini({"solve", "block.toml", "--out", "o"}).status, 0);
   EXPECT_EQ(report("o").at("warnings").dump(), "[]");
   ASSERT_EQ(signorini({"solve", "block.toml", "--out", "p", "--set", "obstacle.0.point=[0, 0, 0.5]"}).status, 0);
-  EXPECT_THAT(report("p").at("warnings").dump(), HasSubstr("starts inside the obstacle, by 0.5 of its 1"));
+  EXPECT_THAT(report("p").at("warnings").dump(),
+              HasSubstr("starts inside the obstacle: it reaches 0.5 deep, and is 1 thick along"));
 }
 
 TEST_F(Solve, NamesAReversedNormalWhereItLeavesNoSolution) {
   write("block.toml", block_on_plane);
   const auto ended = signorini({"solve", "block.toml", "--out", "o", "--set", "obstacle.0.normal=[0, 0, -1]"});
   EXPECT_EQ(ended.status, 4);
-  EXPECT_THAT(ended.err, HasSubstr("starts completely inside the obstacle, by 1 of its 1"));
+  EXPECT_THAT(ended.err, HasSubstr("starts completely inside the obstacle: it reaches 1 deep, and is 1 thick along"));
   EXPECT_THAT(ended.err, HasSubstr("normal reversed?"));
 }
 

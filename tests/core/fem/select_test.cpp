@@ -99,6 +99,19 @@ TEST(Select, SaysHowMuchIsCutOff) {
   }
 }
 
+// What is meant is the top; the sides are picked where they are meant, too.
+TEST(Select, ToleranceAroundAFaceIsNoCut) {
+  Model<1> model;
+  model.loads.push_back({where([](const Site& s) { return s.x[1] > 0.99; }), {1.0}});
+  EXPECT_TRUE(cuts<2>(cells<2>(4), model).empty());
+  model.loads[0].on = where([](const Site& s) { return s.x[2] > 0.99; });
+  EXPECT_TRUE(cuts<3>(cells<3>(2), model).empty());
+  model.loads[0].on = where([](const Site& s) { return s.x[2] > 0.5; });  // not on the vertices at 0.5
+  const auto found = cuts<3>(cells<3>(2), model);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].missed, 4 * 0.5, 0.1);
+}
+
 TEST(Select, SaysOnHowMuchOfThePickedItDoesNotHold) {
   Model<1> model;
   // Holds at all corners, not from 0.05 to 0.2 nor from 0.55 to 0.7.
