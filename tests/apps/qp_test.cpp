@@ -262,6 +262,20 @@ TEST_F(Qp, BadInputIsNamedAndNothingIsWritten) {
   matrix("1\n-0.9\n-0.9\n-0.9\n1\n-0.9\n-0.9\n-0.9\n1\n", "indefinite: d'Ad is -");
 }
 
+TEST_F(Qp, OneTriangleInAGeneralFileHasToBeSaid) {
+  write_constant("b.mtx", 3, 1);
+  for (const char* entries : {"1 1 2\n2 1 -1\n2 2 2\n3 2 -1\n3 3 2\n", "1 1 2\n1 2 -1\n2 2 2\n2 3 -1\n3 3 2\n"}) {
+    write("A.mtx", std::string("%%MatrixMarket matrix coordinate real general\n3 3 5\n") + entries);
+    expect_failure({"qp", "A.mtx", "b.mtx"}, 2, "one triangle is given, say so (signorini qp: --one-triangle, or 'sym");
+    const Ended ended = signorini({"qp", "A.mtx", "b.mtx", "--one-triangle", "--out", "x.mtx"});
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    const std::vector<double> x = solution(3), expected{1.5, 2, 1.5};
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(x[i], expected[i], 1e-7);
+  }
+  write_chain(3);
+  expect_failure({"qp", "A.mtx", "b.mtx", "--one-triangle"}, 2, "expected one triangle of a matrix alone");
+}
+
 TEST_F(Qp, WrongUsageIsStatusOneButForSet) {
   write_chain(3);
   write_constant("b.mtx", 3, 1);
