@@ -69,9 +69,12 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 | `largest_opening` | how far one is off it though contact is claimed |
 | `beyond_nodes` | of two bodies: nodes in contact that have come to where the other one is no longer in front of them |
 
-A warning is given where a length is over 1 % of the displacements there (between nodes over 10 %: that is what elements
-leave), where over a tenth of the nodes in contact are beyond, and where a body turns by more than 0.1 as a whole: linear
-elasticity takes rotations for small ones.
+A warning is given where a length is over 1 % of the displacements there, or of what displacements differ by in the body where
+that is more (between nodes over 10 %: that is what elements leave), where over a tenth of the nodes in contact are beyond, where
+a body turns by more than 0.1 as a whole, and where
+strains are over 0.2 in a twentieth of a body: linear elasticity takes both for small ones. Where a twentieth of a body is
+pressed through itself, as by displacements in other units than the body, or an obstacle on the wrong side would pull at
+it, the scene is refused. An obstacle that is never touched is named, with the smallest distance that is left.
 
 **Two bodies.** `elastic` and `elastic_coulomb` let two elastic bodies touch each other: `body` with `on` or `where`, and
 `other` with `other_on` or `other_where`. Both may be parts of one body. What they do, and which of them is the slave, is in [bodies.md](bodies.md). Other
