@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "core/base/error.hpp"
@@ -62,7 +63,10 @@ void end_where_a_plugin_hangs() {
 
 void catch_interrupts() {
   sem_init(&requests, 0, 0);
-  std::thread(end_where_a_plugin_hangs).detach();
+  try {
+    std::thread(end_where_a_plugin_hangs).detach();
+  } catch (const std::system_error&) {  // a second signal ends the program without it
+  }
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
