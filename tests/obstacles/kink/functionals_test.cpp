@@ -178,12 +178,12 @@ TEST(Functionals, MayForbidThatStepsAreCut) {
 // Two bars of E = 1 and length 1 that are 0.1 apart, k = 1/4 between them, the end of the second one pulled by 0.3: the
 // way d that they come apart is 0.3 - 2 k d / E, and nothing bounds them.
 TEST(Functionals, BetweenBodiesActWhereNothingTouches) {
-  const auto bar = [](const char* name, const char* from, const char* to) {
+  const auto bar = [](const char* name, const char* from, const char* to, int order) {
     return std::string("[[body]]\nname = \"") + name + "\"\nshape = \"rectangle\"\nfrom = " + from + "\nto = " + to +
-           "\ncells = [2, 2]\nyoung = 1\npoisson = 0\n";
+           "\ncells = [2, 2]\nyoung = 1\npoisson = 0\norder = " + std::to_string(order) + "\n";
   };
-  for (const int uniform : {0, 2}) {
-    Driver driver(parse_scene(bar("a", "[0, 0]", "[1, 1]") + bar("b", "[1.1, 0]", "[2.1, 1]") +
+  for (const auto [order, uniform] : {std::pair(1, 0), std::pair(1, 2), std::pair(2, 1)}) {
+    Driver driver(parse_scene(bar("a", "[0, 0]", "[1, 1]", order) + bar("b", "[1.1, 0]", "[2.1, 1]", order) +
                                   "[[fix]]\nbody = \"a\"\non = \"left\"\nvalue = [0, 0]\n"
                                   "[[fix]]\nbody = \"b\"\non = \"right\"\nvalue = [0.3, 0]\n"
                                   "[[obstacle]]\ntype = \"cushion\"\nbody = \"a\"\non = \"right\"\nother = \"b\"\n"
