@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/body_geometry.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/mesh/structured.hpp"
@@ -46,6 +47,25 @@ TEST(Chords, SagittaIsThatOfTheArcsThroughTheVertices) {
       EXPECT_NEAR(sagitta_everywhere(arch(n), refinements), exact, 0.01 * exact);
       EXPECT_NEAR(sagitta_everywhere(arch_3d(n), refinements), exact, 0.01 * exact);
     }
+}
+
+/// What a smooth surface through the vertices has taken the place of.
+template <int D>
+SmoothedOver smoothed_everywhere(Mesh<D> mesh) {
+  geometry::give_geometry(mesh, geometry::Surfaces::smooth);
+  const MeshHierarchy<D> meshes = hierarchy(std::move(mesh), 1);
+  const Chords chords = chord_sagitta(meshes, std::vector<bool>(meshes.finest().points.size(), true));
+  EXPECT_EQ(chords.sagitta, 0);
+  return chords.smoothed;
+}
+
+TEST(Chords, WhatWasSmoothedOverIsToldWithItsAngle) {
+  const double angle = pi / 16, sagitta = 2 * (1 - std::cos(angle / 2));
+  for (const SmoothedOver& over : {smoothed_everywhere(arch(8)), smoothed_everywhere(arch_3d(8))}) {
+    EXPECT_NEAR(over.angle, angle, 1e-9);
+    EXPECT_NEAR(over.by, sagitta, 0.01 * sagitta);
+  }
+  EXPECT_EQ(smoothed_everywhere(rectangle({0, 0}, {3, 1}, {4, 3})).angle, 0);
 }
 
 /// Up to the angle that bodies have their creases by.
