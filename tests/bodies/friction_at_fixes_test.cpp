@@ -111,7 +111,7 @@ TEST(FrictionAtFixes, IsAgainstTheWayInSpace) {
 // these moved before is, in long steps, more than what they slip, and the other way: friction must not turn round.
 TEST(FrictionAtFixes, DoesNotTurnRoundInLongSteps) {
   const auto scene = [](int count, int halvings) {
-    return scene_of(block("blade", "[0, 0]", "[50, 0.05]", "[400, 1]", "order = 2\nyoung = 210000\npoisson = 0.3\n") +
+    return scene_of(block("blade", "[0, 0]", "[50, 0.05]", "[200, 1]", "order = 2\nyoung = 210000\npoisson = 0.3\n") +
                     fix("blade", "right", "[0, \"-2 * t\"]") +
                     "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.2\nbody = \"blade\"\non = \"bottom\"\n"
                     "shape = \"sphere\"\ncenter = [5, -50]\nradius = 50\n" +
@@ -137,7 +137,7 @@ TEST(FrictionAtFixes, DoesNotTurnRoundInLongSteps) {
 
 /// A block on a longer one, pressed on it, whose left side is drawn along.
 std::string drawn(int dimension, int order, const std::string& left, const std::string& more) {
-  const std::string elastic = material(1) + fmt::format("order = {}\n", order);
+  const std::string elastic = material(1, 0.3, order);
   const auto point = [&](double x, double y, double z) {
     return dimension == 2 ? fmt::format("[{}, {}]", x, z) : fmt::format("[{}, {}, {}]", x, y, z);
   };
@@ -186,7 +186,7 @@ TEST(FrictionAtFixesOfBodies, HalvesByFixesAreLikeThoseBySymmetry) {
   const auto contact_of = [](bool half, const std::string& conditions) {
     const auto body = [&](const char* name, double width, double low, double high, int cells, double poisson) {
       return block(name, fmt::format("[{}, {}]", half ? 0 : -width, low), fmt::format("[{}, {}]", width, high),
-                   fmt::format("[{}, {}]", half ? cells : 2 * cells, cells), material(1, poisson) + "order = 1\n");
+                   fmt::format("[{}, {}]", half ? cells : 2 * cells, cells), material(1, poisson));
     };
     Driver driver(scene_of(body("lower", 1.5, 0, 1, 6, 0.3) + body("upper", 0.5, 1, 1.5, 2, 0.45) +
                            fix("lower", "bottom", "[0, 0]") + fix("upper", "top", "[\"free\", \"-0.05 * t\"]") +

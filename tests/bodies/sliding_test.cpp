@@ -226,11 +226,11 @@ void expect_same(const Answer& a, const Answer& b) {
 // are others for other starts and levels.
 TEST(Sliding, HasOneAnswerWhateverTheWayToIt) {
   const std::string slider =
-      "[[body]]\nname = \"b\"\nshape = \"half_disk\"\ncenter = [0.445, 1]\nradius = 0.98\nsize = 0.142\norder = 1\n" +
+      "[[body]]\nname = \"b\"\nshape = \"half_disk\"\ncenter = [0.445, 1]\nradius = 0.98\nsize = 0.142\n" +
       material(0.0558);
   const std::string ground =
       "[[body]]\nname = \"a\"\nshape = \"polygon\"\npoints = [[-1.5, -1], [1.5, -1], [1.5, -0.001], [0.2, 0], [-1.5, "
-      "-0.057]]\nsize = 0.201\norder = 1\n" +
+      "-0.057]]\nsize = 0.201\n" +
       material(19.57, 0.249);
   const std::string rest =
       "[[fix]]\nbody = \"b\"\nwhere = \"y > 0.9\"\nvalue = [\"0.0572 * t\", \"-0.0434 - 0.08 * min(1, 2 * t)\"]\n"
@@ -251,8 +251,8 @@ TEST(Sliding, HasOneAnswerWhateverTheWayToIt) {
 
 TEST(Sliding, HasOneAnswerWhateverTheWayToItInSpace) {
   const std::string scene =
-      "[[body]]\nname = \"b\"\nshape = \"half_ball\"\ncenter = [0.1, 0, 1]\nradius = 1\nsize = 0.5\norder = 1\n" +
-      material(0.1) + block("a", "[-1.5, -1, -0.6]", "[1.5, 1, 0]", "[6, 4, 2]", material(2) + "order = 1\n") +
+      "[[body]]\nname = \"b\"\nshape = \"half_ball\"\ncenter = [0.1, 0, 1]\nradius = 1\nsize = 0.5\n" + material(0.1) +
+      block("a", "[-1.5, -1, -0.6]", "[1.5, 1, 0]", "[6, 4, 2]", material(2)) +
       fix("b", "flat", "[\"0.3 * t\", \"0.1 * t\", \"-0.2 * min(1, 2 * t)\"]") + fix("a", "bottom", "[0, 0, 0]") +
       pair("b", "curved", "a", "top", "friction = 0.2\n", "elastic_coulomb") + steps(2, 1);
   const Answer expected = answer(scene);
