@@ -252,7 +252,7 @@ class Chooser {
 
   /// Shapes that some faces beside each other are on, with all that is on these farther away.
   void grow_shapes(std::vector<Index>& faces) {
-    constexpr int most_attempts = 300;
+    constexpr int most_attempts = 100;
     constexpr std::size_t few = D == 2 ? 6 : 16;  // vertices
     std::set<Index> open(faces.begin(), faces.end()), tried;
     const Neighbours at = neighbours(faces);
