@@ -273,7 +273,7 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
           "where {}displacements are up to {:.3g}: the gap is off by up to {:.2g} % of what closes it, refinement "
           "brings "
           "out the edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {}{} "
-          "puts a smooth surface through the vertices",
+          "puts a smooth surface through the vertices, but where single faces between edges tell nothing round",
           model.obstacles[k].origin, whose, sagitta,
           depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement,
           100 * sagitta / (depth > 0 ? depth : displacement), whose,
