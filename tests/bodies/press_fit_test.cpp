@@ -144,33 +144,5 @@ TEST_F(PressFit, AsLameSaysIn3D) {
   EXPECT_LT(off({.dimension = 3, .cells = {37, 10}, .order = 2, .refinements = 0, .slave = "other"}), 0.01);
 }
 
-/// A nut drawn up against a ring whose hole is wider: the ring ends within a face of the nut.
-double nut_and_ring(const char* slave, int order, int refinements) {
-  const std::string material =
-      fmt::format("young = 210000\npoisson = 0.3\nplane = \"axisymmetric\"\norder = {}\n", order);
-  Driver driver(scene_of(tables::block("nut", "[3, -18]", "[9, -10]", "[4, 6]", material) +
-                         tables::block("ring", "[5.5, -10]", "[25, 0]", "[14, 7]", material) +
-                         tables::fix("ring", "top", "[\"free\", 0]") +
-                         tables::fix("nut", "bottom", "[\"free\", 0.01]") +
-                         pair("ring", "bottom", "nut", "top", fmt::format("slave = \"{}\"\n", slave)) +
-                         fmt::format("[refine]\nuniform = {}\n", refinements)));
-  const Report& report = driver.solve();
-  EXPECT_TRUE(report.converged()) << report.reason();
-  const ContactReport& contact = report.last().contact[0];
-  show("order {}, {} refinements, slave {}: largest pressure {:.4g}, mean {:.4g}\n", order, refinements, slave,
-       contact.max_pressure, length(contact.force) / contact.area);
-  return contact.max_pressure;
-}
-
-// The force at a node that is hardly covered says nothing of the pressure.
-TEST(HardlyCovered, NodesHaveNoLargestPressure) {
-  for (const int order : {1, 2})
-    for (const int refinements : {0, 1, 2, 3}) {
-      const double ring = nut_and_ring("body", order, refinements), nut = nut_and_ring("other", order, refinements);
-      EXPECT_LT(nut, 1.3 * ring) << order << " " << refinements;
-      EXPECT_GT(nut, 0.6 * ring) << order << " " << refinements;
-    }
-}
-
 }  // namespace
 }  // namespace signorini::test
