@@ -67,6 +67,7 @@ class Recovery {
     if (!all_inside()) return !inside_[top()];
     const Index k = top();
     if (k == unreachable) return false;
+    if (bears_more_at_end(faces_.node(k).recovered)) return true;
     bool near_end = faces_.at_end(k), falls = false;
     for (const Index other : faces_.around(k)) {
       if (!faces_.pressed(other)) continue;
@@ -74,6 +75,13 @@ class Recovery {
       falls = falls || faces_.node(k).recovered > steep * faces_.node(other).recovered;
     }
     return near_end && falls;
+  }
+
+  /// Whether a node that is hardly covered has a force that would be a larger pressure over half of its area.
+  bool bears_more_at_end(double largest) const {
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (faces_.pressed(k) && !tells(k) && faces_.node(k).pressure > steep * largest) return true;
+    return false;
   }
 
   double area() const {
