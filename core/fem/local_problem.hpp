@@ -99,6 +99,7 @@ class LocalProblem {
         for (int k = 0; k < B; ++k) d[k] = length * left[k] / size;
       const Vector z = moved(y, d);
       for (int k = 0; k < B; ++k) d[k] = z[k] - y[k];
+      if (block::norm<B>(d.data()) < 0.01 * length) continue;  // bounds leave rounding of it
       const Vector Md = force(d);
       double terms = std::fabs(change(y, z)), gain = -change(y, z);
       for (int k = 0; k < B; ++k) {

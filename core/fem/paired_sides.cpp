@@ -13,6 +13,7 @@
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/join.hpp"
+#include "core/mesh/true_surface.hpp"
 
 namespace signorini {
 namespace {
@@ -115,6 +116,25 @@ std::optional<Overlap<D>> start_overlap(const Mesh<D>& mesh, const ObstacleTerm<
   });
 }
 
+namespace {
+
+/// How far the flat faces of one side are off the surfaces that they stand for: there they may overlap, and bodies not.
+template <int D>
+double off_surfaces(const Mesh<D>& mesh, const std::vector<Index>& faces) {
+  std::array<double, D> middle;
+  middle.fill(1.0 / D);
+  double most = 0;
+  for (const Index f : faces) {
+    if (!stands_for_surface(mesh, f)) continue;
+    Point<D> normal = area_normal(mesh, mesh.boundary[f]);
+    normalise(normal);
+    most = std::max(most, std::abs(surface_at<D>(mesh, f, middle, normal).height));
+  }
+  return most;
+}
+
+}  // namespace
+
 template <int D>
 void refuse_unseen_overlap(const Nodes<D>& nodes, const Model<D>& model) {
   const Mesh<D>& mesh = nodes.mesh();
@@ -123,7 +143,9 @@ void refuse_unseen_overlap(const Nodes<D>& nodes, const Model<D>& model) {
     const PairedFaces faces = paired_faces(mesh, term, model.t);
     const auto start = start_overlap(mesh, term, faces, model.t);
     if (!start || start->slave_face < 0) continue;
-    if (start->depth <= no_overlap * longest_edge(mesh, mesh.boundary[start->slave_face])) continue;
+    if (start->depth <= no_overlap * longest_edge(mesh, mesh.boundary[start->slave_face]) +
+                            off_surfaces(mesh, faces.slave) + off_surfaces(mesh, faces.master))
+      continue;
     if (couple_sides<D>(nodes, model, term, faces.slave, faces.master).deepest.slave_face >= 0) continue;
     input_error(
         term.origin,
