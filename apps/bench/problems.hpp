@@ -16,8 +16,8 @@ namespace signorini::bench {
 /// A file of apps/scenes.
 std::filesystem::path scene_file(const std::string& name);
 
-/// That scene, with linear elements unless the overrides say otherwise: on a mesh with as many unknowns as its own quadratic
-/// ones have, unless they say so, too.
+/// That scene, with linear elements unless the overrides say otherwise: on a mesh with as many unknowns as its own
+/// quadratic ones have, unless they say so, too.
 Scene linear_scene(const std::string& file, std::vector<std::string> overrides);
 
 /// A scene of apps/scenes, changed by overrides as `--set` takes them.
