@@ -64,14 +64,13 @@ class Recovery {
   }
 
   bool peaks_at_edge() const {
-    if (!all_inside()) return !inside_[top()];
     const Index k = top();
     if (k == unreachable) return false;
-    if (bears_more_at_end(faces_.node(k).recovered)) return true;
+    if (!inside_[k] || bears_more_at_end(faces_.node(k).recovered)) return true;
     bool near_end = faces_.at_end(k), falls = false;
     for (const Index other : faces_.around(k)) {
       if (!faces_.pressed(other)) continue;
-      near_end = near_end || faces_.at_end(other);
+      near_end = near_end || faces_.at_end(other) || faces_.node(other).hardly_covered();
       falls = falls || faces_.node(k).recovered > steep * faces_.node(other).recovered;
     }
     return near_end && falls;
