@@ -5,9 +5,10 @@ namespace signorini::test {
 
 inline double decades(Random& random, double range) { return std::pow(10.0, random.between(-range, range)); }
 
-inline Material any_material(Random& random) {
-  Material out{decades(random, 1.5), random.between(0, 0.45), 1 + random.below(2)};
-  if (random.chance(0.2)) out.poisson = random.chance(0.5) ? 0.49 : 0.499, out.order = 2;
+/// @param order of the elements: bodies that touch each other have one
+inline Material any_material(Random& random, int order) {
+  Material out{decades(random, 1.5), random.between(0, 0.45), order};
+  if (order == 2 && random.chance(0.3)) out.poisson = random.chance(0.5) ? 0.49 : 0.499;
   return out;
 }
 
@@ -27,7 +28,8 @@ Stack<D> random_column(Random& random) {
   if (out.kind == Kind::symmetric) from[0] = -width[0] / 2;
   if (out.kind == Kind::axisymmetric) from[0] = random.chance(0.5) ? 0 : random.between(0.3, 2);
   const bool alike = random.chance(0.3);
-  const Material first = any_material(random);
+  const int order = 1 + random.below(2);
+  const Material first = any_material(random, order);
   if (alike && !out.on_plane && first.poisson <= 0.45 && random.chance(0.7)) out.friction = random.between(0.05, 1);
   double height = 0, gaps = 0;
   const int n = 1 + random.below(D == 2 ? 4 : 3);
@@ -43,7 +45,7 @@ Stack<D> random_column(Random& random) {
     if (out.kind == Kind::symmetric) block.cells[0] *= 2;
     height = block.to[D - 1], gaps += gap;
     out.blocks.push_back(block), out.gaps.push_back(gap);
-    out.materials.push_back(alike ? first : any_material(random));
+    out.materials.push_back(alike ? first : any_material(random, order));
   }
   out.motion[D - 1] = -gaps - random.between(0.005, 0.02) * (random.chance(0.15) ? -1 : 1);
   return out;
@@ -77,6 +79,7 @@ Stack<D> random_pile(Random& random) {
   if (random.chance(0.6)) out.friction = random.between(0.05, 0.5);
   const int n = 1 + random.below(D == 2 ? 4 : 3);
   if (n == 1) out.on_plane = true;
+  const int order = 1 + random.below(2);
   double height = 0;
   for (int k = 0; k < n; ++k) {
     const double gap = (k > 0 || out.on_plane) && random.chance(0.5) ? random.between(-0.004, 0.004) : 0;
@@ -90,7 +93,7 @@ Stack<D> random_pile(Random& random) {
     block.to[D - 1] = height = block.from[D - 1] + random.between(0.3, 0.8);
     block.cells[D - 1] = 1 + random.below(2);
     out.blocks.push_back(block), out.gaps.push_back(gap);
-    out.materials.push_back(any_material(random));
+    out.materials.push_back(any_material(random, order));
   }
   for (int i = 0; i + 1 < D; ++i) out.motion[i] = random.chance(0.5) ? random.between(-0.02, 0.02) : 0;
   out.motion[D - 1] = -0.01 * n - random.between(0, 0.02);
