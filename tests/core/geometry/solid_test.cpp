@@ -97,58 +97,9 @@ Surface octahedron() {
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 }
 
-/// The hull of the points at unit distance from the origin that a group of symmetries makes of one, by its planes.
-Surface cuboctahedron() {
-  Surface s;
-  for (const double a : {-1.0, 1.0})
-    for (const double b : {-1.0, 1.0}) {
-      s.points.push_back({a, b, 0});
-      s.points.push_back({a, 0, b});
-      s.points.push_back({0, a, b});
-    }
-  const auto plane = [&](const std::array<double, 3>& n, double distance) {
-    std::vector<int> face;
-    for (int v = 0; v < 12; ++v)
-      if (std::abs(n[0] * s.points[v][0] + n[1] * s.points[v][1] + n[2] * s.points[v][2] - distance) < 1e-12)
-        face.push_back(v);
-    return face;
-  };
-  const auto add = [&](int a, int b, int c, const std::array<double, 3>& n) {
-    const auto &p = s.points[a], &q = s.points[b], &r = s.points[c];
-    const std::array<double, 3> u{q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v{r[0] - p[0], r[1] - p[1], r[2] - p[2]};
-    const double side =
-        n[0] * (u[1] * v[2] - u[2] * v[1]) + n[1] * (u[2] * v[0] - u[0] * v[2]) + n[2] * (u[0] * v[1] - u[1] * v[0]);
-    s.triangles.push_back(side > 0 ? std::array{a, b, c} : std::array{a, c, b});
-  };
-  for (int k = 0; k < 3; ++k)
-    for (const double sign : {-1.0, 1.0}) {
-      std::array<double, 3> n{};
-      n[k] = sign;
-      const auto f = plane(n, 1);  // a square: the vertex opposite to the first one is the one farthest from it
-      int opposite = 1;
-      for (int i = 1; i < 4; ++i) {
-        const auto &p = s.points[f[0]], &q = s.points[f[i]];
-        if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1.9) opposite = i;
-      }
-      for (int i = 1; i < 4; ++i)
-        if (i != opposite) add(f[0], f[i], f[opposite], n);
-    }
-  for (int k = 0; k < 8; ++k) {
-    const std::array<double, 3> n{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0};
-    const auto f = plane(n, 2);
-    add(f[0], f[1], f[2], n);
-  }
-  return s;
-}
-
 // Their vertices lie on one sphere, and four at a time in planes.
 TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
-  Surface bipyramid = octahedron();
-  for (auto& p : bipyramid.points) p[2] *= 0.5;
-  for (const auto& [name, surface, volume] : {Named{"octahedron", octahedron(), 4.0 / 3},
-                                              {"cuboctahedron", cuboctahedron(), 20.0 / 3},
-                                              {"bipyramid", bipyramid, 2.0 / 3},
-                                              {"cube", cube(-1, 1), 8}})
+  for (const auto& [name, surface, volume] : {Named{"octahedron", octahedron(), 4.0 / 3}, {"cube", cube(-1, 1), 8}})
     for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
       for (const double h : {3.0, 1.5, 1.0, 0.7, 0.5, 0.35}) {
         SCOPED_TRACE(fmt::format("{}, size {}", name, h));
