@@ -360,14 +360,6 @@ bool is_manifold(const Mesh<3>& mesh) {
   return hinges.vertices.empty() && hinges.edges.empty();
 }
 
-/// Of a solid with flat faces: whether nothing of it is cut off, as where the mesher leaves out a part of a crease.
-bool is_filled(const Mesh<3>& mesh, const Domain& domain) {
-  constexpr double rounding = 1e-6;
-  double volume = 0;
-  for (const Simplex<3>& element : mesh.elements) volume += signed_volume<3>(corners<3>(mesh.points, element));
-  return std::abs(volume - domain.volume()) <= rounding * domain.volume();
-}
-
 /// Where a manifold is not come to soon, one is hoped for without asking for it, then at sizes somewhat smaller: near
 /// sharp angles it depends on where the first vertices happen to be. (Not at once: the meshes of all other shapes are
 /// as they are.)
@@ -380,7 +372,7 @@ Mesh<3> patient_mesh(const Domain& domain, Sizing<3>& sizing, double elements, s
   for (const double factor : {1.0, 0.9, 0.8, 0.7, 0.6}) {
     sizing.expect(elements / (factor * factor * factor));
     Mesh<3> mesh = mesh_of(domain, sizing, Surface::any, factor, on_crease);
-    if (is_manifold(mesh) && is_filled(mesh, domain)) return mesh;
+    if (is_manifold(mesh)) return mesh;
   }
   sizing.expect(elements);
   return mesh_of(domain, sizing, Surface::manifold, 1, on_crease);
