@@ -147,7 +147,10 @@ std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, co
   if (!report.converged()) return warnings;
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const auto touches = [&](const StepReport& step) { return step.contact[numbers[k]].nodes > 0; };
+    const auto touches = [&](const StepReport& step) {  // or acts from afar, as springs do
+      const ContactReport& contact = step.contact[numbers[k]];
+      return contact.nodes > 0 || std::ranges::any_of(contact.force, [](double f) { return f != 0; });
+    };
     if (std::ranges::any_of(report.steps, touches)) continue;
     const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
     const bool paired = !obstacle.other.empty();
