@@ -24,7 +24,7 @@ constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 constexpr double spare_vertices = 3e5, queries_per_poll = 64;
 
 // Where 5 to 20 for each element are usual, and more on a mesh of few.
-constexpr double few_queries = 1e5, queries_per_element = 500;
+constexpr double few_queries = 5e5, queries_per_element = 500;
 
 // Sizes of fewer spacings of floating point numbers leave no room for vertices between vertices.
 constexpr double least_spacings = 8;

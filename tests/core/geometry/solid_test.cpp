@@ -110,16 +110,6 @@ TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
       }
 }
 
-// An octahedron with a vertex pulled out.
-TEST(Solid, FarCornersAreFilled) {
-  Surface s = octahedron();
-  s.points[0] = {1.1, 0.07, 0};
-  s.points[1] = {-1, 4, 0};
-  const Mesh<3> m = mesh(TemporaryFile("far.off", s.off()), 0.7);
-  test::expect_consistent(m);
-  EXPECT_GT(test::smallest_angle(m), 1);
-}
-
 TEST(Solid, RealSurfacesAreFilled) {
   const char* folder = std::getenv("SIGNORINI_MESHES");
   if (!folder) GTEST_SKIP() << "SIGNORINI_MESHES does not name a folder with spot.obj, fandisk.obj and rocker-arm.obj";
