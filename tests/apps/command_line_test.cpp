@@ -60,7 +60,7 @@ TEST_F(CommandLine, NamesTheNearestOptionAndValue) {
     std::vector<std::string> arguments;
     const char* message;
   } cases[] = {
-      {{"list", "obstcles"}, "found 'obstcles', expected one of solver | obstacles | "},
+      {{"list", "obstcles"}, "found 'obstcles', expected one of solver | libraries | obstacles | "},
       {{"list", "obstcles"}, ", did you mean 'obstacles'?"},
       {{"qp", "A.mtx", "b.mtx", "--method", "monotne"}, ", did you mean 'monotone'?"},
       {{"solve", "a.toml", "--oot", "o"}, "there is no option '--oot', did you mean '--out'?"},
