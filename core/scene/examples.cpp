@@ -56,7 +56,7 @@ a tip that is sharper than that, all count.)
 
 **Pressure.** `max_pressure` and `contact_pressure` of the VTU are recovered from the forces at the nodes
 ([pressures.md](pressures.md)). `nodal_pressure` of the VTU is a node's force over its area. `area` ends within faces, where
-the recovered pressure does; `radius` is that of a disk with this area, in 2D half of it. Where too few nodes are inside the
+the recovered pressure does; `radius` is that of a disk with this area; in 2D half of the length, where it is one. Where too few nodes are inside the
 contact to find pressures, `resolved` is false and a warning says so: pressure and area may be off by a third or more.
 
 **Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before it

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
                "scene.toml:36: obstacle.0.point: missing key 'shape': 'point' is a key of shape 'plane'"},
         Broken{"UnknownOption", membrane, "lower =", "lowr =", 2, "lower"},
         Broken{"FrictionOfAnotherType", punch, "shape = \"plane\"", "shape = \"plane\"\nfriction = 0.3", 2,
-               "scene.toml:36: obstacle.0.friction: obstacle 'contact' has no option 'friction', which is one of type "
+               "scene.toml:37: obstacle.0.friction: obstacle 'contact' has no option 'friction', which is one of type "
                "'coulomb'"},
         Broken{"FrictionOfAnotherTypeBySymbol", punch, "shape = \"plane\"", "shape = \"plane\"\nmu = 0.3", 2,
                "obstacle 'contact' has no option 'mu', 'friction' is one of type 'coulomb'"},
