@@ -1,0 +1,81 @@
+"""Runs the commands that wrote the tables of docs/measured again, and puts what they print in place of what is there.
+
+    measured.py [PAGE [TEXT]]   (a page without .md; of its commands those with this text in them)
+
+    <!-- written by: signorini_bench --again # A second solve -->
+    ...
+    <!-- end -->
+
+A command is followed by # and the beginning of a heading where only that section of its output belongs there. Where the old
+text is a code block, so is the new one. Programs are those of build/release and build/peers; what is not built is left out.
+"""
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+source = pathlib.Path(__file__).resolve().parents[2]
+folders = [source / "build/release/bin", source / "build/peers/bin"]
+marked = re.compile(r"(<!-- written by: (?P<command>[^#\n]*?)(?: # (?P<section>[^\n]*?))? -->\n)(?P<old>.*?)(<!-- end -->)", re.S)
+printed, left_out = {}, []
+
+
+def output_of(command):
+    """What the command prints, None where its program is not built. A command that several tables need runs once."""
+    if command not in printed:
+        name, *arguments = shlex.split(command)
+        program = next((folder / name for folder in folders if (folder / name).exists()), None)
+        if not program:
+            left_out.append(command)
+            return None
+        print(f"{command} ...", file=sys.stderr, flush=True)
+        one_thread = os.environ | {"OMP_NUM_THREADS": "1"}  # else threads of OpenBLAS count as time of the program
+        ended = subprocess.run([program, *arguments], cwd=source, env=one_thread, stdout=subprocess.PIPE, text=True)
+        if ended.returncode:
+            sys.exit(f"measured: {command} ended with exit status {ended.returncode}; pages before this one are renewed")
+        printed[command] = ended.stdout
+    return printed[command]
+
+
+def section_of(text, title):
+    """What stands below the heading that begins with the title, up to the next heading of its level or above."""
+    found = re.search(rf"^(#+) {re.escape(title)}.*\n", text, re.M)
+    if not found:
+        sys.exit(f"measured: no heading of the output begins with '{title}'")
+    rest = text[found.end():]
+    end = re.search(rf"^#{{1,{len(found[1])}}} ", rest, re.M)
+    return rest[:end.start()] if end else rest
+
+
+def renewed(match, wanted):
+    command, section = match["command"], match["section"]
+    if wanted not in f"{command} # {section}":
+        return match[0]
+    text = output_of(command)
+    if text is None:
+        return match[0]
+    text = (section_of(text, section) if section else text).strip("\n")
+    if match["old"].lstrip("\n").startswith("```"):
+        text = f"```\n{text}\n```"
+    return f"{match[1]}\n{text}\n\n{match[5]}"
+
+
+def main(page="", wanted=""):
+    pages = sorted((source / "docs/measured").glob(f"{page or '*'}.md"))
+    if not pages:
+        sys.exit(f"measured: there is no docs/measured/{page}.md")
+    for file in pages:
+        if file.name == "README.md":
+            continue
+        old = file.read_text()
+        new = marked.sub(lambda match: renewed(match, wanted), old)
+        if new != old:
+            file.write_text(new)
+            print(f"docs/measured/{file.name} is renewed")
+    for command in dict.fromkeys(left_out):
+        print(f"left out, since the program is not built: {command}", file=sys.stderr)
+
+
+main(*sys.argv[1:])
