@@ -68,7 +68,7 @@ typedef struct {
  */
 typedef struct {
   size_t size;                 /* sizeof(signorini_setup) */
-  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver] in docs/solver.md but those
+  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver], docs/solver_options.md, but those
                                   of scenes: `start`, `algebraic`, `hierarchy` and `bodies`; ended by a null;
                                   signorini_solve() gives the tolerance */
   const double* coordinates;   /* of elastic vectors, `block` for each: their rigid motions have little energy */

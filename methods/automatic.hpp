@@ -8,7 +8,7 @@
 namespace signorini {
 
 /// The rules of method "auto" within its stages (stages.hpp): when cycles go without bounds, and what `check` says.
-/// On which problems each constant was chosen: docs/variants.md, "Constants".
+/// On which problems each constant was chosen: docs/measured/variants.md, "Constants".
 namespace automatic {
 
 /// Cycles after which corrections without bounds take turns while phases change: more than it needs where multigrid

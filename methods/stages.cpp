@@ -6,7 +6,7 @@ namespace signorini::automatic {
 
 namespace {
 
-// On which problems each constant was chosen: docs/variants.md, "Constants".
+// On which problems each constant was chosen: docs/measured/variants.md, "Constants".
 
 // Vectors on a single level, and where so many are coupled to each on the coarsest one, above which a cycle's Newton
 // steps, up to a dozen, are too dear to be tried first.

@@ -5,7 +5,8 @@
 
 #include "core/base/types.hpp"
 
-/// The policy of method "auto": which stages a solve goes through. The list is in stages.cpp; docs/solver.md shows it.
+/// The policy of method "auto": which stages a solve goes through. The list is in stages.cpp; docs/theory/auto.md shows
+/// it.
 namespace signorini::automatic {
 
 /// When cycles are given up: after `first` of them, and later after every `every`, where their rate leads to more than

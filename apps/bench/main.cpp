@@ -1,4 +1,4 @@
-// The figures of docs/performance.md, as ratios within one run; see --help.
+// The figures of docs/measured/performance.md, as ratios within one run; see --help.
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -186,12 +186,13 @@ const Table tables[] = {
     {"--warm", "only the cycles from a solution before, for matrices without meshes", sized<print_warm>},
     {"--again", "only the cost of a second solve with other bounds", sized<print_again>},
     {"--steps", "only the cost of steps beside their cycles", sized<print_steps>},
-    {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/friction.md",
+    {"--partial-slip", "only friction against Cattaneo and Mindlin, the tables of docs/measured/friction.md",
      sized<print_partial_slip>},
-    {of_accuracy, "only errors beside seconds, the tables of docs/accuracy.md",
+    {of_accuracy, "only errors beside seconds, the tables of docs/measured/accuracy.md",
      [](const Arguments& a) { print_accuracy(a.quick, a.only, a.pictures); }},
-    {"--pressures", "only contact pressures against Hertz, the tables of docs/pressures.md", sized<print_pressures>},
-    {"--incompressible", "only elements for nearly incompressible material, the tables of docs/rubber.md",
+    {"--pressures", "only contact pressures against Hertz, the tables of docs/measured/pressures.md",
+     sized<print_pressures>},
+    {"--incompressible", "only elements for nearly incompressible material, the tables of docs/measured/rubber.md",
      sized<print_incompressible>},
     {"--friction-coefficients", "only what becomes of coefficients of friction from 0 to 5",
      sized<print_friction_coefficients>},
@@ -201,12 +202,13 @@ const Table tables[] = {
     {"--friction-renewal", "only when the bounds of friction are best renewed", sized<print_friction_renewal>},
     {"--friction-direct", "only friction by cycles beside Newton's method with a direct solver",
      sized<print_friction_direct>},
-    {"--bodies", "only bodies that touch each other, as one problem and in turns, the tables of docs/bodies.md",
+    {"--bodies",
+     "only bodies that touch each other, as one problem and in turns, the tables of docs/measured/bodies.md",
      sized<print_bodies>},
     {"--memory", "only the peak memory of a solve", sized<print_memory>},
-    {"--touching", "only the costs of bodies in contact with each other, a table of docs/bodies.md",
+    {"--touching", "only the costs of bodies in contact with each other, a table of docs/measured/bodies.md",
      sized<print_touching>},
-    {"--variants", "only the tables of docs/variants.md",
+    {"--variants", "only the tables of docs/measured/variants.md",
      [](const Arguments&) { print_variants(), print_aggregates(); }},
     {"--aggregates", "of these, only the table of aggregates", [](const Arguments&) { print_aggregates(); }},
     {of_chosen, "only the default settings over the best picked by hand",
@@ -226,7 +228,8 @@ void print(const CLI::App& app, const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   namespace bench = signorini::bench;
-  CLI::App app("The figures of docs/performance.md as tables in Markdown: ratios of times within one run, one thread.");
+  CLI::App app(
+      "The figures of docs/measured/performance.md as tables in Markdown: ratios of times within one run, one thread.");
   bench::Arguments arguments;
   app.add_flag("--quick", arguments.quick, "leave out the largest sizes");
   for (const bench::Table& table : bench::tables) app.add_flag(table.flag, table.help);

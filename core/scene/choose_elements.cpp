@@ -33,7 +33,7 @@ void take_over_from_touching(Scene& scene) {
 }
 
 /// Linear elements bend too little. Nothing bends where the unknown is scalar, and there the values of linear ones stay
-/// on their side of an obstacle at all nodes (docs/accuracy.md).
+/// on their side of an obstacle at all nodes (docs/measured/accuracy.md).
 int best_order(const Scene::Body& body) { return body.equation == Scene::Equation::elasticity ? 2 : 1; }
 
 }  // namespace

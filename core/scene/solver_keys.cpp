@@ -17,15 +17,15 @@ using Solver = Scene::Solver;
 constexpr OptionRow<Solver> of_scenes[] = {
     {"algebraic", &Solver::algebraic, "",
      "below a coarsest mesh with more than 1000 vertices, levels chosen by the matrix", false,
-     "See \"Algebraic levels\"."},
+     "See docs/theory/amg.md."},
     {"hierarchy", &Solver::hierarchy, "auto | meshes | matrix",
      "what the levels below the finest mesh come from: the coarser meshes, or the matrix of the finest one alone; "
      "auto: the meshes, but the matrix where cells are stretched and algebraic levels are allowed",
-     false, "See \"Stretched cells\"."},
+     false, "See docs/theory/stretched_and_slender.md."},
     {"bodies", &Solver::bodies, "jumps | dirichlet-neumann",
      "how bodies that touch each other are solved: as one problem whose unknowns are jumps between them, or in turns, "
      "the slave on the surface of the master, which feels its forces",
-     false, "See \"The other way\" in [bodies.md](bodies.md)."},
+     false, "See docs/bodies.md."},
     {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh", false,
      "Below the coarsest mesh it comes from the next algebraic level. Coarser meshes that have a start themselves get "
      "one cycle for scalar problems, at most five for elastic bodies."},
@@ -37,6 +37,20 @@ std::string written(double value) {
   if (const std::size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
   return text;
 }
+// Pages of docs/ that a text names become links.
+std::string linked(std::string text) {
+  constexpr std::string_view folder = "docs/", ending = ".md";
+  for (std::size_t from = text.find(folder); from != std::string::npos; from = text.find(folder, from)) {
+    const std::size_t end = text.find(ending, from);
+    if (end == std::string::npos) break;
+    const std::size_t name = from + folder.size(), length = end + ending.size() - name;
+    const std::string link = fmt::format("[{0}]({0})", text.substr(name, length));
+    text.replace(from, folder.size() + length, link);
+    from += link.size();
+  }
+  return text;
+}
+
 std::string written(bool value) { return value ? "true" : "false"; }
 std::string written(int value) { return fmt::format("{}", value); }
 std::string written(const std::string& value) { return value; }
@@ -105,7 +119,7 @@ std::string solver_options_page() {
     std::string range = key.range;
     for (std::size_t at = 0; (at = range.find('|', at)) != std::string::npos; at += 2) range.insert(at, 1, '\\');
     text += fmt::format("| `{}` | {}{}{} | {} | {}.{}{} |\n", key.name, word ? "\"" : "", key.fallback,
-                        word ? "\"" : "", range, key.help, *more ? " " : "", more);
+                        word ? "\"" : "", range, key.help, *more ? " " : "", linked(more));
   };
   auto key = solver_keys().begin();
   for (const auto& row : option_table()) add(*key++, row.more);

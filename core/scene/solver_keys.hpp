@@ -14,7 +14,7 @@ std::span<const KeySpec> solver_keys();
 /// The names of the latter, which need meshes.
 std::span<const char* const> solver_keys_of_scenes();
 
-/// The same as the table of docs/solver.md, in Markdown.
+/// The same as the table of docs/solver_options.md, in Markdown.
 std::string solver_options_page();
 
 Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder);

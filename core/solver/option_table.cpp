@@ -14,7 +14,7 @@ namespace {
 using S = SolverOptions;
 
 constexpr bool of_levels = true, always = false;
-constexpr const char* see_levels = "See \"Options of algebraic levels\".";
+constexpr const char* see_levels = "See docs/theory/amg.md.";
 
 constexpr OptionRow<S> table[] = {
     {"tolerance", &S::tolerance, "(0, 1)", "for the relative algebraic error and for the natural residual"},
@@ -27,20 +27,19 @@ constexpr OptionRow<S> table[] = {
      "incompressible material, a semismooth Newton method; auto: monotone, tnnmg while phases rest, pdas where cycles "
      "are slow and unknowns no more than 150000 or scalar, newton where friction or such pressures are not found and "
      "they are no more than 100000, in space 20000",
-     always, "See \"Methods\"."},
+     always, "See docs/theory/auto.md."},
     {"cycle", &S::cycle, "V | W | F", "shape of the cycle", always,
      "With `start = \"nested\"`, the default, any of them is full multigrid."},
     {"pre", &S::pre, "[0, 100]", "smoothing steps before the coarse correction"},
     {"post", &S::post, "[0, 100]", "smoothing steps after the coarse correction"},
     {"smoother", &S::smoother, "", "a smoother of `signorini list smoothers`", always,
      "\"forward\", \"backward\", \"symmetric\", \"adjoint\" (forward down, backward up), \"surface_first\" or "
-     "\"patch\", "
-     "see \"Smoothers\"."},
+     "\"patch\". See docs/theory/smoothers.md."},
     {"relaxation", &S::relaxation, "(0, 2)",
      "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel", always,
      "Larger for badly shaped elements."},
     {"transfer", &S::transfer, "", "a monotone restriction of `signorini list transfers`", always,
-     "\"min_merge\", \"mandel\" or \"kornhuber\", see \"Monotone restrictions\"."},
+     "\"min_merge\", \"mandel\" or \"kornhuber\". See docs/theory/transfer.md."},
     {"coarse", &S::coarse, "", "a coarse solver of `signorini list coarse`", always,
      "\"newton\": sweeps, and Newton steps with a factorisation where these do not soon do; \"pgs\": projected "
      "Gauss–Seidel alone."},
@@ -50,7 +49,7 @@ constexpr OptionRow<S> table[] = {
     {"cut", &S::cut, "[0, 100]", "also truncate where less is left than this part of the last cycle's largest change"},
     {"rotate", &S::rotate, "all | not_coarsest | meshes | none",
      "levels on which contact vectors use their local basis; meshes: not the algebraic ones", of_levels,
-     "There coarse contact vectors take over the frame of their fine twin. See \"Options of algebraic levels\"."},
+     "There coarse contact vectors take over the frame of their fine twin. See docs/theory/amg.md."},
     {"reassemble", &S::reassemble, "",
      "renew the matrices of algebraic levels where phases have changed; false: search along their corrections",
      of_levels, see_levels},
@@ -64,17 +63,17 @@ constexpr OptionRow<S> table[] = {
     {"coarsening", &S::coarsening, "auto | classical | aggregation",
      "how these levels are chosen: interpolation from some of the vectors, or smoothed aggregation; auto: the latter "
      "for elastic bodies",
-     of_levels, "See \"Algebraic levels\"."},
+     of_levels, "See docs/theory/amg.md."},
     {"aggregates", &S::aggregates, "",
      "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels,
      "\"greedy\" or \"metis\". Refused where levels are asked for that have none."},
     {"renew", &S::renew, "cycle | sweep | outer",
      "when obstacles take anew what they keep frozen of the solution, as Coulomb friction does with the normal force: "
      "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle",
-     always, "See \"Friction by Coulomb's law\"."},
+     always, "See docs/theory/friction.md."},
     {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest", always,
      "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
-     "\"Acceleration\"."},
+     "docs/theory/monotone_multigrid.md."},
     {"threads", &S::threads, "[1, 4096]",
      "threads of the cycles, for large problems, and of packing files; all else uses one, and results do not depend on "
      "them",

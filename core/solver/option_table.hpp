@@ -15,7 +15,7 @@ struct OptionRow {
   const char* range;  ///< as OptionSpec::range
   const char* help;
   bool of_levels = false;  ///< concerns levels that are chosen by the matrix
-  const char* more = "";   ///< what docs/solver.md adds, in sentences
+  const char* more = "";   ///< what docs/solver_options.md adds, in sentences; it names pages from docs/ on
 };
 
 /// The options of the solver. This table is the only place that knows them: keys of `[solver]` and of --set, ranges,

@@ -90,7 +90,7 @@ TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAnElasticBody) {
   expect_few_cycles_after_changes(solver, {b, lower}, 0.05);
 }
 
-// The bounds leave the solution by and by, as in docs/black_box.md.
+// The bounds leave the solution by and by, as in docs/black_box_programs.md.
 TEST(WarmStart, FollowsASinkingFloorOnGivenLevels) {
   const auto interpolation = [](int n) {
     Matrix P(n, n / 2);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The installed libsignorini_c.so exports what c/signorini.h declares and nothing else, pkg-config finds it for a C
-# compiler, and the examples of docs/black_box.md in C and in Python, by ctypes, print the same.
+# compiler, and the examples of docs/black_box_programs.md in C and in Python, by ctypes, print the same.
 #   shared_library.sh CMAKE BUILD SOURCE SCRATCH
 set -eu
 cmake=$1 build=$2 source=$3 scratch=$4
@@ -39,7 +39,7 @@ printf '#include "amg/signorini.h"\n#include "c/signorini.h"\n' | cc -fsyntax-on
 PYTHONMALLOC=debug python3 "$here/membrane.py" "$library" >"$scratch/from_python"
 diff "$scratch/from_c" "$scratch/from_python"
 test "$(grep -c carries "$scratch/from_c")" = 3
-python3 - "$here/membrane.py" "$source/docs/black_box.md" "$source/c/signorini.h" <<'EOF'
+python3 - "$here/membrane.py" "$source/docs/black_box_programs.md" "$source/c/signorini.h" <<'EOF'
 import re
 import sys
 example, page, header = (open(name).read() for name in sys.argv[1:])
@@ -48,5 +48,5 @@ declared = re.findall(r"(\w+)\s*[,;]", struct)
 shown = re.findall(r'\("(\w+)", c_\w+\)', example)
 if declared != shown:
     sys.exit(f"Summary in membrane.py has {shown}, signorini_summary {declared}")
-sys.exit(0 if example in page else "docs/black_box.md does not show membrane.py as it is tested")
+sys.exit(0 if example in page else "docs/black_box_programs.md does not show membrane.py as it is tested")
 EOF

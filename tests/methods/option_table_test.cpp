@@ -108,10 +108,10 @@ TEST(OptionTable, EnumeratorsAreInTheOrderOfTheChoices) {
   EXPECT_TRUE(algebraic_settings(with("interpolate", "local")).local);
 }
 
-// To renew docs/solver.md after a change of the table, copy the file that this test names.
+// To renew docs/solver_options.md after a change of the table, copy the file that this test names.
 TEST(OptionTable, IsWrittenIntoTheDocumentation) {
   constexpr std::string_view begin = "up to the next mark. -->\n\n", end = "<!-- End of what is written. -->";
-  std::ifstream file(SIGNORINI_SOURCE_DIR "/docs/solver.md");
+  std::ifstream file(SIGNORINI_SOURCE_DIR "/docs/solver_options.md");
   std::ostringstream text;
   text << file.rdbuf();
   const std::string page = text.str();
@@ -121,9 +121,9 @@ TEST(OptionTable, IsWrittenIntoTheDocumentation) {
   const std::size_t table = first + begin.size();
   const std::string expected = page.substr(0, table) + solver_options_page() + "\n" + page.substr(last);
   if (page == expected) return;
-  const std::string renewed = testing::TempDir() + "solver.md";
+  const std::string renewed = testing::TempDir() + "solver_options.md";
   std::ofstream(renewed) << expected;
-  ADD_FAILURE() << "docs/solver.md is not what the table of options says; the right text is in " << renewed;
+  ADD_FAILURE() << "docs/solver_options.md is not what the table of options says; the right text is in " << renewed;
 }
 
 }  // namespace

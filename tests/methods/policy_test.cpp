@@ -20,9 +20,9 @@ namespace {
 using automatic::Situation;
 using automatic::StageRule;
 
-// To renew docs/solver.md after a change of methods/stages.cpp, copy the table that this test prints.
+// To renew docs/theory/auto.md after a change of methods/stages.cpp, copy the table that this test prints.
 TEST(Policy, IsTheTableOfTheDocumentation) {
-  std::ifstream file(SIGNORINI_SOURCE_DIR "/docs/solver.md");
+  std::ifstream file(SIGNORINI_SOURCE_DIR "/docs/theory/auto.md");
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_THAT(text.str(), testing::HasSubstr("\n\n" + automatic::table_of_stages() + "\n"));

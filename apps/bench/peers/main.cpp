@@ -121,7 +121,7 @@ int run_program(int argc, char** argv) {
   app.add_flag("--setup", arguments.setup, "only the set-up of algebraic hierarchies, without bounds");
   app.add_option("--matrix", arguments.matrix, "only matrices of that with this text in their names");
   app.add_flag("--ball", arguments.ball,
-               "only the ball of quadratic elements beside CalculiX and GetFEM, a table of docs/accuracy.md");
+               "only the ball of quadratic elements beside CalculiX and GetFEM, a table of docs/measured/accuracy.md");
   app.add_flag("--calculix", arguments.calculix, "only friction beside CalculiX");
   app.add_flag("--calculix-bodies", arguments.calculix_bodies, "only two bodies beside CalculiX");
   app.add_flag("--quick", arguments.quick, "small sizes of --setup, --ball, --calculix and --calculix-bodies");

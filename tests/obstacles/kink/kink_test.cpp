@@ -46,7 +46,7 @@ TEST(Kink, ScenesAreSolvedLikeByAConvexSolver) {
   }
 }
 
-// Where asked to SHOW, on larger meshes as well: docs/performance.md.
+// Where asked to SHOW, on larger meshes as well: docs/measured/performance.md.
 TEST(Kink, CostsFewIterationsOnAllMeshes) {
   const std::vector<int> tested{4, 6}, shown{4, 6, 7, 8, 9};
   for (const int refinements : std::getenv("SHOW") ? shown : tested) {
