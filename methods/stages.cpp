@@ -37,8 +37,8 @@ bool dear_below(const Situation& s) {
 
 std::string patience(const Patience& p) {
   return fmt::format(
-      "after {} cycles{}, or any {}later one, where the rate of the last ones leads to more than {} (or "
-      "`max_iterations`), and something else suits",
+      "after {} cycles{}, or any {}later one, if the rate of the last ones predicts more than {} (or `max_iterations`) "
+      "and another stage suits",
       p.first,
       p.first == patience_with_cycles.first
           ? fmt::format(" ({} of nearly incompressible material)", patience_with_loads.first)
@@ -60,20 +60,20 @@ const std::vector<StageRule>& stages() {
        .suits =
            [](const Situation& s) { return !s.begun && s.newton && dear_below(s) && (coarsens(s) || factorisable(s)); },
        .begins =
-           fmt::format("at once, where the coarsest level has more than {} vectors and each of the finest one more "
-                       "than {} couplings, or a single level more than {} vectors",
+           fmt::format("at once, if the coarsest level has more than {} vectors and each vector of the finest one more "
+                       "than {} couplings, or if a single level has more than {} vectors",
                        fewer_vectors, many_couplings, many_vectors),
        .ends = patience(patience_with_sweeps),
-       .purpose =
-           "matrices that could hardly be coarsened. The coarsest level is left to sweeps, for a Newton step there "
-           "is no small part of the whole solve, and a cycle may take a dozen",
+       .purpose = "matrices that hardly coarsen. The coarsest level is left to sweeps: a Newton step there is a large "
+                  "part of the "
+                  "whole solve, and a cycle may take a dozen",
        .patience = patience_with_sweeps},
       {.name = "cycles",
        .kind = Kind::cycles,
        .method = "auto",
        .solver = "",
        .suits = [](const Situation& s) { return !s.begun; },
-       .begins = "at once, elsewhere",
+       .begins = "at once, otherwise",
        .ends = patience(patience_with_cycles),
        .purpose = "most problems are solved here"},
       {.name = "cycles with bounds",
@@ -82,10 +82,10 @@ const std::vector<StageRule>& stages() {
        .solver = "",
        .suits = [](const Situation& s) { return s.functional && s.begun && (s.slow || s.following); },
        .begins =
-           "with friction where those before were slow, and of nearly incompressible material, from where these began",
-       .ends = fmt::format("where friction does not come to rest, or after {} cycles", bounded_cycles),
-       .purpose = "stacks that friction alone holds, and that corrections without bounds throw down; rubber, "
-                  "without acceleration (and with corrections without bounds)",
+           "with friction, if the cycles before were slow; with nearly incompressible material. From where those began",
+       .ends = fmt::format("if friction does not come to rest, or after {} cycles", bounded_cycles),
+       .purpose = "stacks that only friction holds: corrections without bounds throw them down. Rubber: without "
+                  "acceleration, and also with corrections without bounds",
        .most_steps = bounded_cycles,
        .patience = endless},
       {.name = "cycles from zero",
@@ -93,49 +93,49 @@ const std::vector<StageRule>& stages() {
        .method = "auto",
        .solver = "",
        .suits = [](const Situation& s) { return s.functional && s.begun; },
-       .begins = "with friction, where the start was another one",
-       .ends = "where friction does not come to rest, or at `max_iterations`",
-       .purpose = "a body that friction hardly holds, and that slid off on a coarse mesh"},
+       .begins = "with friction, if the start was another one",
+       .ends = "if friction does not come to rest, or at `max_iterations`",
+       .purpose = "a body that friction barely holds, and that slid off on a coarse mesh"},
       {.name = "Newton's method with friction and pressures",
        .kind = Kind::newton,
        .method = "newton",
        .solver = "umfpack",
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
-       .begins =
-           fmt::format("with friction, and of nearly incompressible material, for at most {} unknowns, in space {}",
-                       number(most_for_friction), number(most_for_friction_in_space)),
-       .ends = fmt::format("after {} steps from the first start, from zero, and from where cycles ended, or where its "
-                           "matrix is singular",
-                           friction_steps),
-       .purpose = "bodies that little but friction holds; rubber in narrow grooves, and under far stiffer bodies",
+       .begins = fmt::format("with friction or nearly incompressible material, for at most {} unknowns, in space {}",
+                             number(most_for_friction), number(most_for_friction_in_space)),
+       .ends =
+           fmt::format("after {} steps each from the first start, from zero, and from where cycles ended, or if its "
+                       "matrix is singular",
+                       friction_steps),
+       .purpose = "bodies that little but friction holds; rubber in narrow grooves or under far stiffer bodies",
        .most_steps = friction_steps},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,
        .method = "pdas",
        .solver = "amg_cg",
        .suits = coarsens,
-       .begins = "for scalars that could be coarsened to half of the unknowns or less, at any size",
-       .ends = "where sets cycle, or do not come to rest",
-       .purpose =
-           "graph Laplacians with weights over 8 decades. Conjugate gradients with an algebraic multigrid cycle"},
+       .begins = "for scalar problems that coarsen to half of the unknowns or less, at any size",
+       .ends = "if sets cycle, or do not come to rest",
+       .purpose = "graph Laplacians with weights over 8 decades. Solved by conjugate gradients with an algebraic "
+                  "multigrid cycle"},
       {.name = "active sets, direct",
        .kind = Kind::active_sets,
        .method = "pdas",
        .solver = "cholmod",
        .suits = factorisable,
        .begins = fmt::format("for at most {} unknowns", number(most_for_direct)),
-       .ends = "where sets cycle, or do not come to rest",
-       .purpose = "cells stretched 25 times that bend. CHOLMOD"},
+       .ends = "if sets cycle, or do not come to rest",
+       .purpose = "cells stretched 25 times that bend. Solved by CHOLMOD"},
       {.name = "interior points",
        .kind = Kind::interior_points,
        .method = "interior_point",
        .solver = "cholmod",
        .suits = [](const Situation& s) { return !s.functional && s.unknowns <= most_for_interior_points; },
        .begins = fmt::format("for at most {} unknowns", number(most_for_interior_points)),
-       .ends = fmt::format("after {} steps, or where they make no progress", interior_points),
+       .ends = fmt::format("after {} steps, or if they make no progress", interior_points),
        .purpose =
-           "sets that cycle, as they may where couplings have both signs. Mehrotra's predictor and corrector: a few "
-           "dozen linear systems, whatever the matrix",
+           "sets that cycle, as they may if couplings have both signs. Mehrotra's predictor and corrector: a few dozen "
+           "linear systems for any matrix",
        .most_steps = interior_points},
       {.name = "the coarse solver on the finest level",
        .kind = Kind::single_level,
@@ -145,16 +145,16 @@ const std::vector<StageRule>& stages() {
            [](const Situation& s) {
              return !s.functional && s.levels && Offset{s.vectors} * s.block <= most_for_newton;
            },
-       .begins = fmt::format("for at most {} unknowns, and coarser levels", number(most_for_newton)),
+       .begins = fmt::format("for at most {} unknowns, if there are coarser levels", number(most_for_newton)),
        .ends = fmt::format("after {} steps", newton_steps),
-       .purpose = "there may be no solution, which it finds out",
+       .purpose = "problems without a solution: it finds that out",
        .most_steps = newton_steps},
       {.name = "more cycles",
        .kind = Kind::cycles,
        .method = "monotone",
        .solver = "",
        .suits = [](const Situation& s) { return s.begun && (!s.functional || s.slow); },
-       .begins = "where nothing else has solved the problem, but for friction that did not come to rest",
+       .begins = "if no other stage has solved the problem, except if friction did not come to rest",
        .ends = "at `max_iterations`",
        .purpose = "slow cycles are better than none"}};
   return list;

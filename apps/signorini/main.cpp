@@ -165,7 +165,7 @@ CLI::App* add_qp(CLI::App& app, Arguments& arguments) {
   as_in_table(
       *command->add_option("--tol", qp.tolerance, "bound for the residual and the algebraic error, both relative"),
       "tolerance");
-  as_in_table(*command->add_option("--method", qp.method, "see docs/solver_options.md"), "method");
+  as_in_table(*command->add_option("--method", qp.method, "see docs/solver.md"), "method");
   command
       ->add_option("--set", qp.settings,
                    "further options of the solver, such as solver.reassemble=false; may be repeated; listed below")
