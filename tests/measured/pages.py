@@ -1,0 +1,90 @@
+"""Every table of docs/measured names a command that there is, and ./dev measured replaces what it printed and nothing else.
+
+    pages.py SOURCE   (the source tree)
+"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+source = pathlib.Path(sys.argv[1]).resolve()
+code = {"signorini_bench": "", "signorini_peers": ""}
+for file in sorted((source / "apps/bench").rglob("*.cpp")):
+    code["signorini_peers" if "peers" in file.parts else "signorini_bench"] += file.read_text()
+wrong = []
+
+
+def prints_heading(text, section):
+    """Whether a heading in the sources may begin so: as it stands, around what is filled in, or as a text that is."""
+    headings = [re.split(r"\{[^}]*\}", heading) for heading in re.findall(r"##+ (.*?)(?:\\n|\")", text)]
+    pieces = [piece.strip(" ,") for heading in headings for piece in heading]
+    return f'"{section}' in text or any(section in p or (len(p) > 3 and p in section) for p in pieces)
+
+
+def check(place, command, section):
+    """The program, its flags and the heading stand in the sources."""
+    name, *arguments = command.split()
+    if name not in code:
+        wrong.append(f"{place}: {name} is none of the benchmarks")
+        return
+    for flag in arguments:
+        if flag.startswith("--") and f'"{flag}"' not in code[name]:
+            wrong.append(f"{place}: {name} has no {flag}")
+    if section and section not in arguments and not prints_heading(code[name], section):
+        wrong.append(f"{place}: {name} prints no heading that begins with '{section}'")
+
+
+for page in sorted((source / "docs/measured").glob("*.md")):
+    text = re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.M | re.S)
+    marks = re.findall(r"<!-- (written by: (.*?)(?: # (.*?))?|end) -->", text)
+    for k, (mark, command, section) in enumerate(marks):
+        if (mark == "end") != (k % 2 == 1):
+            wrong.append(f"{page.name}: '{mark}' is where the other mark belongs")
+        elif mark != "end":
+            check(page.name, command, section)
+    if len(marks) % 2:
+        wrong.append(f"{page.name}: the last table has no end")
+if wrong:
+    sys.exit("\n".join(wrong))
+
+before = """Prose, with 3 figures.
+
+<!-- written by: signorini_bench --again # Second -->
+
+| old |
+
+<!-- end -->
+
+<!-- written by: signorini_bench --again -->
+
+```
+old
+```
+
+<!-- end -->
+
+<!-- written by: signorini_peers --ball -->
+
+| kept, since the program is not there |
+
+<!-- end -->
+"""
+after = before.replace("| old |", "| 2 |\n\n### Below\n\n| 3 |").replace(
+    "```\nold\n```", "```\n## First\n\n| 1 |\n\n## Second solve\n\n| 2 |\n\n### Below\n\n| 3 |\n\n## Third\n```")
+with tempfile.TemporaryDirectory() as made:
+    tree = pathlib.Path(made)
+    for folder in ("apps/bench", "docs/measured", "build/release/bin"):
+        (tree / folder).mkdir(parents=True)
+    shutil.copy(source / "apps/bench/measured.py", tree / "apps/bench")
+    (tree / "docs/measured/page.md").write_text(before)
+    program = tree / "build/release/bin/signorini_bench"
+    program.write_text("#!/bin/sh\ntest \"$1\" = --again || exit 1\n"
+                       "printf '## First\\n\\n| 1 |\\n\\n## Second solve\\n\\n| 2 |\\n\\n### Below\\n\\n| 3 |\\n\\n## Third\\n'\n")
+    program.chmod(0o755)
+    subprocess.run(["/usr/bin/python3", tree / "apps/bench/measured.py", "page"], check=True, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    found = (tree / "docs/measured/page.md").read_text()
+    if found != after:
+        sys.exit(f"the page has become\n{found}")
