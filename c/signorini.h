@@ -68,8 +68,8 @@ typedef struct {
  */
 typedef struct {
   size_t size;                 /* sizeof(signorini_setup) */
-  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of [solver], docs/solver_options.md, but those
-                                  of scenes: `start`, `algebraic`, `hierarchy` and `bodies`; ended by a null;
+  const char* const* settings; /* "method=tnnmg", "max_iterations=50"...: keys of docs/solver_options.md but those of
+                                  scenes: `start`, `algebraic`, `hierarchy` and `bodies`; ended by a null;
                                   signorini_solve() gives the tolerance */
   const double* coordinates;   /* of elastic vectors, `block` for each: their rigid motions have little energy */
   int32_t modes;               /* in place of `coordinates`: how many directions of little energy, */

@@ -6,8 +6,9 @@
     ...
     <!-- end -->
 
-A command is followed by # and the beginning of a heading where only that section of its output belongs there. Where the old
-text is a code block, so is the new one. Programs are those of build/release and build/peers; what is not built is left out.
+A command is followed by # and the beginning of a heading where only that section of its output belongs there. Where
+the old text is a code block, so is the new one. Programs are those of build/release and build/peers; what is not built
+is left out.
 """
 import os
 import pathlib
@@ -18,7 +19,8 @@ import sys
 
 source = pathlib.Path(__file__).resolve().parents[2]
 folders = [source / "build/release/bin", source / "build/peers/bin"]
-marked = re.compile(r"(<!-- written by: (?P<command>[^#\n]*?)(?: # (?P<section>[^\n]*?))? -->\n)(?P<old>.*?)(<!-- end -->)", re.S)
+begin, end = r"<!-- written by: (?P<command>[^#\n]*?)(?: # (?P<section>[^\n]*?))? -->\n", "<!-- end -->"
+marked = re.compile(f"({begin})(?P<old>.*?)({end})", re.S)
 printed, left_out = {}, []
 
 
@@ -34,7 +36,7 @@ def output_of(command):
         one_thread = os.environ | {"OMP_NUM_THREADS": "1"}  # else threads of OpenBLAS count as time of the program
         ended = subprocess.run([program, *arguments], cwd=source, env=one_thread, stdout=subprocess.PIPE, text=True)
         if ended.returncode:
-            sys.exit(f"measured: {command} ended with exit status {ended.returncode}; pages before this one are renewed")
+            sys.exit(f"measured: {command} ended with {ended.returncode}; pages before this one are renewed")
         printed[command] = ended.stdout
     return printed[command]
 

@@ -1,4 +1,4 @@
-"""Every table of docs/measured names a command that there is, and ./dev measured replaces what it printed and nothing else.
+"""Tables of docs/measured name commands that there are, and ./dev measured replaces what these printed, nothing else.
 
     pages.py SOURCE   (the source tree)
 """
@@ -71,8 +71,9 @@ old
 
 <!-- end -->
 """
+printed = "## First\n\n| 1 |\n\n## Second solve\n\n| 2 |\n\n### Below\n\n| 3 |\n\n## Third\n"
 after = before.replace("| old |", "| 2 |\n\n### Below\n\n| 3 |").replace(
-    "```\nold\n```", "```\n## First\n\n| 1 |\n\n## Second solve\n\n| 2 |\n\n### Below\n\n| 3 |\n\n## Third\n```")
+    "```\nold\n```", f"```\n{printed}```")
 with tempfile.TemporaryDirectory() as made:
     tree = pathlib.Path(made)
     for folder in ("apps/bench", "docs/measured", "build/release/bin"):
@@ -80,8 +81,7 @@ with tempfile.TemporaryDirectory() as made:
     shutil.copy(source / "apps/bench/measured.py", tree / "apps/bench")
     (tree / "docs/measured/page.md").write_text(before)
     program = tree / "build/release/bin/signorini_bench"
-    program.write_text("#!/bin/sh\ntest \"$1\" = --again || exit 1\n"
-                       "printf '## First\\n\\n| 1 |\\n\\n## Second solve\\n\\n| 2 |\\n\\n### Below\\n\\n| 3 |\\n\\n## Third\\n'\n")
+    program.write_text(f"#!/bin/sh\ntest \"$1\" = --again || exit 1\ncat <<'END'\n{printed}END\n")
     program.chmod(0o755)
     subprocess.run(["/usr/bin/python3", tree / "apps/bench/measured.py", "page"], check=True, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL)
