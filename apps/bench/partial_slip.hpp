@@ -41,7 +41,7 @@ struct PartialSlipScene {
 /// Error(Exit::not_converged) where a step fails.
 PartialSlip solve_partial_slip(const PartialSlipScene& scene);
 
-/// The tables of docs/friction.md.
+/// The tables of docs/measured/friction.md.
 void print_partial_slip(bool quick);
 
 }  // namespace signorini::bench

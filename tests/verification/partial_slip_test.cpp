@@ -1,5 +1,5 @@
 // Partial slip of a line contact and of a point contact, loaded, unloaded and loaded the other way, against Cattaneo
-// and Mindlin. docs/friction.md has finer meshes.
+// and Mindlin. docs/measured/friction.md has finer meshes.
 #include "apps/bench/partial_slip.hpp"
 #include "run.hpp"
 

@@ -1,0 +1,52 @@
+"""Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #.
+
+    links.py SOURCE   (the source tree)
+"""
+import pathlib
+import re
+import sys
+
+source = pathlib.Path(sys.argv[1]).resolve()
+wrong = []
+
+
+def files(*patterns):
+    """Of the source tree, without what is built or written."""
+    for pattern in patterns:
+        for file in sorted(source.rglob(pattern)):
+            if file.is_file() and not re.match(r"build|out$|\.", file.relative_to(source).parts[0]):
+                yield file
+
+
+def without_code(text):
+    return re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+
+
+def anchors(page):
+    """As GitHub makes them of headings."""
+    found = []
+    for heading in re.findall(r"^#+ +(.*)$", without_code(page.read_text()), re.M):
+        plain = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).lower()
+        name = re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+        found.append(name if name not in found else f"{name}-{sum(other.startswith(name) for other in found)}")
+    return found
+
+
+for page in files("*.md"):
+    text = re.sub(r"`[^`\n]*`", "", without_code(page.read_text()))
+    for link in re.findall(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"", text):
+        target, _, anchor = (link[0] or link[1]).partition("#")
+        if re.match(r"\w+:", target):
+            continue
+        file = (page.parent / target).resolve() if target else page
+        if not file.exists():
+            wrong.append(f"{page.relative_to(source)}: there is no {target}")
+        elif anchor and file.suffix == ".md" and anchor not in anchors(file):
+            wrong.append(f"{page.relative_to(source)}: {target} has no heading #{anchor}")
+
+for file in files("*.cpp", "*.hpp", "*.h", "*.py", "*.sh", "*.cmake", "*CMakeLists.txt", "*.toml", "dev"):
+    for name in re.findall(r"\bdocs/(?:\w+/)*\w+\.\w+\b", file.read_text(errors="replace")):
+        if file.name != "arrows.sh" and not (source / name).exists():
+            wrong.append(f"{file.relative_to(source)}: there is no {name}")
+
+sys.exit("\n".join(wrong))
