@@ -1,5 +1,5 @@
 """Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #. The program gives
-every warning of docs/warnings.md in these words.
+every warning of docs/warnings.md in these words. Every scene has a row in apps/scenes/README.md.
 
     links.py SOURCE   (the source tree)
 """
@@ -55,5 +55,9 @@ for row in re.findall(r"^\| (?!warning|---)([^|]*?) \|", (source / "docs/warning
     for words in row.split("…"):
         if words.strip() not in texts:
             wrong.append(f"docs/warnings.md: no message has '{words.strip()}'")
+
+scenes = (source / "apps/scenes/README.md").read_text()
+wrong += [f"apps/scenes/README.md: no row for {file.name}" for file in files("*.toml")
+          if file.parent == source / "apps/scenes" and f"({file.name}): " not in scenes]
 
 sys.exit("\n".join(wrong))
