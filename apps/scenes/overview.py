@@ -2,7 +2,8 @@
 
     python3 apps/scenes/overview.py PROGRAM [SCENE...]   (the built signorini; by default all scenes)
 
-Pictures are result.png of the program, at half the size. Seconds are processor time of `signorini solve`, files included.
+Pictures are result.png of the program, at half the size. Seconds are processor time of `signorini solve`, files
+included.
 """
 import json
 import pathlib

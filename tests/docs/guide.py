@@ -1,11 +1,12 @@
 """Runs the commands of a page of docs/ and compares what they print with what the page shows.
 
-    guide.py SOURCE PROGRAMS PAGE [KIND...]   (the source tree, the folder of the built programs, such as tutorial.md)
+    guide.py SOURCE PROGRAMS PAGE [KIND...]   (the source tree, the folder of the programs, such as tutorial.md)
 
-Blocks of the page: `sh` is run, `text` must be printed by the block before it, `toml` and `gmsh` stand in a file of apps/scenes
-or in one that the page has written; comments do not count. Numbers agree to the digits shown. Decimal numbers between the blocks
-are in a block, perhaps rounded, or in a page of docs/measured or docs/theory that the page links to. With KIND only blocks of that
-kind count, and no figures. Not run: ./dev, and gmsh and VTK's Python where these are not installed.
+Blocks of the page: `sh` is run, `text` must be printed by the block before it, `toml` and `gmsh` stand in a file of
+apps/scenes or in one that the page has written; comments do not count. Numbers agree to the digits shown. Decimal
+numbers between the blocks are in a block, perhaps rounded, or in a page of docs/measured or docs/theory that the page
+links to. With KIND only blocks of that kind count, and no figures. Not run: ./dev, and gmsh and VTK's Python where
+these are not installed.
 """
 import os
 import pathlib

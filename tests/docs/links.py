@@ -1,5 +1,5 @@
-"""Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #. The program gives
-every warning of docs/warnings.md in these words. Every scene has a row in apps/scenes/README.md.
+"""Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #. The
+program gives every warning of docs/warnings.md in these words. Every scene has a row in apps/scenes/README.md.
 
     links.py SOURCE   (the source tree)
 """
