@@ -17,10 +17,10 @@ struct Material<1> {
 };
 
 /// lambda over mu above which material is nearly incompressible: that of Poisson's ratio 0.4, where a pressure with
-/// unknowns of its own begins to save cycles (docs/rubber.md).
+/// unknowns of its own begins to save cycles (docs/measured/rubber.md).
 inline constexpr double nearly_incompressible = 4;
 /// The part of lambda, over mu, that stays with the displacements where the pressure has unknowns of its own: those
-/// carry the rest. More of it is worse for smoothers, less of it for the iteration of the pressures (docs/rubber.md).
+/// carry the rest. More of it is worse for smoothers, less of it for the pressures' iteration (docs/theory/rubber.md).
 inline constexpr double lambda_of_displacements = 3;
 
 /// Whether the pressure of an element has unknowns of its own.

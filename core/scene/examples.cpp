@@ -50,14 +50,12 @@ constexpr const char* obstacle_details = R"(
 Every key not listed here belongs to the plugin; `signorini list obstacles` shows it. `scalar`, for instance, has `lower`
 and `upper`.
 
-**Which faces count.** `on` and `where` may pick more faces than come into contact. The contact area of a node, and its
-pressure, count only those of the picked faces whose outer normal is within 60 degrees of the direction to the obstacle. (At
-a tip that is sharper than that, all count.)
+**Which faces count.** `on` and `where` may pick more faces than come into contact. Contact areas and pressures count only those
+whose outer normal is within 60 degrees of the direction to the obstacle. (At a tip that is sharper than that, all count.)
 
-**Pressure.** `max_pressure` and `contact_pressure` of the VTU are recovered from the forces at the nodes
-([pressures.md](pressures.md)). `nodal_pressure` of the VTU is a node's force over its area. `area` ends within faces, where
-the recovered pressure does; `radius` is that of a disk with this area; in 2D half of the length, where it is one. Where too few nodes are inside the
-contact to find pressures, `resolved` is false and a warning says so: pressure and area may be off by a third or more.
+**Results.** Pressures are recovered from the forces at the nodes: [pressures.md](pressures.md). `force` of the report is the whole
+force of the obstacle. Where a fix holds a node along the obstacle's normal, how the force divides between the two is not determined:
+what presses is counted as the obstacle's, and `undetermined_nodes` counts such nodes. All keys are in [results.md](results.md).
 
 **Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before it
 moves. After the solve the nodes of the deformed boundary are compared with the true obstacle:
@@ -66,55 +64,44 @@ moves. After the solve the nodes of the deformed boundary are compared with the 
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
 | `largest_penetration_between_nodes` | the same of points between nodes: conditions hold at nodes alone |
-| `largest_opening` | how far one is off it though contact is claimed |
+| `largest_opening` | how far a node is off it though contact is claimed |
 | `beyond_nodes` | of two bodies: nodes in contact that have come to where the other one is no longer in front of them |
 
-A warning is given where a length is over 1 % of the displacements there, or of what displacements differ by in the body where
-that is more (between nodes over 10 %: that is what elements leave), where over a tenth of the nodes in contact are beyond, where
-a body turns by more than 0.1 as a whole, and where
-strains are over 0.2 in a twentieth of a body: linear elasticity takes both for small ones. Where a twentieth of a body is
-pressed through itself, as by displacements in other units than the body, or an obstacle on the wrong side would pull at
-it, the scene is refused. An obstacle that is never touched is named, with the smallest distance that is left.
+The program warns ([warnings.md](warnings.md#about-the-result))
+
+- where one of these lengths is over 1 % of the displacements there, or of what displacements differ by in the body where that is
+  more; between nodes over 10 %, which is what elements leave;
+- where over a tenth of the nodes in contact are beyond;
+- where a body turns by more than 0.1 as a whole, or strains are over 0.2 in a twentieth of it: linear elasticity takes both for
+  small ones;
+- where an obstacle is never touched, with the smallest distance that is left.
+
+The scene is refused where a twentieth of a body is pressed through itself, as by displacements in other units than the body, and
+where an obstacle on the wrong side would pull at the body.
 
 **Two bodies.** `elastic` and `elastic_coulomb` let two elastic bodies touch each other: `body` with `on` or `where`, and
-`other` with `other_on` or `other_where`. Both may be parts of one body. What they do, and which of them is the slave, is in [bodies.md](bodies.md). Other
-types take no `other`.
+`other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples. Other types take no
+`other`.
 
 **Friction.** `coulomb` is contact with a rigid obstacle, and friction whose tangential force at a node is at most the
 coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential
-traction. Both are numbers or expressions. Where the traction is smaller the node sticks, else it slips against it. The bound of `tresca` holds on
-all nodes that the obstacle acts on, whether they press or not: pick them by `on` or `where`. With `[steps]` friction opposes
-the motion since the last step. An obstacle whose `point`, `center`,
-`normal` or `axis` depends on `t` drags the body with it: what counts is the motion along the obstacle relative to it. (From
-one step to the next it turns the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape
-`expression` and `surface` do not drag; where an `expression` moves a warning says so.) The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
-and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
-3 where it sticks. All keys of the report and the columns of `steps.csv` are in [solver.md](solver.md), "Steps". Some things
-to know:
+traction. Both are numbers or expressions. [friction.md](friction.md) has examples, and says what friction means in steps and
+where there is no solution. In detail:
 
-- The bound counts on all picked faces, the field `tangential_traction` goes by the area of those that face the obstacle. At the
-  edge of what is picked it may be larger than the bound.
-- What is negative by rounding alone counts as zero: `friction = "0.3 - 0.2 * x"` at x = 1.5.
-- With quadratic elements friction holds for the coefficients of nodes. A midpoint that sticks keeps its coefficient, and moves by a
-  tenth of what each end of its edge does ([solver.md](solver.md), "Quadratic elements").
+- The bound of `tresca` holds on all nodes that the obstacle acts on, whether they press or not. It counts on all picked faces,
+  the field `tangential_traction` goes by the area of those that face the obstacle: at the edge of what is picked it may be larger
+  than the bound.
+- A coefficient or bound that is negative by rounding alone counts as zero: `friction = "0.3 - 0.2 * x"` at x = 1.5.
+- An obstacle whose `point`, `center`, `normal` or `axis` depends on `t` drags the body with it. From one step to the next it turns
+  the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape `expression` and `surface` do not drag.
 - Nodes all of whose components are prescribed slip where they are led along the obstacle, with all of friction against
   that; others of them count in `nodes` alone.
-- With `coulomb` a fix must not prescribe the displacement along the obstacle's normal, and no other obstacle may hold the
-  body along another direction, where there is friction: the force that presses is not known there. Such scenes are refused.
-- For large coefficients Coulomb's law may have no solution, or several. Where the iteration finds none it ends with exit
-  status 3 and says so ([solver.md](solver.md), "Friction").
-- `friction = 0` is contact without friction, to the last bit.
-- At a vertex one obstacle has friction, and no other holds there along another direction. Two that meet at a vertex are
-  refused: take one with an expression as its bound. A fix is along the obstacle's normal or across it, else it is refused.
+- With `coulomb` a fix must not prescribe the displacement along the obstacle's normal where there is friction: the force that
+  presses is not known there. A fix that is oblique to the normal is refused, too.
+- At a vertex one obstacle has friction, and no other one holds there along another direction. Else the scene is refused: take
+  one obstacle with an expression as its bound.
 - A body that nothing but very little friction holds along the surface (bounds below a thousandth of the modulus times the
   strain) takes many cycles, up to the iteration limit.
-
-Where friction does not hold a body against the motion that the loads would take it without friction, there is no solution;
-where it gives way to another motion alone, the solve ends at the iteration limit.
-
-**Forces.** `force` of the report is the whole force of the obstacle. How it divides between the obstacle and a fix that
-holds a node along the obstacle's normal is not determined. What presses there is counted as the obstacle's, and
-`undetermined_nodes` counts such nodes.
 )";
 
 constexpr const char* material_details = R"(
@@ -134,8 +121,8 @@ young = 5
 poisson = 0.4
 ```
 
-A volume belongs to one material. Stresses in the VTU are recovered at the nodes ([how](pressures.md#stresses)), for each
-material by itself. Where materials meet the VTU has the mean of them. A body without a mesh file takes an expression:
+A volume belongs to one material. Stresses in the VTU are recovered at the nodes ([how](theory/pressures.md#stresses)), for
+each material by itself. Where materials meet the VTU has the mean of them. A body without a mesh file takes an expression:
 `young = "x < 1 ? 5 : 210000"`.
 )";
 
@@ -192,18 +179,18 @@ at = [0.1, 0.5, 1]
 
 At `t = 0` nothing has happened yet: friction in the first step counts from the undeformed body.
 
-**Steps that fail.** A step of a body with friction that ends without a solution (exit status 3) is cut in two at the
-middle of its `t`, and each part again where it fails, `halvings` times at most. What a failed attempt computed is
-forgotten: parts start from the last step that was solved. The report lists the parts among its `steps`, and what failed
-under `failed_steps`; a warning says it. Where the smallest part fails, too, the run ends there with exit status 3. The
-steps before it are kept.
+**Steps that fail.** A step with friction that ends without a solution (exit status 3) is cut in two at the middle of its `t`, and
+each part again where it fails, `halvings` times at most. What a failed attempt computed is forgotten: parts start from the last
+step that was solved. The report lists the parts among its `steps`, and what failed under `failed_steps`. A warning says it. Where
+the smallest part fails, too, the run ends with exit status 3, and the steps before it are kept.
 
-A step that is solved is cut, too, where friction of an obstacle acts against what it was in the last step, and most of it
-at nodes that have come into contact since: what these moved before they touched counts in a step, as where a blade rolls
-onto a drum. Where it may not be cut any more a warning says so.
+A step that is solved is cut, too, where friction acts against what it was in the last step, and most of it at nodes that have come
+into contact since. What these moved before they touched counts in a step, as where a blade rolls onto a drum. Where the step may
+not be cut any more a warning says so.
 
-Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction or another energy of its own. Such a body
-remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that failed.
+Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction or another energy of its own.
+Such a body remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that
+failed.
 )";
 
 constexpr TableText texts[] = {
@@ -238,7 +225,7 @@ radius = 3)",
      obstacle_details},
     {"solver", R"([solver]
 tolerance = 1e-10)",
-     "\nNone of these has to be given. They are explained in [solver.md](solver.md).\n"},
+     "\nNone of these has to be given. They are explained in [solver_options.md](solver_options.md).\n"},
     {"refine", R"([refine]
 uniform = 1                        # halves all edges once)",
      ""},

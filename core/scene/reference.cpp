@@ -93,9 +93,9 @@ constexpr const char* introduction = R"md(# Scenes
 
 <!-- Written by scene_reference(); a test compares. Do not edit. -->
 
-A scene is a TOML file that says what is solved: a body, what holds and loads it, and what it may not penetrate. The
-examples on this page, put together, are one. A shorter one stands in the [README](../README.md), a first walk through in
-the [tutorial](tutorial.md).
+A scene is a TOML file that says what is solved: a body, what holds and loads it, and what it may not penetrate. This page lists
+every table and key. [Solve a scene](solve_a_scene.md) is the guide, and [apps/scenes](../apps/scenes/README.md) has scenes to
+start from. The examples on this page, put together, are a scene.
 
 - All bodies of a scene have the same dimension: all are in the plane, or all are in space.
 - Lengths, moduli and forces are in any one consistent system of units.
