@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "amg/coarse/allowed_motions.hpp"
 #include "amg/coarse/cone_projection.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/dense.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/force_split.hpp"
@@ -388,15 +388,17 @@ Eigen::VectorXd LooseBody<D, B>::least_motion(const std::vector<double>& x, cons
       H += mass[p] * row.transpose() * row;
       h += mass[p] * u[Offset{p} * B + i] * row.transpose();
     }
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(basis.transpose() * H * basis);
-  const Eigen::VectorXd best = -cholesky.solve(basis.transpose() * h);
-  std::vector<Slab> slabs;  // on c in coordinates in which the norm is the Euclidean one
+  const Eigen::MatrixXd factor = cholesky(basis.transpose() * H * basis);
+  const auto L = factor.triangularView<Eigen::Lower>();
+  const Eigen::VectorXd best =
+      -L.solve(basis.transpose() * h);  // in coordinates in which the norm is the Euclidean one
+  std::vector<Slab> slabs;              // in the same coordinates
   for (const Room& room : rooms) {
     const Eigen::VectorXd row = along(room, costless).transpose();
-    if (row.norm() > 0) slabs.push_back({cholesky.matrixL().solve(row).transpose(), room.lower, room.upper});
+    if (row.norm() > 0) slabs.push_back({L.solve(row).transpose(), room.lower, room.upper});
   }
-  const Eigen::VectorXd moved = exactly_within(cholesky.matrixU() * best, slabs);
-  return cholesky.matrixU().solve(moved);
+  const Eigen::VectorXd moved = exactly_within(best, slabs);
+  return L.transpose().solve(moved);
 }
 
 // By least squares over the nodes.
@@ -413,7 +415,7 @@ Eigen::VectorXd LooseBody<D, B>::nearest_motion(const std::vector<double>& x) co
       normal += row.transpose() * row;
       right += row.transpose() * u[Offset{p} * B + k];
     }
-  return free_ * normal.ldlt().solve(right);
+  return free_ * SymmetricFactors(normal).solve(right);
 }
 
 template <int D, int B>

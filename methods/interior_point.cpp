@@ -1,10 +1,11 @@
 #include "methods/interior_point.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "core/algebra/products.hpp"
+#include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
 #include "core/solver/multigrid.hpp"
 
@@ -188,10 +189,10 @@ void InteriorPointIteration<B>::turn_into_springs(const VectorBlocks<B>& springs
     const int free = B - corner.held;
     if (!block || free == 0) continue;
     const Eigen::MatrixXd Z = T.rightCols(free);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(Z.transpose() * Eigen::Map<const Matrix>(block) * Z);
-    T.rightCols(free) = Z * own.eigenvectors();
-    for (int k = 0; k < free; ++k)
-      change.added[Offset{corner.p} * B + corner.held + k] += std::max(own.eigenvalues()[k], 0.0);
+    const Eigenpairs own = eigenpairs(Z.transpose() * Eigen::Map<const Matrix>(block) * Z);
+    if (own.values.size() == 0) continue;
+    T.rightCols(free) = Z * own.vectors;
+    for (int k = 0; k < free; ++k) change.added[Offset{corner.p} * B + corner.held + k] += std::max(own.values[k], 0.0);
   }
 }
 

@@ -1,6 +1,5 @@
 #include "amg/black_box/motions.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/unit_diagonal.hpp"
+#include "core/base/dense.hpp"
 
 namespace signorini {
 namespace {
@@ -270,10 +270,7 @@ class Motions<B>::Finder {
       if (!is_motion(S, d)) return false;
       value.col(k) = d;
     }
-    if (value.cols() > 1) {
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(value);
-      value = qr.householderQ() * Eigen::MatrixXd::Identity(n, value.cols());
-    }
+    if (value.cols() > 1) value = orthonormal_columns(value);
     std::vector<Offset> rows;
     for (Eigen::Index k = 0; k < n; ++k) rows.push_back(row(k));
     const double left = Eigen::MatrixXd(S.selfadjointView<Eigen::Lower>() * value).norm();

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
 #include "amg/coarse/allowed_motions.hpp"
 #include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
+#include "core/base/dense.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/rounding.hpp"
 
@@ -251,8 +250,7 @@ Eigen::MatrixXd CoarseNewton<B>::motions() const {
   const Eigen::Map<const Eigen::VectorXd> scale(scale_.data(), n);
   for (Eigen::Index k = 0; k < count; ++k)
     out.col(k) = scale.cwiseProduct(factor_.solve(Eigen::VectorXd::Unit(n, held[static_cast<std::size_t>(k)])));
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(out);
-  return qr.householderQ() * Eigen::MatrixXd::Identity(n, count);
+  return orthonormal_columns(out);
 }
 
 // Whether the residual does work along a motion without energy that no bound ends: along the motion next to it among

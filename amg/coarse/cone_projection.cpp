@@ -1,8 +1,9 @@
 #include "amg/coarse/cone_projection.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <vector>
+
+#include "core/base/dense.hpp"
 
 namespace signorini {
 
@@ -38,9 +39,9 @@ bool advance(std::vector<Eigen::Index>& active, std::vector<double>& multiplier,
   return all;
 }
 
-/// Takes off c what is along some columns, to rounding of what is left: twice is enough, however little that is.
-void orthogonalise(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& columns, Eigen::VectorXd& c) {
-  const Eigen::MatrixXd Q = columns.householderQ() * Eigen::MatrixXd::Identity(c.size(), columns.rank());
+/// Takes off c what is along some orthonormal columns, to rounding of what is left: twice is enough, however little
+/// that is.
+void orthogonalise(const Eigen::MatrixXd& Q, Eigen::VectorXd& c) {
   for (int pass = 0; pass < 2; ++pass) c -= Q * (Q.transpose() * c);
 }
 
@@ -56,15 +57,13 @@ Eigen::VectorXd project_onto_cone(const Eigen::MatrixXd& G, const Eigen::VectorX
     if (!missed || !(c.norm() > nothing * g.norm()) || std::ranges::count(active, worst)) break;
     active.push_back(worst);
     multiplier.push_back(0);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    Eigen::VectorXd best;
+    LeastSquares nearest;
     do {
       if (active.empty()) return g;
-      qr.compute(columns(G, active));
-      best = qr.solve(-g);
-    } while (!advance(active, multiplier, best));
+      nearest = least_squares(columns(G, active), -g);
+    } while (!advance(active, multiplier, nearest.x));
     c = g;
-    orthogonalise(qr, c);
+    orthogonalise(nearest.range, c);
   }
   return c;
 }

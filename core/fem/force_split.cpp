@@ -1,6 +1,8 @@
 #include "core/fem/force_split.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
+
+#include "core/base/dense.hpp"
 
 namespace signorini {
 namespace {
@@ -63,10 +65,8 @@ class Splitter {
     Eigen::Matrix<double, B, Eigen::Dynamic> N(B, std::ssize(chosen_));
     for (std::size_t k = 0; k < chosen_.size(); ++k)
       N.col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Vector>(directions_[chosen_[k]].data());
-    Eigen::ColPivHouseholderQR<decltype(N)> qr(N);
-    qr.setThreshold(dependent);
-    if (qr.rank() < N.cols()) return false;
-    const Eigen::VectorXd part = qr.solve(force_);
+    const auto [part, rank, range] = least_squares(N, force_, dependent);
+    if (rank < N.cols()) return false;
     if (!(part.minCoeff() > zero * force_.norm())) return true;
     ways_.push_back({chosen_, part, (force_ - N * part).norm()});
     best_ = std::min(best_, ways_.back().residual);

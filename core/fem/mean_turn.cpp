@@ -1,8 +1,10 @@
 #include "core/fem/mean_turn.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "core/base/dense.hpp"
 
 namespace signorini {
 namespace {
@@ -29,7 +31,7 @@ struct Sums {
   // Of the linear displacement next to u the part that is a rotation.
   double turn() const {
     const Square inertia = xx - x * x.transpose() / count, moment = ux - u * x.transpose() / count;
-    const Square gradient = inertia.ldlt().solve(moment.transpose()).transpose();
+    const Square gradient = SymmetricFactors(inertia).solve(moment.transpose()).transpose();
     return 0.5 * (gradient - gradient.transpose()).norm() / std::sqrt(2.0);
   }
 };

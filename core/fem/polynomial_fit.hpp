@@ -1,11 +1,13 @@
 #pragma once
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
+
+#include "core/base/dense.hpp"
 
 namespace signorini {
 
@@ -47,17 +49,18 @@ class PolynomialFit {
       H.noalias() += here * here.transpose();
       h_.noalias() += here * Eigen::Map<const Eigen::Matrix<double, 1, N>>(sample.value.data());
     }
-    factors_.compute(H);
-    determined_ = factors_.vectorD().minCoeff() > dependent * factors_.vectorD().maxCoeff();
+    const SymmetricFactors factors(H);
+    const Eigen::VectorXd pivots = factors.pivots();
+    if (pivots.minCoeff() > dependent * pivots.maxCoeff()) factors_ = factors;
   }
 
   /// The values at a place. Nothing where the samples do not decide them.
   /// @param most_amplified nothing, either, where independent errors of the samples come out larger by more than that
   std::optional<std::array<double, N>> at(const std::array<double, K>& x,
                                           double most_amplified = std::numeric_limits<double>::infinity()) const {
-    if (!determined_) return {};
+    if (!factors_) return {};
     const Row here = row(x);
-    const Row weights = factors_.solve(here);
+    const Row weights = factors_->solve(here);
     if (!(here.dot(weights) <= most_amplified * most_amplified)) return {};
     std::array<double, N> out;
     Eigen::Map<Eigen::Matrix<double, 1, N>>(out.data()) = weights.transpose() * h_;
@@ -76,9 +79,8 @@ class PolynomialFit {
 
   std::array<double, K> middle_{};
   double size_ = 0;
-  bool determined_ = false;
   Eigen::Matrix<double, terms, N> h_ = Eigen::Matrix<double, terms, N>::Zero();
-  Eigen::LDLT<Eigen::Matrix<double, terms, terms>> factors_;
+  std::optional<SymmetricFactors> factors_;  // where the samples decide
 };
 
 /// Whether there are samples enough for a quadratic polynomial: at least K more than coefficients.

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,8 @@ class PressedFaces {
   const std::vector<Index>& around(Index k) const { return around_[k]; }
   /// Whether another body ends beside a node.
   bool at_end(Index k) const { return at_end_[k]; }
+  /// Whether the body's own surface ends at a node, and does not go on beyond a plane of symmetry.
+  bool at_rim(Index k) const { return at_rim_[k] && on_[k] == 0; }
   /// One of the faces at a node that has neighbours.
   Index face_at(Index k) const { return face_at_[k]; }
   /// How far to go from a node in search of samples: so many rings of neighbours, more where they are few.
@@ -164,6 +167,7 @@ class PressedFaces {
     around_.resize(node_.size());
     face_at_.resize(node_.size());
     at_end_.resize(node_.size());
+    std::map<std::array<Index, D - 1>, int> sides;  // and how many faces meet there
     for (const Index face : faces_) {
       const auto vertices = nodes.of_face(face);
       const Point<D> normal = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
@@ -178,11 +182,25 @@ class PressedFaces {
           else if (other != k)
             at_end_[k] = true;
       }
+      for (int skip = 0; skip < D; ++skip) ++sides[side_of(corners, skip)];
     }
+    at_rim_.resize(node_.size());
+    for (const auto& [side, faces] : sides)
+      if (faces == 1 && std::ranges::count(side, unreachable) == 0)
+        for (const Index k : side) at_rim_[k] = true;
     for (std::vector<Index>& list : around_) {
       std::ranges::sort(list);
       list.erase(std::unique(list.begin(), list.end()), list.end());
     }
+  }
+
+  /// All corners of a face but one, in ascending order.
+  static std::array<Index, D - 1> side_of(const std::array<Index, D>& corners, int skip) {
+    std::array<Index, D - 1> side;
+    for (int i = 0, at = 0; i < D; ++i)
+      if (i != skip) side[at++] = corners[i];
+    std::ranges::sort(side);
+    return side;
   }
 
   void find_mirrors(const Nodes<D>& nodes, const ContactSurface<D, B>& surface) {
@@ -256,7 +274,7 @@ class PressedFaces {
   std::vector<unsigned> on_;  // those that a node lies on
   std::deque<ContactNode<B>> strangers_;
   std::vector<ContactNode<B>*> node_;
-  std::vector<bool> pressed_, at_end_;
+  std::vector<bool> pressed_, at_end_, at_rim_;
   std::vector<Index> faces_, face_at_;
   std::vector<std::array<Index, D>> corners_;
   std::vector<std::vector<Index>> around_;

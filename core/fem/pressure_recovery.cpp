@@ -67,13 +67,13 @@ class Recovery {
     const Index k = top();
     if (k == unreachable) return false;
     if (!inside_[k] || bears_more_at_end(faces_.node(k).recovered)) return true;
-    bool near_end = faces_.at_end(k), falls = false;
+    bool near_end = faces_.at_end(k) || faces_.at_rim(k), drops = false;
     for (const Index other : faces_.around(k)) {
       if (!faces_.pressed(other)) continue;
       near_end = near_end || faces_.at_end(other) || faces_.node(other).hardly_covered();
-      falls = falls || faces_.node(k).recovered > steep * faces_.node(other).recovered;
+      drops = drops || faces_.node(k).recovered > steep * faces_.node(other).recovered;
     }
-    return near_end && falls;
+    return near_end && drops;
   }
 
   /// Whether a node that is hardly covered has a force that would be a larger pressure over half of its area.
@@ -183,7 +183,7 @@ class Recovery {
     };
     const ContactNode<B>& node = faces_.node(k);
     const TangentPlane<D> plane = samples_.plane_at(k);
-    if (!bulges(k, plane, pressure)) return 0;
+    if (!bulges(k, pressure)) return 0;
     const double more = surface_.mean(node, [&](const Point<D>& x) { return pressure(plane(x)); }) -
                         pressure(plane(samples_.middle(k)));
     const double most = (excess - 1) * node.pressure;
@@ -192,7 +192,7 @@ class Recovery {
 
   /// By differences over the way to the neighbours.
   template <class Pressure>
-  bool bulges(Index k, const TangentPlane<D>& plane, const Pressure& pressure) const {
+  bool bulges(Index k, const Pressure& pressure) const {
     const double way = way_to_neighbours(k);
     double sum = 0;
     for (std::size_t i = 0; i < D - 1; ++i)

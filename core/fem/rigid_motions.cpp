@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/dense.hpp"
 #include "core/fem/element.hpp"
 #include "core/mesh/join.hpp"
 #include "core/sdk/block.hpp"
@@ -38,11 +37,10 @@ class Rows {
   static constexpr double surely = 1e-6;
 
   void compress() {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_);
-    const Eigen::MatrixXd R = qr.matrixQR().topRows(columns_).triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd R = triangular_factor(rows_);
     rows_.topRows(columns_) = R;
     used_ = columns_;
-    const auto values = Eigen::JacobiSVD<Eigen::MatrixXd>(R).singularValues();
+    const Eigen::VectorXd values = singular_values(R);
     complete_ = values[columns_ - 1] > surely * values[0];
   }
 
@@ -90,15 +88,6 @@ std::string text(const Vector& values) {
 }
 
 }  // namespace
-
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, double tolerance) {
-  const Eigen::Index n = rows.cols();
-  if (rows.rows() == 0 || n == 0) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::FullPivHouseholderQRPreconditioner> svd(rows, Eigen::ComputeFullV);
-  const auto& values = svd.singularValues();
-  const Eigen::Index rank = values[0] > 0 ? (values.array() > tolerance * values[0]).count() : 0;
-  return svd.matrixV().rightCols(n - rank);
-}
 
 template <int D, int B>
 RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes, Plane plane, std::vector<Index> of_node)
@@ -203,7 +192,7 @@ auto RigidMotions<D, B>::nearest_to_prescribed(const DiscreteProblem<B>& problem
         h += problem.start[p * B + static_cast<std::size_t>(k)] * row.transpose();
       }
   if (h.isZero(0)) return h;
-  return H.completeOrthogonalDecomposition().solve(h);
+  return smallest_solution(H, h);
 }
 
 /// Of one body: its translations, then its rotations.
@@ -287,8 +276,8 @@ auto RigidMotions<D, B>::simple_basis(const Eigen::MatrixXd& space) const -> std
   const Eigen::MatrixXd none = null_space(space.bottomRows(rotations), rounding);
   Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), rounding);
   if (shifts.cols() > 0) {
-    const Eigen::MatrixXd along = shifts.topRows(shifting);
-    if (turns.cols() > 0) turns.topRows(shifting) -= along * along.householderQr().solve(turns.topRows(shifting));
+    const Eigen::MatrixXd along = orthonormal_columns(shifts.topRows(shifting));
+    if (turns.cols() > 0) turns.topRows(shifting) -= along * (along.transpose() * turns.topRows(shifting)).eval();
     reduce_columns(shifts, 0, shifting);
   }
   if (turns.cols() > 0) reduce_columns(turns, shifting, count());

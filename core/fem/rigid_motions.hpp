@@ -71,7 +71,4 @@ class RigidMotions {
   double size_ = 0;
 };
 
-/// The vectors that all rows of a matrix are orthogonal to, but for `tolerance` of its norm: an orthonormal basis.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, double tolerance);
-
 }  // namespace signorini

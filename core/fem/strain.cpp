@@ -1,9 +1,10 @@
 #include "core/fem/strain.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/dense.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/gradient.hpp"
 #include "core/fem/revolution.hpp"
@@ -20,9 +21,8 @@ std::array<double, 2> principal_strains(const Gradient<D, D>& g, double hoop) {
   std::array<double, 2> out{std::min(hoop, 0.0), std::max(hoop, 0.0)};
   // Most elements have small strains, whose directions do not matter.
   if (const double size = strain.norm(); size <= large_strain) return {std::min(out[0], -size), std::max(out[1], size)};
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>> solver;
-  solver.compute(strain, Eigen::EigenvaluesOnly);
-  return {std::min(out[0], solver.eigenvalues()[0]), std::max(out[1], solver.eigenvalues()[D - 1])};
+  const Eigen::VectorXd values = eigenpairs(strain).values;
+  return {std::min(out[0], values[0]), std::max(out[1], values[D - 1])};
 }
 
 /// Volumes of a body.

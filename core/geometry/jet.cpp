@@ -1,9 +1,10 @@
 #include "core/geometry/jet.hpp"
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -44,9 +45,8 @@ std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point
       for (int k = 0; k <= (D == 2 ? 0 : total); ++k) a(r, column++) = power[total - k][0] * power[k][1];
     b(r) = weight * dot(p, up) / size;
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-  if (qr.rank() < terms) return {};
-  const Eigen::VectorXd slope = qr.solve(b);
+  const auto [slope, rank, range] = least_squares(a, b);
+  if (rank < terms) return {};
   Point<D> n = up;
   for (int k = 0; k < D - 1; ++k)
     for (int i = 0; i < D; ++i) n[i] -= slope(k) * axes[k][i];

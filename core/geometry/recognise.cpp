@@ -1,12 +1,12 @@
 #include "core/geometry/recognise.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "core/base/dense.hpp"
 #include "core/mesh/curve.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -93,7 +93,7 @@ Curve<D> fitted(Curve<D> curve, std::span<const Point<D>> points) {
           (residual<D>(changed<D>(curve, by), points) - residual<D>(changed<D>(curve, VectorXd(-by)), points)) /
           (2 * step);
     }
-    VectorXd by = -slope.colPivHouseholderQr().solve(r);
+    VectorXd by = -least_squares(slope, r).x;
     if (!by.allFinite()) return curve;
     bool better = false;
     for (int halving = 0; halving < 10 && !better; ++halving, by /= 2) {
@@ -119,7 +119,7 @@ std::optional<Curve<D>> round_start(std::span<const Point<D>> points) {
     a.row(row) << 2 * vector<D>(points[i]).transpose(), 1;
     b[row] = vector<D>(points[i]).squaredNorm();
   }
-  const VectorXd x = a.colPivHouseholderQr().solve(b);
+  const VectorXd x = least_squares(a, b).x;
   const double square = x[D] + x.head(D).squaredNorm();
   if (!(square > 0) || !x.allFinite()) return {};
   return Curve<D>{.center = point<D>(x.head(D)), .radius = std::sqrt(square)};
@@ -128,9 +128,9 @@ std::optional<Curve<D>> round_start(std::span<const Point<D>> points) {
 /// The direction that symmetric second moments are smallest in; nothing where they are not small there.
 std::optional<Vector<3>> flat_direction(const Eigen::Matrix3d& moments) {
   constexpr double small = 0.05;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments);
-  if (!(eigen.eigenvalues()[0] <= small * eigen.eigenvalues()[2])) return {};
-  return Vector<3>(eigen.eigenvectors().col(0));
+  const auto [values, directions] = eigenpairs(moments);
+  if (values.size() == 0 || !(values[0] <= small * values[2])) return {};
+  return Vector<3>(directions.col(0));
 }
 
 /// Across all normals.
@@ -164,7 +164,7 @@ std::optional<Curve<3>> cone_start(std::span<const Point<3>> points, std::span<c
     right += n.dot(vector<3>(points[i])) * n;
   }
   const auto axis = flat_direction(moments);
-  const Vector<3> tip = planes.ldlt().solve(right);
+  const Vector<3> tip = SymmetricFactors(planes).solve(right);
   if (!axis || !tip.allFinite()) return {};
   const Vector<3> inwards = (middle - tip).dot(*axis) < 0 ? Vector<3>(-*axis) : *axis;
   double angle = 0;
@@ -183,8 +183,9 @@ std::optional<Curve<3>> torus_start(std::span<const Point<3>> points, std::span<
     const Vector<3> n = vector<3>(normals[i]), m = vector<3>(points[i]).cross(n);
     lines.row(static_cast<Eigen::Index>(i)) << m.transpose(), n.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(lines.transpose() * lines);
-  const Eigen::Matrix<double, 6, 1> axis = eigen.eigenvectors().col(0);
+  const Eigenpairs found = eigenpairs(lines.transpose() * lines);
+  if (found.values.size() == 0) return {};
+  const Eigen::Matrix<double, 6, 1> axis = found.vectors.col(0);
   const double size = axis.head<3>().norm();
   if (!(size > 1e-6)) return {};
   const Vector<3> a = axis.head<3>() / size, base = a.cross(Vector<3>(axis.tail<3>() / size));

@@ -1,9 +1,10 @@
 #include "core/io/report.hpp"
 
 #include <fmt/format.h>
-#include <numbers>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "core/component/libraries.hpp"
 

@@ -55,15 +55,16 @@ void expect_partial_slip(const std::string& scene, double tolerance) {
   EXPECT_GT(stick, 0.3);
   EXPECT_LT(stick, 0.9);
   const auto [sticking, traction] = driver.visit(0, [&](const auto& run) {
-    double sticks = 0, nearest = infinity, middle = 0;
+    double sticks = 0, slips = infinity, nearest = infinity, middle = 0;  // radii of the last and the first one
     for (const auto& node : run.results().contact.nodes) {
       if (!node.contact) continue;
-      if (node.sticks) sticks += node.area;
       const auto& x = run.nodes().at(node.vertex);
       const double away = D == 2 ? std::abs(x[0]) : std::hypot(x[0], x[1]);
+      if (node.sticks) sticks = std::max(sticks, away);
+      if (!node.sticks) slips = std::min(slips, away);
       if (away < nearest) nearest = away, middle = length({node.traction.begin(), node.traction.end()});
     }
-    return std::pair(std::pow(sticks / contact.area, 1.0 / (D - 1)), middle);  // which ends within faces
+    return std::pair((sticks + slips) / (2 * contact.radius), middle);
   });
   const double expected = friction * contact.max_pressure * (1 - stick);
   show("c / a {:.4g}, by theory {:.4g}; traction {:.4g}, by theory {:.4g}; {} iterations\n", sticking, stick, traction,

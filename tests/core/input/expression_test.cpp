@@ -332,9 +332,9 @@ TEST(Expression, ManySitesHaveTheValuesOfEachByItself) {
         const double t = static_cast<double>(k);
         sites.push_back(site(std::sin(t), std::sin(1.7 * t), k % 7 == 0 ? 0 : std::cos(t)));
       }
-      std::vector<double> values(count);
-      field.values(sites, values.data());
-      for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(values[k], field(sites[k])) << text << " at " << k;
+      std::vector<double> found(count);
+      field.values(sites, found.data());
+      for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(found[k], field(sites[k])) << text << " at " << k;
     }
   }
 }
@@ -342,9 +342,9 @@ TEST(Expression, ManySitesHaveTheValuesOfEachByItself) {
 TEST(Expression, OfManySitesTheOneWithoutAFiniteValueIsNamed) {
   std::vector<Site> sites(100, site(1));
   sites[77] = site(0, 5);
-  std::vector<double> values(sites.size());
+  std::vector<double> found(sites.size());
   const Field field = compile("1 / x");
-  EXPECT_THAT(test::outcome([&] { field.values(sites, values.data()); }).message, HasSubstr("[0, 5, 0]"));
+  EXPECT_THAT(test::outcome([&] { field.values(sites, found.data()); }).message, HasSubstr("[0, 5, 0]"));
 }
 
 TEST(Expression, CopiesMayBeUsedFromSeveralThreads) {

@@ -15,7 +15,7 @@ std::string complaint(const std::string& content, const std::string& place) {
   return test::input_error_of([&] { parse_mesh(content, place); });
 }
 
-TEST(MeshFile, FormatsOfOtherProgramsAreNamedWithWhatToDo) {
+TEST(ParseMesh, FormatsOfOtherProgramsAreNamedWithWhatToDo) {
   const std::string nastran = "$ written by hand\n$$ and so on\nSOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nENDDATA\n";
   const std::string free = "GRID*                  1                              0.\nCTRIA3,1,1,1,2,3\n";
   for (const auto& [content, name] : {std::pair{nastran, "a.bdf"}, {nastran, "a"}, {free, "a.txt"}, {"x", "a.NAS"}})
@@ -28,7 +28,7 @@ TEST(MeshFile, FormatsOfOtherProgramsAreNamedWithWhatToDo) {
   EXPECT_THAT(complaint("hello", "a.msh"), HasSubstr("neither a Gmsh MSH file"));
 }
 
-TEST(MeshFile, AFileOfVersion1NeedsNoHead) {
+TEST(ParseMesh, AFileOfVersion1NeedsNoHead) {
   const AnyMesh mesh =
       parse_mesh("$NOD\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$ENDNOD\n$ELM\n1\n1 2 0 1 3 1 2 3\n$ENDELM\n", "a.msh");
   EXPECT_EQ(std::get<Mesh<2>>(mesh).elements.size(), 1u);

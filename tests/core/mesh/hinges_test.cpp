@@ -15,7 +15,8 @@ template <int D>
 Mesh<D> mesh_of(std::vector<Point<D>> points, std::vector<Simplex<D>> elements) {
   for (auto& e : elements)
     if (relative_volume<D>(corners<D>(points, e)) < 0) flip<D>(e);
-  return build_mesh<D>({std::move(points), std::move(elements), {}, {}}, "test");
+  return build_mesh<D>(
+      {.points = std::move(points), .elements = std::move(elements), .middle = {}, .label = {}, .groups = {}}, "test");
 }
 
 /// Numbers of hanging vertices.

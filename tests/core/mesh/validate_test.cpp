@@ -91,7 +91,7 @@ TEST(Validate, NamesUnusedVertices) {
 
 RawMesh<2> raw_square() {
   const Mesh<2> mesh = square();
-  return {mesh.points, mesh.elements, {}, {}};
+  return {.points = mesh.points, .elements = mesh.elements, .middle = {}, .label = {}, .groups = {}};
 }
 
 TEST(Build, DropsUnusedVerticesAndKeepsGroups) {

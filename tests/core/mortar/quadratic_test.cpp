@@ -221,9 +221,9 @@ std::array<double, 2> errors(int cells) {
     for (int k = 0; k < K; ++k) inside = inside && std::abs(x[k]) < 0.26;
     if (!inside) continue;
     // The mean of the normals, along which the distance is measured, is a little shorter or longer than they are.
-    double square = 0;
-    for (int k = 0; k < D; ++k) square += std::pow(normals[k][c.node[p]], 2);
-    worst[0] = std::max(worst[0], std::abs(c.gap[p] - exact[c.node[p]] / std::sqrt(square)));
+    double normal = 0;
+    for (int k = 0; k < D; ++k) normal += std::pow(normals[k][c.node[p]], 2);
+    worst[0] = std::max(worst[0], std::abs(c.gap[p] - exact[c.node[p]] / std::sqrt(normal)));
     double off = 0;
     for (int k = 0; k < K; ++k) off += std::pow(c.normal[p][k] - x[k] / radius, 2);
     worst[1] = std::max(worst[1], std::sqrt(off));

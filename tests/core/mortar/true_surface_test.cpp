@@ -77,7 +77,9 @@ void expect_distance_of_shapes(int inner_cells, int outer_cells, bool inner_is_s
     EXPECT_NEAR(found.nearest[k], gap, 1e-2 * gap);
     EXPECT_NEAR(found.farthest[k], gap, 1e-2 * gap);
     const auto& x = (inner_is_slave ? in : out).points[found.node[k]];
-    if (pairing == Pairing::normal) EXPECT_LT(off_radius<D>(found.normal[k], x), 2e-3);
+    if (pairing == Pairing::normal) {
+      EXPECT_LT(off_radius<D>(found.normal[k], x), 2e-3);
+    }
   }
   EXPECT_EQ(found.deepest.depth, 0);
 }

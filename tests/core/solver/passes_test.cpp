@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 
 #include "core/algebra/products.hpp"
@@ -102,7 +103,8 @@ TEST(Passes, GoOnAtTheSameTimeOnSeveralThreads) {
   std::atomic<int> inside = 0, together = 0;
   const auto meet = [&](Index, Index) {  // waits for the other pass, but not for ever
     ++inside;
-    for (long patience = 0; patience < 100000 && together == 0 && inside < 2; ++patience) std::this_thread::yield();
+    for (int patience = 0; patience < 100 && together == 0 && inside < 2; ++patience)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     together += inside == 2;
     --inside;
   };

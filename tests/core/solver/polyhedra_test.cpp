@@ -45,9 +45,10 @@ bool expect_solution(const DiscreteProblem<B>& problem, const Prox& prox, const 
   std::vector<double> x = problem.start;
   const Summary summary = solve<B>(problem, levels, x, options, registry());
   EXPECT_EQ(summary.outcome, Outcome::converged) << options.method << ": " << summary.reason;
-  if (expected.size() > 0)
+  if (expected.size() > 0) {
     EXPECT_LE((vector(x) - expected).cwiseAbs().maxCoeff(), 1e-8 * expected.cwiseAbs().maxCoeff())
         << options.method << ", " << summary.iterations << " iterations";
+  }
   for (std::size_t k = 1; k < summary.history.size(); ++k)
     EXPECT_LE(summary.history[k].energy, summary.history[k - 1].energy + 1e-12 * std::abs(summary.energy)) << k;
   return expected.size() > 0;

@@ -100,7 +100,7 @@ TEST(PluginLoader, RejectsAShortEntry) { EXPECT_THAT(rejection("short_struct"), 
 TEST(PluginLoader, RejectsNullMembers) { EXPECT_THAT(rejection("null_member"), HasSubstr("null members")); }
 
 TEST(PluginLoader, RejectsAnotherMajorVersionNamingBoth) {
-  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.0 in the plugin, 5.1 here"),
+  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.1 in the plugin, 5.1 here"),
                                               HasSubstr("rebuild against SDK 5.1"), Not(HasSubstr("newer"))));
 }
 
@@ -136,7 +136,7 @@ TEST(PluginLoader, NamesTheFieldInWhichTheBuildsDiffer) {
 
 TEST(PluginLoader, NamesAllDifferencesInOneMessage) {
   EXPECT_THAT(rejection("wrong_fields"),
-              AllOf(HasSubstr("7.0 in the plugin, 5.1 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
+              AllOf(HasSubstr("7.1 in the plugin, 5.1 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
                     HasSubstr("size of Index: 8 in the plugin, 4 here"), HasSubstr(": nothing in the plugin, "),
                     HasSubstr("rebuild against SDK 5.1")));
 }
