@@ -8,6 +8,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/dot.hpp"
 #include "core/solver/attainable.hpp"
+#include "core/solver/following_load.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
@@ -39,10 +40,12 @@ void subtract_prescribed(const std::vector<double>& way, const Rest& rest, Discr
       if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] = rest(problem.start[p * B + k], way[p * B + k]);
 }
 
+/// A load that follows the solution is withdrawn: of what hardly deforms it is rounding, and no load to compare with.
 template <int B>
 Balance forces(const DiscreteProblem<B>& problem, const std::vector<double>& x) {
   std::vector<double> r(x.size());
   residual<B>(problem.A, x.data(), problem.b.data(), r.data());
+  if (problem.following) problem.following->withdraw();
   return balance(problem, x, r);
 }
 
@@ -99,6 +102,7 @@ double MovedProblem<B>::back() {
   DiscreteProblem<B>& problem = discretization_.problem;
   const bool stiff = largest(x_) < far_less * largest(way_);
   const double acting = stiff ? forces(problem, x_).acting : 0;
+  if (problem.following) problem.following->withdraw();
   Constraints<B>& c = problem.constraints;
   std::swap(problem.start, start_);
   std::swap(c.lower, lower_);

@@ -15,10 +15,8 @@ class MovedProblem {
   /// @param way a motion without energy, local coordinates; empty: none
   MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x);
 
-  /// Whether there is a way.
-  bool moves() const { return !way_.empty(); }
-
-  /// The problem as it was, and x with the way added. What is at a bound stays there.
+  /// The problem as it was, without a load that follows the solution, and x with the way added. What is at a bound
+  /// stays there.
   /// @return what rounding of stiffness times way does to the forces on the body, over those that act; 0 where it
   /// is next to nothing
   double back();

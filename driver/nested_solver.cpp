@@ -425,7 +425,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   solution.summary.add_rounding(moved.back(), options.tolerance);
   if constexpr (D == B) {
     if (pressure) {
-      if (moved.moves()) pressure->apply_anew();
+      pressure->apply();
       pressure->press_on_prescribed();
       solution.pressure = pressure->values();
     }

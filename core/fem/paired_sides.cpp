@@ -13,6 +13,7 @@
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/join.hpp"
+#include "core/mesh/simplex.hpp"
 #include "core/mesh/true_surface.hpp"
 
 namespace signorini {
@@ -178,42 +179,100 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
 
 namespace {
 
-/// Whether what is prescribed at a slave's node, along one direction, is prescribed for most of what it sees of the
-/// master: on a plane of symmetry by fixes the mean over faces that do not match has a part of nodes beside it.
+/// How far the displacement of a node along a direction is prescribed to be; nothing where it is not.
 template <int D>
-bool goes_along(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes, const MortarCoupling<D>& coupling,
-                Index k, const double* direction, double value) {
-  double sum = 0, part = 0, size = std::abs(value);
-  for (Offset j = coupling.row[k]; j < coupling.row[k + 1]; ++j) {
-    const FixedDirections<D>* fixed = fixed_at(fixes, nodes.of_vertex(coupling.column[j]));
-    if (!fixed) continue;
-    double left = 1, there = 0;
-    for (int i = 0; i < fixed->count; ++i) {
-      double along = 0;
-      for (int m = 0; m < D; ++m) along += direction[m] * fixed->direction[i][m];
-      left -= along * along;
-      there += along * fixed->value[i];
-      size = std::max(size, std::abs(fixed->value[i]));
-    }
-    if (left > rounding) continue;
-    sum += coupling.value[j] * there;
-    part += coupling.value[j];
+std::optional<double> prescribed_along(const std::vector<FixedDirections<D>>& fixes, Index node,
+                                       const double* direction) {
+  const FixedDirections<D>* fixed = fixed_at(fixes, node);
+  if (!fixed) return {};
+  double left = 1, value = 0;
+  for (int i = 0; i < fixed->count; ++i) {
+    double along = 0;
+    for (int m = 0; m < D; ++m) along += direction[m] * fixed->direction[i][m];
+    left -= along * along;
+    value += along * fixed->value[i];
   }
-  return part > 0.5 && std::abs(part * value - sum) <= rounding * size;
+  return left <= rounding ? std::optional(value) : std::nullopt;
 }
+
+/// What is prescribed of the master in front of places of the slave: a node of that may be prescribed to move along
+/// with it there, as on a plane of symmetry by fixes, though not with what it sees of the master in the mean.
+template <int D>
+class PrescribedMaster {
+ public:
+  /// Keeps references.
+  PrescribedMaster(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
+                   std::span<const Point<D>> points, const std::vector<Index>& faces)
+      : nodes_(nodes), fixes_(fixes), points_(points) {
+    std::ranges::copy_if(faces, std::back_inserter(faces_), [&](Index f) {
+      return std::ranges::any_of(nodes.mesh().boundary[f].vertices,
+                                 [&](Index v) { return fixed_at(fixes, nodes.of_vertex(v)) != nullptr; });
+    });
+  }
+
+  /// Whether what a vertex of the slave sees along its normal is prescribed to move as far along a direction.
+  bool goes_along(Index vertex, const Point<D>& normal, const double* direction, double value) const {
+    return std::ranges::any_of(faces_, [&](Index f) {
+      const Face<D>& face = nodes_.mesh().boundary[f];
+      const Point<D> opposite = area_normal(nodes_.mesh(), face);
+      if (!(dot(opposite, normal) < -0.5 * length<D>(opposite))) return false;
+      const std::array<double, D> place = seen_along(face, points_[vertex], normal);
+      double there = 0, size = std::abs(value);
+      for (int i = 0; i < D; ++i) {
+        if (place[i] < -rounding) return false;
+        if (place[i] <= rounding) continue;
+        const auto fixed = prescribed_along(fixes_, nodes_.of_vertex(face.vertices[i]), direction);
+        if (!fixed) return false;
+        there += place[i] * *fixed;
+        size = std::max(size, std::abs(*fixed));
+      }
+      return std::abs(there - value) <= rounding * size;
+    });
+  }
+
+ private:
+  /// The barycentric coordinates of where the line through a point meets the plane of a face.
+  std::array<double, D> seen_along(const Face<D>& face, const Point<D>& x, const Point<D>& normal) const {
+    const Point<D>& origin = points_[face.vertices[0]];
+    std::array<Point<D>, D> rows;
+    for (int i = 1; i < D; ++i) rows[i - 1] = difference<D>(points_[face.vertices[i]], origin);
+    rows[D - 1] = normal;
+    const double all = determinant<D>(rows);
+    std::array<double, D> out{1};
+    for (int i = 1; i < D; ++i) {
+      auto other = rows;
+      other[i - 1] = difference<D>(x, origin);
+      out[i] = determinant<D>(other) / all;
+      out[0] -= out[i];
+    }
+    return out;
+  }
+
+  const Nodes<D>& nodes_;
+  const std::vector<FixedDirections<D>>& fixes_;
+  std::span<const Point<D>> points_;
+  std::vector<Index> faces_;  // with nodes of which something is prescribed
+};
 
 /// The slave's vertices where a fix, not a plane of symmetry, prescribes something that the master does not go along
 /// with; ascending.
 template <int D>
 std::vector<Index> held_apart(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
+                              std::span<const Point<D>> points, const std::vector<Index>& master,
                               const MortarCoupling<D>& coupling) {
   std::vector<Index> out;
-  for (Index k = 0; k < coupling.nodes() && !fixes.empty(); ++k) {
-    const FixedDirections<D>* fixed = fixed_at(fixes, nodes.of_vertex(coupling.node[k]));
+  if (fixes.empty()) return out;
+  const PrescribedMaster<D> other(nodes, fixes, points.empty() ? nodes.mesh().points : points, master);
+  for (Index k = 0; k < coupling.nodes(); ++k) {
+    const Index p = nodes.of_vertex(coupling.node[k]);
+    const FixedDirections<D>* fixed = fixed_at(fixes, p);
+    if (!fixed) continue;
+    const auto free = free_normal<D>(fixes, p, coupling.normal[k]);
+    const Point<D>& normal = free ? free->direction : coupling.normal[k];
     bool apart = false;
-    for (int i = 0; fixed && i < fixed->count; ++i)
-      apart =
-          apart || (fixed->fix[i] >= 0 && !goes_along(nodes, fixes, coupling, k, fixed->direction[i], fixed->value[i]));
+    for (int i = 0; i < fixed->count; ++i)
+      apart = apart ||
+              (fixed->fix[i] >= 0 && !other.goes_along(coupling.node[k], normal, fixed->direction[i], fixed->value[i]));
     if (apart) out.push_back(coupling.node[k]);
   }
   return out;
@@ -239,7 +298,7 @@ MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<
                                              const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
                                              std::span<const Point<D>> points, Index* lost) {
   MortarCoupling<D> found = couple_sides<D>(nodes, model, term, faces.slave, faces.master, points);
-  const std::vector<Index> apart = held_apart(nodes, fixes, found);
+  const std::vector<Index> apart = held_apart<D>(nodes, fixes, points, faces.master, found);
   const std::vector<Index> left_out = with_neighbours(nodes.mesh(), faces.slave, apart);
   if (lost) *lost = static_cast<Index>(apart.size() - left_out.size());
   return left_out.empty() ? std::move(found)

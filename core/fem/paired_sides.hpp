@@ -57,8 +57,8 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
 
 /// The same with friction. What a fix prescribes at a node of the slave no unknown there is a jump along, and no
 /// friction could act on the master. Such nodes are left out, and the share that they have in friction and pressure is
-/// their neighbours'; but for faces all of whose nodes are such, and for nodes whose part of the master is prescribed
-/// to go along with them, as where fixes stand for a plane of symmetry.
+/// their neighbours'; but for faces all of whose nodes are such, and for nodes in front of which the master is
+/// prescribed to go along with them, as where fixes stand for a plane of symmetry.
 /// @param lost gets at how many nodes friction along something is lost all the same; null: not asked
 template <int D>
 MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,

@@ -140,12 +140,6 @@ void PressureLoad<D>::apply() {
 }
 
 template <int D>
-void PressureLoad<D>::apply_anew() {
-  applied_ = false;
-  apply();
-}
-
-template <int D>
 void PressureLoad<D>::withdraw() {
   if (!std::exchange(applied_, false)) return;
   problem().b = own_;

@@ -18,8 +18,6 @@ class PressureLoad final : public FollowingLoad<D> {
   void apply() override;
   void withdraw() override;
   void set(std::vector<double> values) override;
-  /// After b was made anew without it.
-  void apply_anew();
   void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) override;
   void add(const std::vector<double>& change, std::vector<double>& r) override;
   typename FollowingLoad<D>::Matrices matrices() const override;

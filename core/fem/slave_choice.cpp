@@ -25,6 +25,8 @@ constexpr double far_stiffer = 100;
 constexpr double depth = 0.1;
 /// Faces that differ by less are of the same size.
 constexpr double as_fine = 1.01;
+/// Up to this factor moduli and faces are one: what the choice is by must not depend on rounding.
+constexpr double the_same = 1 + 1e-6;
 
 /// What is known of one of the two sides.
 struct SideFacts {
@@ -85,10 +87,12 @@ class Chooser {
     for (const bool exchanged : {false, true})
       if (frees(exchanged ? other : body, exchanged ? body : other, model_.obstacles[k]))
         return {exchanged, "nodes of the other side are prescribed"};
-    if (body.modulus > alike * other.modulus) return {true, softer(other, body)};
-    if (other.modulus > alike * body.modulus) return {false, softer(body, other)};
-    if (body.size > as_fine * other.size) return {true, finer(other, body)};
-    if (other.size > as_fine * body.size) return {false, finer(body, other)};
+    for (const auto& [stiffer, coarser] : {std::pair{alike, as_fine}, std::pair{the_same, the_same}}) {
+      if (body.modulus > stiffer * other.modulus) return {true, softer(other, body)};
+      if (other.modulus > stiffer * body.modulus) return {false, softer(body, other)};
+      if (body.size > coarser * other.size) return {true, finer(other, body)};
+      if (other.size > coarser * body.size) return {false, finer(body, other)};
+    }
     return {false, "as stiff and as fine as the other one"};
   }
 

@@ -30,11 +30,11 @@ PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedD
 
 /// One per obstacle of the model; of those that act on one body the reason is empty. Where the model leaves it open the
 /// slave is the softer body, by the moduli next to the faces that are closest to the other body; where they differ by
-/// less than a factor of 2 the one with the smaller faces there; else the first one. A side is no slave as long as the
-/// other one may be where all of it is prescribed along its normals, or where another obstacle acts on some of its
-/// nodes: these may be masters only; and where some of it is prescribed along the normals, or most of it along the
-/// surface with friction, and nothing of the other one, which is not far stiffer. Error(Exit::input) as couple() and
-/// select_faces() have them.
+/// less than a factor of 2 the one with the smaller faces there; where these are alike what there is of such
+/// differences decides, and without any it is the first one. A side is no slave as long as the other one may be where
+/// all of it is prescribed along its normals, or where another obstacle acts on some of its nodes: these may be masters
+/// only; and where some of it is prescribed along the normals, or most of it along the surface with friction, and
+/// nothing of the other one, which is not far stiffer. Error(Exit::input) as couple() and select_faces() have them.
 /// @param nodes of the coarsest mesh: finer ones have the same ratios
 template <int D>
 std::vector<SlaveChoice> choose_slaves(const Nodes<D>& nodes, const Model<D>& model);

@@ -163,11 +163,12 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
 template <int B>
 void Iteration<B>::measure(double error) {
   Summary& s = summary_;
-  s.residual = std::max(relative_residual(), residual_of_load_);
   const double of_load = problem_.following ? problem_.following->squared() : 0;
   double squared = energy_norm_squared(problem_, x_, sums_.products) + of_load;
   const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
   moves_rigidly_ = squared < rounding;
+  // Of what only moves such a load is rounding, which changes by all that it is.
+  s.residual = moves_rigidly_ ? relative_residual() : std::max(relative_residual(), residual_of_load_);
   size_ = std::sqrt(std::max(squared, rounding));
   // Back at zero after a load step, but for rounding of positions: nothing is left that errors could be compared with.
   const bool at_zero = zero_solves_ && largest_before_ > 0 && is_rounding_of_unknowns();
@@ -216,7 +217,9 @@ bool Iteration<B>::finished(bool gaining, bool exact) {
   // A rigid motion has no energy that errors could be compared with: forces are, with those that act.
   std::optional<double> hidden;
   if (moves_rigidly_ && !gaining && s.residual <= options_.tolerance) {
+    if (problem_.following) problem_.following->withdraw();  // it is rounding, too, and no load to compare with
     const Balance forces = balance(problem_, x_, r_);
+    if (problem_.following) problem_.following->apply();
     const bool any = forces.acting > 0;
     s.algebraic_error = s.history.back().algebraic_error = any ? forces.resting / forces.acting : 0;
     hidden = any ? forces.rounding / forces.acting : 0;

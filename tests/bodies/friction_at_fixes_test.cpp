@@ -202,5 +202,30 @@ TEST(FrictionAtFixesOfBodies, HalvesByFixesAreLikeThoseBySymmetry) {
   EXPECT_EQ(half.slip_nodes, whole.slip_nodes);
 }
 
+// A quarter of two blocks by fixes, meshes that do not match: a node on a plane of symmetry sees of the other body what
+// is beside that plane, too. It stays a pair, as the point in front of it goes along.
+TEST(FrictionAtFixesOfBodies, QuartersByFixesTouchEverywhere) {
+  const auto quarter = [](const char* name, double low, const std::string& cells, int order) {
+    return block(name, fmt::format("[0, 0, {}]", low), fmt::format("[1, 1, {}]", low + 0.5), cells,
+                 material(1, 0.3, order)) +
+           fix(name, "left", "[0, \"free\", \"free\"]") + fix(name, "front", "[\"free\", 0, \"free\"]");
+  };
+  for (const int order : {1, 2})
+    for (const char* slave : {"body", "other"}) {
+      SCOPED_TRACE(fmt::format("order {}, slave {}", order, slave));
+      Driver driver(scene_of(quarter("lower", 0, "[1, 3, 1]", order) + quarter("upper", 0.5, "[3, 1, 1]", order) +
+                             fix("lower", "bottom", "[\"free\", \"free\", 0]") +
+                             fix("upper", "top", "[\"free\", \"free\", -0.01]") +
+                             pair("upper", "bottom", "lower", "top",
+                                  fmt::format("friction = 0.3\nslave = \"{}\"\n", slave), "elastic_coulomb")));
+      const Report& report = driver.solve();
+      ASSERT_TRUE(report.converged()) << report.reason();
+      const ContactReport& contact = report.last().contact[0];
+      EXPECT_NEAR(contact.area, 1, 1e-6);
+      EXPECT_NEAR(contact.force[2], 0.01, 1e-8);
+      EXPECT_NEAR(contact.max_pressure, 0.01, 1e-8);
+    }
+}
+
 }  // namespace
 }  // namespace signorini::test

@@ -52,6 +52,14 @@ TEST(Slave, IsTheSofterBody) {
     }
 }
 
+// Where neither is much softer or finer any difference decides: not which of them is named first.
+TEST(Slave, DoesNotDependOnWhichIsNamedFirst) {
+  for (const std::string& obstacle : {Press().obstacle, turned}) {
+    EXPECT_EQ(pair_of({.lower = material(1.2), .obstacle = obstacle}).slave, "upper");
+    EXPECT_EQ(pair_of({.upper = material(1.2), .obstacle = obstacle}).slave, "lower");
+  }
+}
+
 /// The upper block, softer by half, with one more fix.
 std::string with_fix(const std::string& fix, const std::string& obstacle) {
   return text_of({.lower = material(1.9), .obstacle = obstacle, .more = fix});

@@ -8,7 +8,8 @@ struct Material {
   int order = 1;
 };
 
-enum class Kind { files, shapes, symmetric, axisymmetric };
+/// Solids are closed surfaces that the program fills with a mesh of its own.
+enum class Kind { files, shapes, symmetric, axisymmetric, solids };
 
 /// Blocks on each other, from the lowest to the highest: the lowest is held from below or stands on a rigid plane, the
 /// highest is moved, and those between lie between. All are held sideways at their left (and front) sides.
@@ -24,24 +25,41 @@ struct Stack {
   Point<D> motion{};       ///< of the top at t = 1
   bool only_down = false;  ///< it is free sideways, but for where its sides are held
   int steps = 1, refinements = 0;
+
+  bool in_strain() const { return D == 2 && kind != Kind::axisymmetric && plane == "strain"; }
 };
 
 /// How it is solved, which is not to change what is found.
 struct Way {
   bool reversed = false;  ///< the bodies stand in the file from the highest to the lowest
   bool swapped = false;   ///< pairs are named from above
-  std::string slave = "auto", start = "nested", hierarchy = "auto";
+  std::string start = "nested", hierarchy = "auto";
   int threads = 1;
+  Form form = Form::shape;
 
-  static Way any(Random& random) {
-    Way out;
+  /// @param is_plain seen as it is: then files may be shapes as well
+  static Way any(Random& random, Kind kind, bool is_plain) {
+    Way out = of(random, kind);
+    if (is_plain && kind == Kind::files && random.chance(0.2)) out.form = Form::shape;
     out.reversed = random.chance(0.5), out.swapped = random.chance(0.5);
     if (random.chance(0.3)) out.start = "zero";
     if (random.chance(0.2)) out.hierarchy = "matrix";
     if (random.chance(0.2)) out.threads = 2;
     return out;
   }
+  /// As the scene says, from some form of file where it is of files.
+  static Way of(Random& random, Kind kind) {
+    Way out;
+    if (kind == Kind::files) out.form = mesh_forms[random.below(std::size(mesh_forms))];
+    if (kind == Kind::solids) out.form = surface_forms[random.below(std::size(surface_forms))];
+    return out;
+  }
 };
+
+inline std::string solver_text(const Way& way) {
+  return fmt::format("[solver]\nstart = \"{}\"\nhierarchy = \"{}\"\nthreads = {}\n", way.start, way.hierarchy,
+                     way.threads);
+}
 
 /// The tables of a stack. Meshes are written into the folder where its kind is files.
 template <int D>
@@ -63,8 +81,7 @@ class StackText {
     for (int k = 1; k < n; ++k) out += pair(k);
     if (stack_.kind == Kind::symmetric) out += "[symmetry]\nx = 0\n";
     out += fmt::format("[refine]\nuniform = {}\n[steps]\ncount = {}\n", stack_.refinements, stack_.steps);
-    return out + fmt::format("[solver]\nstart = \"{}\"\nhierarchy = \"{}\"\nthreads = {}\n", way_.start, way_.hierarchy,
-                             way_.threads);
+    return out + solver_text(way_);
   }
 
  private:
@@ -73,10 +90,11 @@ class StackText {
   std::string body(int k) const {
     const Block<D>& block = stack_.blocks[k];
     std::string out = fmt::format("[[body]]\nname = \"{}\"\n", name(k));
-    if (stack_.kind == Kind::files) {
-      const std::filesystem::path file = folder_ / (name(k) + ".msh");
-      write_block<D>(file, block, view_);
-      out += fmt::format("mesh = \"{}\"\n", file.string());
+    if (way_.form != Form::shape) {
+      const std::string file = write_block<D>(folder_, name(k), block, way_.form, view_).string();
+      out += is_surface(way_.form)
+                 ? fmt::format("shape = \"solid\"\nfile = \"{}\"\nsize = {:.17g}\n", file, 0.5 * view_.length)
+                 : fmt::format("mesh = \"{}\"\n", file);
     } else {
       out += fmt::format("shape = \"{}\"\nfrom = {}\nto = {}\ncells = {}\n", D == 2 ? "rectangle" : "box",
                          vector_text(view_.place(block.from)), vector_text(view_.place(block.to)), block.cells);
@@ -88,7 +106,17 @@ class StackText {
   }
 
   std::string fix(int k, const std::string& on, const std::string& value) const {
-    return fmt::format("[[fix]]\nbody = \"{}\"\non = \"{}\"\n{}", name(k), on, value);
+    return fmt::format("[[fix]]\nbody = \"{}\"\n{}{}", name(k), part(k, on), value);
+  }
+  /// The key that picks a side.
+  std::string part(int k, const std::string& on, const std::string& key = "") const {
+    const std::vector<std::string>& all = block_parts<D>();
+    const auto side = std::ranges::find(all, on) - all.begin();
+    if (is_nameless(way_.form)) return fmt::format("{}on = \"{}\"\n", key, side + 1);
+    if (!is_surface(way_.form)) return fmt::format("{}on = \"{}\"\n", key, on);
+    const Block<D>& block = stack_.blocks[k];
+    const double at = view_.place(side % 2 ? block.to : block.from)[side / 2];
+    return fmt::format("{}where = \"abs({} - ({:.17g})) < {:.17g}\"\n", key, "xyz"[side / 2], at, 1e-6 * view_.length);
   }
   static std::string along_normal(const std::string& value) {
     return fmt::format("frame = \"normal\"\nvalue = [{}, \"free\"{}]\n", value, D == 3 ? ", \"free\"" : "");
@@ -108,7 +136,7 @@ class StackText {
     const bool all =
         !stack_.only_down && (k + 1 == static_cast<int>(stack_.blocks.size()) || (k == 0 && !stack_.on_plane));
     if (all) return "";  // its top or bottom is held in all directions
-    if (stack_.kind == Kind::files || stack_.kind == Kind::shapes) out += fix(k, "left", along_normal("0"));
+    if (stack_.kind != Kind::symmetric && stack_.kind != Kind::axisymmetric) out += fix(k, "left", along_normal("0"));
     if (D == 3) out += fix(k, "front", along_normal("0"));
     return out;
   }
@@ -117,10 +145,9 @@ class StackText {
     Point<D> foot = stack_.blocks[0].from, up{};
     foot[D - 1] -= stack_.gaps[0];
     up[D - 1] = 1;
-    return fmt::format(
-        "[[obstacle]]\ntype = \"{}\"\n{}body = \"b0\"\non = \"bottom\"\nshape = \"plane\"\npoint = {}\nnormal = {}\n",
-        stack_.friction > 0 ? "coulomb" : "contact", friction(), vector_text(view_.place(foot)),
-        vector_text(view_.direction(up)));
+    return fmt::format("[[obstacle]]\ntype = \"{}\"\n{}body = \"b0\"\n{}shape = \"plane\"\npoint = {}\nnormal = {}\n",
+                       stack_.friction > 0 ? "coulomb" : "contact", friction(), part(0, "bottom"),
+                       vector_text(view_.place(foot)), vector_text(view_.direction(up)));
   }
 
   std::string friction() const {
@@ -129,12 +156,10 @@ class StackText {
 
   std::string pair(int k) const {
     const int low = k - 1, body = way_.swapped ? k : low, other = way_.swapped ? low : k;
-    const auto part = [&](int b) { return b == k ? "bottom" : "top"; };
-    return fmt::format(
-        "[[obstacle]]\ntype = \"{}\"\n{}body = \"{}\"\non = \"{}\"\nother = \"{}\"\nother_on = \"{}\"\nslave = "
-        "\"{}\"\n",
-        stack_.friction > 0 ? "elastic_coulomb" : "elastic", friction(), name(body), part(body), name(other),
-        part(other), way_.slave);
+    const auto facing = [&](int b, const char* key) { return part(b, b == k ? "bottom" : "top", key); };
+    return fmt::format("[[obstacle]]\ntype = \"{}\"\n{}body = \"{}\"\n{}other = \"{}\"\n{}",
+                       stack_.friction > 0 ? "elastic_coulomb" : "elastic", friction(), name(body), facing(body, ""),
+                       name(other), facing(other, "other_"));
   }
 
   const Stack<D>& stack_;

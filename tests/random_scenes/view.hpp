@@ -23,9 +23,10 @@ struct View {
     for (int i = 0; i < D; ++i) out[i][i] = 1;
     return out;
   }
-  /// A turn about no special axis, through no special point.
+  /// A turn about no special axis, through no special point, of the scene or its image in a mirror.
   static View turned(Random& random) {
     View out;
+    if (random.chance(0.5)) out.axes[0][0] = -1;
     for (int i = 0; i < D; ++i)
       for (int j = i + 1; j < D; ++j) {
         const double angle = random.between(-3, 3), c = std::cos(angle), s = std::sin(angle);
@@ -37,6 +38,8 @@ struct View {
     for (double& x : out.origin) x = random.between(-2, 2);
     return out;
   }
+
+  bool is_plain() const { return axes == unit_axes() && origin == Point<D>{}; }
 
   Point<D> direction(const Point<D>& d) const {
     Point<D> out{};
