@@ -43,12 +43,8 @@ NearNullSpace near_null_space(const QpArguments& arguments, int block, Index row
   return block == 2 ? rigid_body_modes<2>(coordinates) : rigid_body_modes<3>(coordinates);
 }
 
-struct Active {
-  Index lower = 0, upper = 0;
-};
-
-Active active(const std::vector<double>& x, const Vectors& vectors) {
-  Active count;
+QpReport::Active active(const std::vector<double>& x, const Vectors& vectors) {
+  QpReport::Active count;
   for (std::size_t i = 0; i < x.size(); ++i) {
     count.lower += !vectors.lower.empty() && x[i] == vectors.lower[i];
     count.upper += !vectors.upper.empty() && x[i] == vectors.upper[i];
@@ -150,10 +146,7 @@ class QpRun {
   }
 
   std::string report_text() const {
-    auto json = to_json(result_.summary);
-    json["block"] = block_;
-    json["active"] = {{"lower", active_.lower}, {"upper", active_.upper}};
-    json["time"] = {{"read", time_.read}, {"setup", time_.setup}, {"solve", time_.solve}, {"total", time_.total}};
+    const auto json = to_json(QpReport{result_.summary, block_, active_, time_});
     return json.dump(2) + '\n';
   }
 
@@ -171,16 +164,14 @@ class QpRun {
   const SolverOptions options_;
   const Console progress_{false};
   Stopwatch watch_, lap_;
-  struct {
-    double read = 0, setup = 0, solve = 0, total = 0;  // seconds
-  } time_;
+  QpReport::Times time_;
   SparseRows matrix_;  // until the set-up
   int block_ = 1;
   Vectors vectors_;
   NearNullSpace near_null_;
   OutputFiles outputs_;
   BlackBox::Result result_;
-  Active active_;
+  QpReport::Active active_;
 };
 
 }  // namespace

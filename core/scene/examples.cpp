@@ -89,7 +89,8 @@ the motion since the last step. An obstacle whose `point`, `center`,
 one step to the next it turns the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape
 `expression` and `surface` do not drag; where an `expression` moves a warning says so.) The report has `slip_nodes` and `stick_nodes` of the nodes in contact, `tangential_force`,
 and `dissipated`, the work of friction since the first step. In `solution.vtu` the field `contact` is 2 where a node slips and
-3 where it sticks. All keys of the report and the columns of `steps.csv` are in [solver.md](solver.md), "Steps". Some things
+3 where it sticks. All keys of the report are in
+[report.md](report.md), the columns of `steps.csv` in [solver.md](solver.md), "Steps". Some things
 to know:
 
 - The bound counts on all picked faces, the field `tangential_traction` goes by the area of those that face the obstacle. At the
