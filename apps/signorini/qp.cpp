@@ -77,6 +77,8 @@ class QpRun {
       print_of_written([this] { print(); });
     else
       print();
+    if (result_.summary.outcome == Outcome::interrupted)
+      throw Error(Exit::interrupted, result_.summary.reason + "; what was asked for is of the last iterate");
     fail_unless_solved(result_.summary.converged(), result_.summary.reason);
   }
 
@@ -91,6 +93,7 @@ class QpRun {
                               matrix_.rows, matrix_.columns));
     vectors_ = read_vectors(arguments_, matrix_.rows);
     block_ = arguments_.block > 0 ? arguments_.block : recognised_block(matrix_);
+    vectors_of_matrix_ = matrix_.rows / block_;
     near_null_ = near_null_space(arguments_, block_, matrix_.rows);
     if (!arguments_.out.empty()) outputs_.add(arguments_.out);
     if (!arguments_.report.empty() && !outputs_.add(arguments_.report))
@@ -124,11 +127,12 @@ class QpRun {
     progress_.phase("solving");
     stop_if_interrupted();
     const auto monitor = [this](const IterationRecord& record) {
+      const bool finest = record.levels.empty() || record.levels.back().vectors == vectors_of_matrix_;
+      if (finest != std::exchange(finest_, finest)) progress_.solving({finest, options_.tolerance});
       progress_.cycle(record);
       return !interrupted();
     };
     result_ = solver.solve(vectors_.load, vectors_.lower, vectors_.upper, vectors_.start, monitor);
-    stop_if_interrupted();
     if (result_.summary.outcome == Outcome::unbounded)
       throw Error(Exit::no_solution, fmt::format("{}: {}", arguments_.matrix.string(), result_.summary.reason));
     time_.setup += result_.summary.setup_seconds;  // levels that waited for the bounds
@@ -141,8 +145,8 @@ class QpRun {
     if (!arguments_.out.empty()) outputs_.write(arguments_.out, matrix_market(result_.x));
     time_.total = watch_.elapsed();
     if (!arguments_.report.empty()) outputs_.write(arguments_.report, report_text());
-    stop_if_interrupted();
     outputs_.commit();
+    progress_.end();
   }
 
   std::string report_text() const {
@@ -151,7 +155,7 @@ class QpRun {
   }
 
   void print() const {
-    print_summary(result_.summary, result_.summary.converged(), result_.summary.reason);
+    print_summary(progress_, result_.summary, result_.summary.converged(), result_.summary.reason);
     if (arguments_.block == 0 && block_ > 1) fmt::print("blocks of {} unknowns, recognised in the matrix\n", block_);
     fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
     fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,
@@ -162,11 +166,13 @@ class QpRun {
 
   const QpArguments& arguments_;
   const SolverOptions options_;
-  const Console progress_{false};
+  const Console progress_{false, Live::tables};
   Stopwatch watch_, lap_;
   QpReport::Times time_;
   SparseRows matrix_;  // until the set-up
   int block_ = 1;
+  Index vectors_of_matrix_ = 0;
+  bool finest_ = false;  // the cycles are on the matrix itself
   Vectors vectors_;
   NearNullSpace near_null_;
   OutputFiles outputs_;
