@@ -89,7 +89,7 @@ constexpr const char* example =
 std::string manual_page(const CLI::App& program) {
   std::string page = fmt::format(
       ".\\\" Written by manual_page(); a test compares. Do not edit.\n"
-      ".TH SIGNORINI 1 \"\" \"signorini {}\" \"User Commands\"\n.SH NAME\nsignorini \\- "
+      ".TH SIGNORINI 1 \"\" \"signorini {}\" \"User Commands\"\n.nh\n.SH NAME\nsignorini \\- "
       "obstacle and contact problems by monotone multigrid\n.SH SYNOPSIS\n",
       version);
   std::string commands;
@@ -99,8 +99,8 @@ std::string manual_page(const CLI::App& program) {
     commands += fmt::format(".SS {}\n{}\n{}{}", escaped(synopsis(*command)), escaped(command->get_description()),
                             options_of(*command), paragraphs(command->get_footer()));
   }
-  page += fmt::format(".SH EXAMPLES\n{}.SH COMMANDS\n{}.SH FILES\n{}.SH ENVIRONMENT\n{}.SH NOTES\n{}", example,
-                      commands, paragraphs(files), paragraphs(environment), paragraphs(program.get_footer()));
+  page += fmt::format(".SH EXAMPLES\n{}.SH COMMANDS\n{}.SH FILES\n{}.SH ENVIRONMENT\n{}", example, commands,
+                      paragraphs(files), paragraphs(environment));
   return page;
 }
 

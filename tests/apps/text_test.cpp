@@ -22,7 +22,7 @@ TEST(Text, GoesOnBelowWhatItSays) {
 
 TEST(Text, WordsAreNotBroken) {
   EXPECT_EQ(fitted("  file    /a/very/long/path/without/spaces and so on", 20),
-            "  file\n          /a/very/long/path/without/spaces\n          and so on");
+            "  file    /a/very/long/path/without/spaces\n          and so on");
 }
 
 TEST(Text, CountsCharactersAndNotBytes) { EXPECT_EQ(fitted("Gauß–Seidel Gauß–Seidel", 23), "Gauß–Seidel Gauß–Seidel"); }
