@@ -52,4 +52,8 @@ if(TARGET signorini)
   file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
   install(TARGETS signorini RUNTIME COMPONENT program)
+  install(FILES apps/signorini/signorini.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES apps/signorini/completion.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME signorini COMPONENT program)
+  install(FILES docs/report.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT program)
 endif()

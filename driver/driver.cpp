@@ -127,13 +127,16 @@ const Report& Driver::solve(const std::function<void()>& done) {
       if (!advance({step, from, scene_.steps.at[step - 1]}, done)) break;
     progress_.stop_if_interrupted();
   } catch (const Error& error) {
-    if (!report_.has_steps() || report_.steps.empty()) throw;
-    if (error.status() != Exit::interrupted) {
+    if (report_.steps.empty() || !(report_.has_steps() || report_.interrupted)) throw;
+    const bool interrupt = error.status() == Exit::interrupted;
+    if (interrupt)
+      report_.interrupted = true;
+    else
       report_.error = error.what();
+    if (!interrupt || !report_.has_steps()) {
       finish();
       throw;
     }
-    report_.interrupted = true;
   }
   finish();
   report_.time.total = watch.elapsed();
@@ -155,11 +158,10 @@ void Driver::begin() {
 /// Where the step fails, in two parts. False where that fails, too, and the steps end.
 bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   const bool whole = by.halvings == 0;
-  if (report_.has_steps())
-    progress_.phase(fmt::format("step {} of {}{}", by.number, report_.planned_steps,
-                                whole ? "" : fmt::format(", its part from t = {} to {}", by.from, by.to)));
+  progress_.step(by, report_.planned_steps);
   std::vector<std::string> warnings = report_.warnings;  // those of what fails are of no use
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
+  if (progress_.is_ended()) return keep_iterate(std::move(report), std::move(warnings));
   const bool stuck = is_stuck(report);
   bool turned = false;
   for (std::size_t body = 0; body < bodies(); ++body) turned = turned || (!stuck && turns_friction(body));
@@ -184,6 +186,17 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   add_step(std::move(report));
   if (done) done();
   return !stuck;
+}
+
+/// Of steps those that were finished are enough. What a single one has come to is worth having: until the work was
+/// ended that was all of it.
+bool Driver::keep_iterate(StepReport report, std::vector<std::string> warnings) {
+  if (report_.has_steps()) progress_.stop_if_interrupted();
+  report_.interrupted = true;
+  warnings.emplace_back("interrupted: these results are those of the last iterate, which is no solution");
+  report_.warnings = std::move(warnings);
+  add_step(std::move(report));
+  return false;
 }
 
 /// Whether a body was not solved that a next step would have to start from.

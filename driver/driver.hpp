@@ -42,7 +42,9 @@ class Driver {
   /// Solves all steps. The first one starts from the last solution where there is one. A step of a body with friction
   /// that fails is solved in parts (docs/scene.md, "[steps]"); where that fails, too, it is the last one in the report,
   /// and the next solve starts from the step before it. Where the work is ended after the first of several steps, by an
-  /// interrupt or by an error, which is thrown, the report has those that were finished, and is marked so.
+  /// interrupt or by an error, which is thrown, the report has those that were finished, and is marked so. An interrupt
+  /// of a single step is thrown, too; where there was an iterate on the finest mesh the report has it, and is marked
+  /// so.
   /// @param done is called after each step or part, when report() and bodies have its results
   const Report& solve(const std::function<void()>& done = {});
   /// Gives the memory of all matrices back, such as before results are written: the next solve assembles them again.
@@ -83,6 +85,7 @@ class Driver {
   void build_bodies();
   void begin();
   bool advance(const LoadStep& by, const std::function<void()>& done);
+  bool keep_iterate(StepReport report, std::vector<std::string> warnings);
   StepReport solve_step(const LoadStep& by, std::vector<std::string>& warnings);
   bool is_stuck(const StepReport& report) const;
   const std::string* veto_against_cutting() const;

@@ -80,7 +80,7 @@ Solution<B> NestedSolver<D, B>::solve_on_meshes(const Model<B>& model) {
   std::vector<Stage> left;
   try {
     first = start_and_solve(model);
-    if (first->summary.outcome == Outcome::converged) return std::move(*first);
+    if (first->summary.outcome == Outcome::converged || progress_.is_ended()) return std::move(*first);
     left = first->summary.stages;
   } catch (const Error& error) {
     if (error.status() == Exit::interrupted) throw;
@@ -96,7 +96,7 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
   if (may_fall_back()) return solve_on_meshes(model);
   Solution<B> first = start_and_solve(model);
-  if (!newton_may_do(first)) return first;
+  if (progress_.is_ended() || !newton_may_do(first)) return first;
   progress_.phase("friction does not come to rest: once more by Newton's method");
   Scene::Solver own = options_;
   own.method = "newton";

@@ -409,6 +409,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     }
   }
   probe_functionals(nodes_[level], model, solution.discretization, solution.x);
+  const bool result = level + 1 == hierarchy_.levels.size() && options.tolerance <= options_.tolerance;
+  progress_.solving({result, options.tolerance, 1 << hierarchy_.finest().mirrors.size()});
   try {
     solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
                                            registry_, monitor_);
@@ -435,7 +437,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   solution.summary.finest_level = static_cast<int>(level - first_);
   times_.setup += solution.summary.setup_seconds;
   times_.solve += solution.summary.solve_seconds;
-  progress_.stop_if_interrupted();
+  if (!result) progress_.stop_if_interrupted();  // else what there is may be kept
   if (solution.summary.outcome == Outcome::unbounded)
     throw Error(Exit::no_solution, fmt::format("{}: {}", model.origin, solution.summary.reason));
 }
@@ -450,7 +452,7 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   if (may_fall_back())
     options.max_iterations = std::min(options.max_iterations, moves ? patience_with_matrix : patience_with_friction);
   solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
-  while (solution.summary.converged() && pair_more(model, solution)) {
+  while (solution.summary.converged() && !progress_.is_ended() && pair_more(model, solution)) {
     std::vector<Stage> before = std::move(solution.summary.stages);
     solve_level(model, hierarchy_.levels.size() - 1, options, nullptr, solution);
     solution.summary.put_in_front(std::move(before));
@@ -537,7 +539,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   pairs_.begin_step(model, u);
   Solution<B> solution = solve_safely(model);
   const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
-  for (int again = 0; !other_ && again < most_slides && solution.summary.converged(); ++again) {
+  for (int again = 0; !other_ && again < most_slides && solution.summary.converged() && !progress_.is_ended();
+       ++again) {
     if (!pairs_.follow(model, displacement())) return solution;
     progress_.phase("bodies have slid past each other, and are paired anew");
     std::vector<Stage> before = std::move(solution.summary.stages);

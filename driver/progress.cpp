@@ -4,7 +4,11 @@
 
 namespace signorini {
 
+void Progress::step(const LoadStep&, int) const {}
+
 void Progress::phase(const std::string&) const {}
+
+void Progress::solving(const Goal&) const {}
 
 void Progress::cycle(const IterationRecord&) const {}
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdio>
 #include <set>
 
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
+#include "apps/signorini/text.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/fem/paired_sides.hpp"
@@ -39,40 +39,41 @@ Offset free_unknowns(const Nodes<D>& nodes, const Model<B>& model) {
 
 template <int D>
 void print_parts(const Mesh<D>& mesh) {
-  fmt::print("parts of the coarsest mesh:\n");
-  for (const Part& part : mesh.parts) fmt::print("  {:<16} {} faces\n", part.name, part.faces.size());
-  fmt::print("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
+  say("parts of the coarsest mesh:\n");
+  for (const Part& part : mesh.parts) say("  {:<16} {} faces\n", part.name, part.faces.size());
+  say("  {:<16} {} faces\n", "boundary", mesh.boundary.size());
 }
 
 void print_symmetry(const std::vector<Mirror>& mirrors) {
   if (mirrors.empty()) return;
-  fmt::print("symmetry: one of {} copies is meshed, beside", 1 << mirrors.size());
-  for (const Mirror& mirror : mirrors) fmt::print(" {}", plane_name(mirror));
-  fmt::print("\n");
+  std::string planes;
+  for (const Mirror& mirror : mirrors) planes += " " + plane_name(mirror);
+  say("symmetry: one of {} copies is meshed, beside{}\n", 1 << mirrors.size(), planes);
 }
 
 void print_geometry(const std::vector<SurfacePiece>& pieces) {
   constexpr std::size_t most = 20;
-  if (!pieces.empty()) fmt::print("geometry of the boundary:\n");
+  if (!pieces.empty()) say("geometry of the boundary:\n");
   for (std::size_t k = 0; k < std::min(most, pieces.size()); ++k) {
     const SurfacePiece& piece = pieces[k];
-    fmt::print("  {:<12} {:>8} faces, {} {:.2g} of its size {:.4g}", piece.kind, piece.faces,
-               piece.center.empty() ? "off the flat faces by" : "vertices off it by", piece.deviation, piece.size);
-    if (!piece.center.empty()) fmt::print(", center [{:.6g}]", fmt::join(piece.center, ", "));
-    if (piece.kind == "cone") fmt::print(", half angle {:.6g}", piece.second);
-    if (!piece.center.empty() && piece.kind != "cone") fmt::print(", radius {:.6g}", piece.radius);
+    std::string line =
+        fmt::format("  {:<12} {:>8} faces, {} {:.2g} of its size {:.4g}", piece.kind, piece.faces,
+                    piece.center.empty() ? "off the flat faces by" : "vertices off it by", piece.deviation, piece.size);
+    if (!piece.center.empty()) line += fmt::format(", center [{:.6g}]", fmt::join(piece.center, ", "));
+    if (piece.kind == "cone") line += fmt::format(", half angle {:.6g}", piece.second);
+    if (!piece.center.empty() && piece.kind != "cone") line += fmt::format(", radius {:.6g}", piece.radius);
     if (piece.center.empty() && piece.second > 0)
-      fmt::print(", angles up to {:.3g} degrees", piece.second * 180 / std::numbers::pi);
-    fmt::print("\n");
+      line += fmt::format(", angles up to {:.3g} degrees", piece.second * 180 / std::numbers::pi);
+    say("{}\n", line);
   }
-  if (pieces.size() > most) fmt::print("  and {} more\n", pieces.size() - most);
+  if (pieces.size() > most) say("  and {} more\n", pieces.size() - most);
 }
 
 /// Of quadratic elements the last line tells their nodes and number.
 template <int D, int B>
 void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& model) {
   const std::vector<Nodes<D>> nodes = nodes_of(hierarchy, order);
-  fmt::print("levels:\n");
+  say("levels:\n");
   for (std::size_t k = 0; k < hierarchy.levels.size(); ++k) {
     const Mesh<D>& mesh = hierarchy.levels[k];
     const bool finest = k + 1 == hierarchy.levels.size();
@@ -84,17 +85,17 @@ void print_levels(const MeshHierarchy<D>& hierarchy, int order, const Model<B>& 
       unknowns += error.what();
     }
     const bool quadratic = nodes[k].order() == 2;
-    fmt::print("  {} {:>10} {} {:>10} {}  {}\n", k, mesh.vertices(), quadratic ? "nodes   " : "vertices",
-               quadratic ? mesh.families.size() : mesh.elements.size(), quadratic ? "quadratic elements" : "elements",
-               unknowns);
+    say("  {} {:>10} {} {:>10} {}  {}\n", k, mesh.vertices(), quadratic ? "nodes   " : "vertices",
+        quadratic ? mesh.families.size() : mesh.elements.size(), quadratic ? "quadratic elements" : "elements",
+        unknowns);
   }
 }
 
 template <int D>
 void print_memory(const MeshHierarchy<D>& hierarchy, int uniform, int order, int block) {
   const HierarchySize size = hierarchy_size(hierarchy.levels.front(), uniform + order - 1);
-  fmt::print("memory: about {:.3g} GB will be needed, {:.3g} GB are available\n",
-             expected_memory(size, block, order == 1 ? 0 : D) / 1e9, available_memory() / 1e9);
+  say("memory: about {:.3g} GB will be needed, {:.3g} GB are available\n",
+      expected_memory(size, block, order == 1 ? 0 : D) / 1e9, available_memory() / 1e9);
 }
 
 /// Unknowns of the pressure of nearly incompressible material.
@@ -118,31 +119,29 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
     candidates[bound.obstacle].insert(bound.vertex);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
-    fmt::print("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k], obstacle.type,
-               candidates[k].size());
+    say("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k], obstacle.type,
+        candidates[k].size());
     if (!obstacle.other.empty())
-      fmt::print("  the slave is {} ({})\n", side_of(obstacle, slaves[k].exchanged), slaves[k].reason);
+      say("  the slave is {} ({})\n", side_of(obstacle, slaves[k].exchanged), slaves[k].reason);
   }
 }
 
 void print_solver(const Scene::Solver& options, std::optional<Coarsening> below, bool meshes, int block,
                   Offset unknowns, bool cycles_only) {
   const bool aggregates = below == Coarsening::aggregation;
-  fmt::print("solver: method {}\n",
-             options.method == "auto"
-                 ? "auto: " + automatic::describe(options, aggregates, block, unknowns, cycles_only)
-                 : options.method);
+  say("solver: method {}\n", options.method == "auto"
+                                 ? "auto: " + automatic::describe(options, aggregates, block, unknowns, cycles_only)
+                                 : options.method);
   if (options.method == "pdas" || options.method == "newton") return;
   if (options.method == "pgs") {
-    fmt::print("        smoother {}, on the finest mesh only\n", options.smoother);
+    say("        smoother {}, on the finest mesh only\n", options.smoother);
     return;
   }
-  fmt::print("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle,
-             options.pre, options.post, options.smoother, options.coarse);
+  say("        {}-cycle, {} smoothing steps before and {} after, smoother {}, coarse {}\n", options.cycle, options.pre,
+      options.post, options.smoother, options.coarse);
   if (below)
-    fmt::print("        levels below the {} by {}\n",
-               meshes ? "coarsest mesh" : "finest mesh, without the coarser ones,",
-               aggregates ? "aggregation, aggregates " + options.aggregates : "classical coarsening");
+    say("        levels below the {} by {}\n", meshes ? "coarsest mesh" : "finest mesh, without the coarser ones,",
+        aggregates ? "aggregation, aggregates " + options.aggregates : "classical coarsening");
 }
 
 /// What is wrong somewhere in the body or with the obstacles shows in the discrete problems only. Returns the last
@@ -195,12 +194,11 @@ void check(Scene& scene, const Registry& registry, std::size_t body) {
   print_symmetry(hierarchy.finest().mirrors);
   print_parts(hierarchy.levels.front());
   print_geometry(hierarchy.levels.front().pieces);
-  fmt::print("elements: {}\n", elements_text(order, scene.bodies[body].order_chosen));
+  say("elements: {}\n", elements_text(order, scene.bodies[body].order_chosen));
   print_levels(hierarchy, order, model);
   print_memory(hierarchy, scene.refine.uniform, order, B);
   const Index pressures = pressure_unknowns(nodes, model);
-  if (pressures > 0)
-    fmt::print("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
+  if (pressures > 0) say("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
   print_contacts(nodes, scene, scene.bodies[body], model, slaves);
   const Scene::Solver options = solver_options(scene, scene.bodies[body]);
   const std::size_t first = first_mesh(hierarchy, options, B, order);
@@ -221,14 +219,13 @@ void check_command(const std::filesystem::path& file, const std::vector<std::str
   Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
-  fmt::print("{}: {}\ndimension: {}\n", file.string(), scene.title, dimension_of(scene));
-  for (const auto& plugin : plugins) fmt::print("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
+  say("{}: {}\ndimension: {}\n", file.string(), scene.title, dimension_of(scene));
+  for (const auto& plugin : plugins) say("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
   scene.dimension = dimension_of(scene);
   scene = with_touching_bodies(scene);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
-    if (scene.bodies.size() > 1) fmt::print("body '{}'\n", scene.bodies[body].name);
-    fmt::print("equation: {}\n",
-               scene.bodies[body].equation == Scene::Equation::diffusion ? "diffusion" : "elasticity");
+    if (scene.bodies.size() > 1) say("body '{}'\n", scene.bodies[body].name);
+    say("equation: {}\n", scene.bodies[body].equation == Scene::Equation::diffusion ? "diffusion" : "elasticity");
     dispatch(
         scene, [&]<int D, int B>() { check<D, B>(scene, registry, body); }, body);
   }

@@ -40,4 +40,10 @@ void list_command(const std::string& kinds);
 /// What `signorini list` can be asked for.
 const std::vector<std::string>& listable_kinds();
 
+/// `signorini help`.
+struct HelpArguments {
+  std::string name;  ///< of a command, a table or a key; empty: the program
+  bool manual = false;
+};
+
 }  // namespace signorini

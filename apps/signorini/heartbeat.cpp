@@ -1,7 +1,5 @@
 #include "apps/signorini/heartbeat.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 #include <utility>
 
@@ -9,18 +7,13 @@
 
 namespace signorini {
 
-void Silence::phase(const std::string& what, double now) {
-  what_ = what;
-  since_ = now;
-}
-
-std::optional<std::string> Silence::line(double now) {
-  if (now < ends()) return {};
+bool Silence::is_broken(double now) {
+  if (now < ends()) return false;
   spoke_ = now;
-  return fmt::format("{}: {:.0f} s so far", what_, now - since_);
+  return true;
 }
 
-Heartbeat::Heartbeat(double longest, std::function<void(const std::string&)> say)
+Heartbeat::Heartbeat(double longest, std::function<void()> say)
     : say_(std::move(say)), silence_(longest, seconds()), thread_([this] { beat(); }) {}
 
 Heartbeat::~Heartbeat() {
@@ -32,12 +25,9 @@ Heartbeat::~Heartbeat() {
   thread_.join();
 }
 
-void Heartbeat::begin(const std::string& what, const std::function<void()>& print) {
+void Heartbeat::note(const std::function<void()>& change) {
   const std::lock_guard lock(mutex_);
-  silence_.phase(what, seconds());
-  if (!print) return;
-  print();
-  silence_.spoke(seconds());
+  change();
 }
 
 void Heartbeat::speak(const std::function<void()>& print) {
@@ -51,7 +41,7 @@ void Heartbeat::beat() {
   while (!over_) {
     changed_.wait_for(lock, std::chrono::duration<double>(silence_.ends() - seconds()));
     if (over_) return;
-    if (const auto line = silence_.line(seconds())) say_(*line);
+    if (silence_.is_broken(seconds())) say_();
   }
 }
 

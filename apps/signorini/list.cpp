@@ -1,20 +1,21 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
+#include <string_view>
 
 #include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
+#include "apps/signorini/option_text.hpp"
+#include "apps/signorini/text.hpp"
 #include "core/component/companion.hpp"
 #include "core/component/libraries.hpp"
 #include "core/component/plugin_loader.hpp"
+#include "core/scene/key_page.hpp"
 #include "core/scene/solver_keys.hpp"
 #include "driver/components.hpp"
 
 namespace signorini {
-namespace {
 
 const char* type_name(OptionType type) {
   switch (type) {
@@ -34,23 +35,29 @@ const char* type_name(OptionType type) {
   return "";
 }
 
-/// Of an option of a component, or a key of a scene.
+namespace {
+
+/// Of an option of a component, or a key of a scene: where its choices are explained they have a line each.
 template <class Spec>
 void print_option(const Spec& option) {
-  std::string type = type_name(option.type);
-  if (*option.range) type += fmt::format(" in {}", option.range);
-  if (*option.fallback) type += fmt::format(", default {}", option.fallback);
-  fmt::print("      {:<14} {} ({})\n", option.name, option.help, type);
+  std::string text = with_choices_on_lines(option.help, option.range);
+  text += fmt::format("{}({})", text.find('\n') == std::string::npos ? ' ' : '\n', option_kind(option));
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at) text.insert(at + 1, 22, ' ');
+  say("      {:<14}  {}\n", option.name, text);
 }
+
+/// Of the keys of [solver] those that are changed most often.
+constexpr std::string_view first_keys[] = {"tolerance", "max_iterations", "method", "threads",  "cycle",
+                                           "pre",       "post",           "coarse", "smoother", "krylov"};
 
 std::string told(const std::string& licence) { return licence.empty() ? "the library does not say" : licence; }
 
 void print_entry(const Entry& entry) {
-  fmt::print("  {:<16} {}\n", entry.id, entry.help);
+  say("  {:<16}  {}\n", entry.id, entry.help);
   for (const OptionSpec& option : entry.options) print_option(option);
-  fmt::print("      from {}{}{}\n", entry.file, entry.version.empty() ? "" : ", version ", entry.version);
-  if (entry.kind == "obstacle") fmt::print("      licence: {}\n", told(licence_of(entry.file)));
-  if (!entry.optimised) fmt::print("      compiled without optimisation: solves take several times as long\n");
+  say("      from {}{}{}\n", entry.file, entry.version.empty() ? "" : ", version ", entry.version);
+  if (entry.kind == "obstacle") say("      licence: {}\n", told(licence_of(entry.file)));
+  if (!entry.optimised) say("      compiled without optimisation: solves take several times as long\n");
 }
 
 struct Kind {
@@ -68,37 +75,41 @@ constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},
                                 {"estimators", "estimator"}};
 
 void print_kind(const Kind& kind, const Catalogue& all) {
-  fmt::print("{}\n", kind.plural);
+  say("{}\n", kind.plural);
   bool none = true;
   for (const Entry& entry : all.entries)
     if (entry.kind == kind.kind) {
       print_entry(entry);
       none = false;
     }
-  if (none) fmt::print("  none in this version\n");
+  if (none) say("  none in this version\n");
 }
 constexpr const char* solver = "solver";  // no component: what puts the components together
 constexpr const char* libraries = "libraries";
 
 /// What the program consists of beside plugins, and under which licences.
 void print_libraries() {
-  fmt::print("{}\n", libraries);
+  say("{}\n", libraries);
   const Library core = loaded_libraries().front();
-  fmt::print("  {:<16} everything else\n      from {}\n      licence: {}\n", "core", core.file, core.licence);
+  say("  {:<16}  everything else\n      from {}\n      licence: {}\n", "core", core.file, core.licence);
   for (const Companion& companion : companions) {
     const std::string file = path_of(companion).string(), why = why_missing(companion);
     std::error_code ignored;
-    fmt::print("  {:<16} {}, with {}, loaded where it is needed\n", companion.name, companion.what, companion.of);
+    say("  {:<16}  {}, with {}, loaded where it is needed\n", companion.name, companion.what, companion.of);
     if (std::filesystem::exists(file, ignored))
-      fmt::print("      from {}\n      licence: {}\n", file, companion.licence);
+      say("      from {}\n      licence: {}\n", file, companion.licence);
     else
-      fmt::print("      not there: {}\n", why.empty() ? file : why);
+      say("      not there: {}\n", why.empty() ? file : why);
   }
 }
 
 void print_solver() {
-  fmt::print("{}\n  {:<16} {}\n", solver, "[solver]", "keys of the scene's table, --set solver.KEY=VALUE");
-  for (const KeySpec& key : solver_keys()) print_option(key);
+  say("{}\n  {:<16}  {}\n", solver, "[solver]",
+      "keys of the scene's table, --set solver.KEY=VALUE; `signorini help KEY` has a page on each");
+  for (const std::string_view name : first_keys) print_option(*find_key(solver_keys(), name));
+  say("    and those that are changed more seldom:\n");
+  for (const KeySpec& key : solver_keys())
+    if (std::ranges::find(first_keys, key.name) == std::end(first_keys)) print_option(key);
 }
 }  // namespace
 
@@ -121,7 +132,7 @@ void list_command(const std::string& kinds) {
     if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);
   if (kinds.empty() || kinds == libraries) print_libraries();
   if (!kinds.empty() && kinds != "obstacles") return;
-  for (const auto& rejected : all.rejected) fmt::print("rejected: {}\n  {}\n", rejected.file, rejected.reason);
+  for (const auto& rejected : all.rejected) say("rejected: {}\n  {}\n", rejected.file, rejected.reason);
 }
 
 }  // namespace signorini

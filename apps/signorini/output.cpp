@@ -143,7 +143,8 @@ void SolutionFiles::add(const Nodes<D>& nodes, const std::vector<VtuField>& fiel
   several_ = bodies_ > 1 || report.has_steps();
   const std::string step = report.has_steps() ? fmt::format("_{:03}", steps() + 1) : "";
   const std::string name = "solution" + body_suffix(body, bodies_) + step + ".vtu";
-  write_vtu(files_.stage(name), nodes.mesh(), fields, {}, packing, nodes.order());
+  const bool solved = report.last().summary.converged() && !(report.interrupted && !report.has_steps());
+  write_vtu(files_.stage(name), nodes.mesh(), fields, {}, packing, nodes.order(), {{"converged", solved}});
   entries_.push_back({report.last().t, name, static_cast<int>(body)});
 }
 

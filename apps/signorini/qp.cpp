@@ -44,12 +44,8 @@ NearNullSpace near_null_space(const QpArguments& arguments, int block, Index row
   return block == 2 ? rigid_body_modes<2>(coordinates) : rigid_body_modes<3>(coordinates);
 }
 
-struct Active {
-  Index lower = 0, upper = 0;
-};
-
-Active active(const std::vector<double>& x, const Vectors& vectors) {
-  Active count;
+QpReport::Active active(const std::vector<double>& x, const Vectors& vectors) {
+  QpReport::Active count;
   for (std::size_t i = 0; i < x.size(); ++i) {
     count.lower += !vectors.lower.empty() && x[i] == vectors.lower[i];
     count.upper += !vectors.upper.empty() && x[i] == vectors.upper[i];
@@ -82,6 +78,8 @@ class QpRun {
       print_of_written([this] { print(); });
     else
       print();
+    if (result_.summary.outcome == Outcome::interrupted)
+      throw Error(Exit::interrupted, result_.summary.reason + "; what was asked for is of the last iterate");
     fail_unless_solved(result_.summary.converged(), result_.summary.reason);
   }
 
@@ -96,6 +94,7 @@ class QpRun {
                               matrix_.rows, matrix_.columns));
     vectors_ = read_vectors(arguments_, matrix_.rows);
     block_ = arguments_.block > 0 ? arguments_.block : recognised_block(matrix_);
+    vectors_of_matrix_ = matrix_.rows / block_;
     near_null_ = near_null_space(arguments_, block_, matrix_.rows);
     if (!arguments_.out.empty()) outputs_.add(arguments_.out);
     if (!arguments_.report.empty() && !outputs_.add(arguments_.report))
@@ -129,11 +128,12 @@ class QpRun {
     progress_.phase("solving");
     stop_if_interrupted();
     const auto monitor = [this](const IterationRecord& record) {
+      const bool finest = record.levels.empty() || record.levels.back().vectors == vectors_of_matrix_;
+      if (finest != std::exchange(finest_, finest)) progress_.solving({finest, options_.tolerance});
       progress_.cycle(record);
       return !interrupted();
     };
     result_ = solver.solve(vectors_.load, vectors_.lower, vectors_.upper, vectors_.start, monitor);
-    stop_if_interrupted();
     if (result_.summary.outcome == Outcome::unbounded)
       throw Error(Exit::no_solution, fmt::format("{}: {}", arguments_.matrix.string(), result_.summary.reason));
     time_.setup += result_.summary.setup_seconds;  // levels that waited for the bounds
@@ -146,20 +146,17 @@ class QpRun {
     if (!arguments_.out.empty()) outputs_.write(arguments_.out, matrix_market(result_.x));
     time_.total = watch_.elapsed();
     if (!arguments_.report.empty()) outputs_.write(arguments_.report, report_text());
-    stop_if_interrupted();
     outputs_.commit();
+    progress_.end();
   }
 
   std::string report_text() const {
-    auto json = to_json(result_.summary);
-    json["block"] = block_;
-    json["active"] = {{"lower", active_.lower}, {"upper", active_.upper}};
-    json["time"] = {{"read", time_.read}, {"setup", time_.setup}, {"solve", time_.solve}, {"total", time_.total}};
+    const auto json = to_json(QpReport{result_.summary, block_, active_, time_});
     return json.dump(2) + '\n';
   }
 
   void print() const {
-    print_summary(result_.summary, result_.summary.converged(), result_.summary.reason);
+    print_summary(progress_, result_.summary, result_.summary.converged(), result_.summary.reason);
     if (arguments_.block == 0 && block_ > 1) fmt::print("blocks of {} unknowns, recognised in the matrix\n", block_);
     fmt::print("{} unknowns at lower, {} at upper bounds\n", active_.lower, active_.upper);
     fmt::print("seconds: read {:.2f}, setup {:.2f}, solve {:.2f}, total {:.2f}; {:.0f} MB\n", time_.read, time_.setup,
@@ -170,18 +167,18 @@ class QpRun {
 
   const QpArguments& arguments_;
   const SolverOptions options_;
-  const Console progress_{false};
+  const Console progress_{false, Live::tables};
   Stopwatch watch_, lap_;
-  struct {
-    double read = 0, setup = 0, solve = 0, total = 0;  // seconds
-  } time_;
+  QpReport::Times time_;
   SparseRows matrix_;  // until the set-up
   int block_ = 1;
+  Index vectors_of_matrix_ = 0;
+  bool finest_ = false;  // the cycles are on the matrix itself
   Vectors vectors_;
   NearNullSpace near_null_;
   OutputFiles outputs_;
   BlackBox::Result result_;
-  Active active_;
+  QpReport::Active active_;
 };
 
 }  // namespace

@@ -129,11 +129,11 @@ void print_steps(const Report& report) {
              report.failed.empty() ? "" : fmt::format("; {} more failed and were cut in two", report.failed.size()));
 }
 
-void print_result(const Report& report, const std::vector<std::filesystem::path>& written) {
+void print_result(const Console& console, const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
-  fmt::print("{}\n", report.title);
+  console.print_title();
   print_steps(report);
-  print_summary(last.summary, report.converged(), report.reason());
+  print_summary(console, last.summary, report.converged(), report.reason());
   for (const BodyReport& body : last.bodies)
     fmt::print("elements{}: {}\n", last.bodies.size() > 1 ? fmt::format(" of {}", body.name) : "",
                elements_text(body.order, body.order_chosen));
@@ -146,46 +146,82 @@ void print_result(const Report& report, const std::vector<std::filesystem::path>
   for (const auto& file : written) fmt::print("wrote {}\n", file.string());
 }
 /// "2 of 4 steps were finished and are written"
-std::string finished_steps(const Scene& scene, const Report& report) {
+std::string what_is_written(const Scene& scene, const Report& report) {
+  if (!report.has_steps()) return "the last iterate is written, marked \"converged\": false";
   const StepReport& last = report.last();
   const bool within = last.t < scene.steps.at[last.step - 1];
   return fmt::format("{} of {} steps were finished and are written{}", last.step - within, report.planned_steps,
                      within ? ", and a part of the next" : "");
 }
 
-/// The error that ended the steps after the first of them, if any.
-std::optional<Error> solve_steps(Driver& driver, ResultFiles& results) {
-  try {
-    driver.solve([&] { results.add_step(); });
-  } catch (const Error& error) {
-    if (driver.report().error.empty()) throw;
-    return error;
+/// Of the steps that are finished.
+class StepsTable {
+ public:
+  explicit StepsTable(const Console& console) : console_(console) {}
+
+  void add(const Report& report) {
+    if (!report.has_steps()) return;
+    if (!std::exchange(begun_, true))
+      console_.print_row(fmt::format("{:>9} {:>10} {:>10} {:>11} {:>8} {:>9}", "step", "t", "iterations", "residual",
+                                     "contact", "seconds"));
+    const StepReport& step = report.last();
+    Index nodes = 0;
+    for (const ContactReport& contact : step.contact) nodes += contact.nodes;
+    console_.print_row(fmt::format("{:>4} of {:<2} {:>10.6g} {:>10} {:>11.3e} {:>8} {:>9.1f}", step.step,
+                                   report.planned_steps, step.t, step.summary.iterations, step.summary.residual, nodes,
+                                   lap_.lap()));
   }
-  if (!driver.report().interrupted) return {};
-  return Error(Exit::interrupted, "interrupted");
+
+ private:
+  const Console& console_;
+  Stopwatch lap_;
+  bool begun_ = false;
+};
+
+/// The error that ended the steps after the first of them, or a single one at an iterate, if any.
+std::optional<Error> solve_steps(Driver& driver, StepsTable table, ResultFiles& results) {
+  const Report& report = driver.report();
+  try {
+    driver.solve([&] {
+      table.add(report);
+      results.add_step();
+    });
+  } catch (const Error& error) {
+    if (report.error.empty() && !report.interrupted) throw;
+    if (!report.interrupted) return error;
+  }
+  if (!report.interrupted) return {};
+  const Summary& last = report.last().summary;
+  return Error(Exit::interrupted, last.outcome == Outcome::interrupted ? last.reason : "interrupted");
+}
+
+/// Bodies that are solved one after the other, or in turns, have one table in the end.
+Live live(const Scene& scene) {
+  const bool one = with_touching_bodies(scene).bodies.size() == 1 && scene.solver.bodies != "dirichlet-neumann";
+  return one || scene.steps.count() > 1 ? Live::tables : Live::nothing;
 }
 }  // namespace
 
 void solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
-  const Console progress(arguments.quiet);
+  const Console progress(arguments.quiet, live(scene), scene.title);
   Driver driver(scene, progress);
   AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
                     inputs(scene));
   ResultFiles results(driver, files);
-  const std::optional<Error> ended = solve_steps(driver, results);
+  const std::optional<Error> ended = solve_steps(driver, StepsTable(progress), results);
   progress.phase("writing");
   results.finish();
   Report& report = driver.report();
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
   write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
-  if (!report.has_steps()) progress.stop_if_interrupted();
   const auto written = files.commit();
-  if (ended) throw Error(ended->status(), fmt::format("{}; {}", ended->what(), finished_steps(scene, report)));
+  progress.end();
+  if (ended) throw Error(ended->status(), fmt::format("{}; {}", ended->what(), what_is_written(scene, report)));
   if (!arguments.quiet) {
-    print_of_written([&] { print_result(report, written); });
+    print_of_written([&] { print_result(progress, report, written); });
     print_warnings(report.warnings);
   }
   fail_unless_solved(report.converged(), report.reason());

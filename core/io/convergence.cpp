@@ -4,14 +4,18 @@
 
 namespace signorini {
 
+std::string convergence_heading() {
+  return fmt::format("{:>9} {:>11} {:>11} {:>18} {:>8} {:>8}", "iteration", "residual", "error", "energy", "contact",
+                     "changed");
+}
+
 std::string convergence_row(const IterationRecord& record) {
   return fmt::format("{:9} {:11.3e} {:11.3e} {:18.10e} {:8} {:8}", record.iteration, record.residual,
                      record.algebraic_error, record.energy, record.contact_nodes, record.changed);
 }
 
 std::string convergence_table(const std::vector<IterationRecord>& history) {
-  std::string table = fmt::format("{:>9} {:>11} {:>11} {:>18} {:>8} {:>8}\n", "iteration", "residual", "error",
-                                  "energy", "contact", "changed");
+  std::string table = convergence_heading() + '\n';
   for (const IterationRecord& record : history) table += convergence_row(record) + '\n';
   return table;
 }

@@ -9,7 +9,8 @@ namespace signorini {
 /// The history of a solve as aligned columns for people, with a heading.
 std::string convergence_table(const std::vector<IterationRecord>& history);
 
-/// One row of that table without a line break, for progress.
+/// Its heading and a row of it, without a line break.
+std::string convergence_heading();
 std::string convergence_row(const IterationRecord& record);
 
 /// The histories of all steps as comma-separated values in full precision, with a heading.

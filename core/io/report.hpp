@@ -132,7 +132,7 @@ struct GeometryReport {
   Index straightened = 0;  ///< see MeshHierarchy
 };
 
-/// Everything `report.json` says.
+/// Everything `report.json` says. The tables in report_rows.cpp know its keys.
 struct Report {
   std::string scene, title;
   int dimension = 0;
@@ -145,8 +145,10 @@ struct Report {
   std::vector<GeometryReport> geometry;  ///< of bodies from mesh files
   Times time;
   double peak_memory_mb = 0;
-  bool interrupted = false;  ///< before the last step; those that were finished are there
-  std::string error;         ///< the same, by an error: its message. Empty: none
+  /// Before the last step was solved. Those that were finished are there; of a single one the last iterate, if there is
+  /// one on the finest mesh.
+  bool interrupted = false;
+  std::string error;  ///< the same, by an error: its message. Empty: none
 
   /// Whether there are several steps, or were to be: of the scene or parts of its only one.
   bool has_steps() const { return planned_steps > 1 || !failed.empty(); }
@@ -156,10 +158,22 @@ struct Report {
   std::string reason() const;
 };
 
-/// One solve alone, with the keys that a report has for it.
-nlohmann::ordered_json to_json(const Summary& summary);
+/// One solve of a matrix and bounds alone.
+struct QpReport {
+  struct Active {
+    Index lower = 0, upper = 0;  ///< unknowns at these bounds
+  };
+  struct Times {
+    double read = 0, setup = 0, solve = 0, total = 0;  ///< seconds
+  };
+  Summary summary;
+  int block = 1;
+  Active active;
+  Times time;
+};
 
-/// The keys that are promised to users, in full precision; a number that is not finite becomes null.
+/// The keys that are promised to users (docs/report.md), in full precision; a number that is not finite becomes null.
 nlohmann::ordered_json to_json(const Report& report);
+nlohmann::ordered_json to_json(const QpReport& report);
 
 }  // namespace signorini

@@ -109,6 +109,14 @@ std::string describe(Arrays& arrays, const std::vector<VtuField>& fields, [[mayb
   return xml;
 }
 
+std::string describe(const std::vector<VtuMark>& marks) {
+  std::string xml;
+  for (const VtuMark& mark : marks)
+    xml += fmt::format("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
+                       escaped(mark.name), mark.value);
+  return xml.empty() ? xml : fmt::format("<FieldData>\n{}</FieldData>\n", xml);
+}
+
 /// Where each element's vertices end.
 template <class T>
 std::vector<T> offsets(std::size_t elements, T vertices) {
@@ -164,7 +172,8 @@ std::vector<double> coordinates(const Mesh<D>& mesh) {
 
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields, const VtuPacking& packing, int order) {
+               const std::vector<VtuField>& cell_fields, const VtuPacking& packing, int order,
+               const std::vector<VtuMark>& marks) {
   const std::size_t count = order == 1 ? mesh.elements.size() : mesh.families.size();
   Arrays arrays(packing);
   const std::string points = arrays.add<double>("Float64", "Points", 3, coordinates(mesh));
@@ -174,12 +183,12 @@ void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std
   write_file(path, [&](std::ostream& out) {
     out << fmt::format(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece "
+        "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n{}<Piece "
         "NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
         "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n<Points>\n{}</Points>\n<Cells>\n{}</Cells>\n"
         "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_",
-        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", mesh.points.size(), count,
-        point_data, cell_data, points, cells);
+        std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian", describe(marks), mesh.points.size(),
+        count, point_data, cell_data, points, cells);
     arrays.write(out);
     out << "\n</AppendedData>\n</VTKFile>\n";
   });
@@ -196,8 +205,8 @@ void write_pvd(const std::filesystem::path& path, const std::vector<PvdEntry>& e
 }
 
 template void write_vtu(const std::filesystem::path&, const Mesh<2>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, const VtuPacking&, int);
+                        const std::vector<VtuField>&, const VtuPacking&, int, const std::vector<VtuMark>&);
 template void write_vtu(const std::filesystem::path&, const Mesh<3>&, const std::vector<VtuField>&,
-                        const std::vector<VtuField>&, const VtuPacking&, int);
+                        const std::vector<VtuField>&, const VtuPacking&, int, const std::vector<VtuMark>&);
 
 }  // namespace signorini

@@ -15,6 +15,11 @@ struct VtuField {
   std::vector<double> values;
 };
 
+struct VtuMark {
+  std::string name;
+  int value;
+};
+
 /// How a file is packed.
 struct VtuPacking {
   double worthwhile = 0.6;  ///< see pack_vtu()
@@ -22,12 +27,13 @@ struct VtuPacking {
 };
 
 /// Writes a VTK unstructured grid with binary data (appended raw, packed by zlib). With order 2 the cells are quadratic
-/// triangles or tetrahedra, one for each family of the mesh (see Nodes), and cell fields are theirs. The file appears
-/// under its name when it is complete, and does not depend on the number of threads. Error(Exit::input) if it cannot be
-/// written.
+/// triangles or tetrahedra, one for each family of the mesh (see Nodes), and cell fields are theirs. Marks are numbers
+/// of the whole, by name, as VTK's field data. The file appears under its name when it is complete, and does not depend
+/// on the number of threads. Error(Exit::input) if it cannot be written.
 template <int D>
 void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std::vector<VtuField>& point_fields,
-               const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {}, int order = 1);
+               const std::vector<VtuField>& cell_fields = {}, const VtuPacking& packing = {}, int order = 1,
+               const std::vector<VtuMark>& marks = {});
 
 /// One entry of a collection: a file, relative to the folder of the collection, the time it belongs to, and its number
 /// among those of that time.

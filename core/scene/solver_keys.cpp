@@ -112,6 +112,14 @@ std::span<const char* const> solver_keys_of_scenes() {
   return names;
 }
 
+const char* more_about(std::string_view key) {
+  for (const auto& row : option_table())
+    if (row.name == key) return row.more;
+  for (const auto& row : of_scenes)
+    if (row.name == key) return row.more;
+  return "";
+}
+
 std::string solver_options_page() {
   std::string text = "| key | default | range | meaning |\n| --- | --- | --- | --- |\n";
   const auto add = [&](const KeySpec& key, const char* more) {

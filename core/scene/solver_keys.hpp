@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/scene/scene.hpp"
 #include "core/scene/specs.hpp"
@@ -13,6 +14,9 @@ std::span<const KeySpec> solver_keys();
 
 /// The names of the latter, which need meshes.
 std::span<const char* const> solver_keys_of_scenes();
+
+/// What docs/solver_options.md adds to one of them, in sentences; "" for nothing.
+const char* more_about(std::string_view key);
 
 /// The same as the table of docs/solver_options.md, in Markdown.
 std::string solver_options_page();

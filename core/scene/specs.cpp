@@ -246,12 +246,15 @@ const ShapeSpec* find_shape(std::span<const ShapeSpec> all, std::string_view nam
 std::vector<std::string> names_of(std::span<const KeySpec> keys) { return names(keys); }
 std::vector<std::string> names_of(std::span<const ShapeSpec> all) { return names(all); }
 
+std::span<const ShapeSpec> shapes_of(const TableSpec& table) {
+  if (std::string_view(table.name) == "body") return body_shapes();
+  if (std::string_view(table.name) == "obstacle") return obstacle_shapes();
+  return {};
+}
+
 std::vector<std::string> all_names(const TableSpec& table) {
   std::vector<std::string> all = names_of(table.keys);
-  std::span<const ShapeSpec> further;
-  if (std::string_view(table.name) == "body") further = body_shapes();
-  if (std::string_view(table.name) == "obstacle") further = obstacle_shapes();
-  for (const ShapeSpec& shape : further)
+  for (const ShapeSpec& shape : shapes_of(table))
     for (const KeySpec& key : shape.keys) all.push_back(key.name);
   return all;
 }

@@ -60,6 +60,9 @@ std::span<const TableSpec> table_specs();
 std::span<const ShapeSpec> body_shapes();
 std::span<const ShapeSpec> obstacle_shapes();
 
+/// Of bodies or of obstacles; none in other tables.
+std::span<const ShapeSpec> shapes_of(const TableSpec& table);
+
 const TableSpec* find_table(std::string_view name);
 const KeySpec* find_key(std::span<const KeySpec> keys, std::string_view name);
 const ShapeSpec* find_shape(std::span<const ShapeSpec> shapes, std::string_view name);

@@ -68,7 +68,11 @@ bool Iteration<B>::step(const Monitor& monitor) {
   if (finished(gaining, exact)) return true;
   if (!bounded && !rests_at_rounding())
     return end(Outcome::unbounded, "the energy is unbounded below: nothing holds the body against the loads");
-  if (!go_on) return end(Outcome::interrupted, "interrupted");
+  if (!go_on)
+    return end(
+        Outcome::interrupted,
+        fmt::format("interrupted after {} iterations: residual {:.3e}, algebraic error {:.3e}, tolerance {:.3e}",
+                    before_ + summary_.iterations, summary_.residual, summary_.algebraic_error, options_.tolerance));
   if (!stuck.empty()) return end(Outcome::stuck, stuck);
   if (before_ + summary_.iterations >= options_.max_iterations)
     return end(Outcome::iteration_limit,

@@ -16,6 +16,26 @@ using testing::StartsWith;
 
 class CommandLine : public Program {};
 
+/// What a terminal shows in the end of what was written to it.
+std::string shown(const std::string& written) {
+  const std::string erase = "\r\x1b[K";
+  std::string screen;
+  for (std::size_t at = 0; at < written.size(); ++at)
+    if (written.compare(at, erase.size(), erase) == 0) {
+      screen.erase(screen.rfind('\n') + 1);
+      at += erase.size() - 1;
+    } else {
+      screen += written[at];
+    }
+  return screen;
+}
+
+/// Rows of convergence tables: a number, three in exponential form, two more.
+std::ptrdiff_t count_rows(const std::string& text) {
+  static const std::regex row(R"(\d+ +\d\.\d+e\S+ +\d\.\d+e\S+ +-?\d\.\d+e\S+ +\d+ +\d+)");
+  return std::distance(std::sregex_iterator(text.begin(), text.end(), row), std::sregex_iterator());
+}
+
 TEST_F(CommandLine, HelpNamesAllCommandsAndEndsWell) {
   const Ended ended = signorini({"--help"});
   EXPECT_EQ(ended.status, 0);
@@ -94,7 +114,7 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   EXPECT_THAT(smoothers.out, testing::Not(HasSubstr("contact")));
   EXPECT_THAT(
       signorini({"list", "solver"}).out,
-      AllOf(HasSubstr("krylov         accelerate the cycles while the phases rest (true or false, default true)"),
+      AllOf(HasSubstr("krylov          accelerate the cycles while the phases rest (true or false, default true)"),
             HasSubstr("(text in V | W | F, default V)"), HasSubstr("whole number in [1, 1000000], default 200")));
   const Ended amg = signorini({"list", "amg"});
   for (const char* text : {"classical ", "aggregation ", "(text in auto | classical | aggregation, default auto)",
@@ -109,6 +129,87 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   EXPECT_THAT(signorini({"list", "obstacles"}).out, HasSubstr("licence: BSD-3-Clause"));
   EXPECT_THAT(signorini({"list", "aggregates"}).out, AllOf(HasSubstr("greedy "), HasSubstr("metis ")));
   EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
+}
+
+std::size_t longest_line(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+// But for names of files, which have no spaces.
+TEST_F(CommandLine, TextFitsTheTerminalAndEightyColumnsElsewhere) {
+  write("punch.toml", punch);
+  const std::vector<std::vector<std::string>> all{
+      {"--help"},      {"solve", "--help"},       {"qp", "--help"},     {"list", "--help"},     {"list", "solver"},
+      {"list", "amg"}, {"help", "solver.method"}, {"help", "obstacle"}, {"check", "punch.toml"}};
+  for (const auto& [columns, width] : {std::pair("", 80u), std::pair("60", 60u), std::pair("132", 132u)}) {
+    columns_ = columns;
+    for (const auto& arguments : all) {
+      const Ended ended = signorini(arguments);
+      EXPECT_EQ(ended.status, 0) << ended.err;
+      const std::string text = std::regex_replace(ended.out, std::regex("/\\S+"), "/");
+      EXPECT_LE(longest_line(text), width) << testing::PrintToString(arguments) << "\n" << ended.out;
+    }
+  }
+}
+
+TEST_F(CommandLine, ListBeginsWithTheKeysThatMatter) {
+  const std::string out = signorini({"list", "solver"}).out;
+  const auto at = [&](const char* key) { return out.find(std::string("\n      ") + key + ' '); };
+  for (const char* first :
+       {"tolerance", "max_iterations", "method", "threads", "cycle", "pre", "post", "coarse", "smoother", "krylov"})
+    for (const char* later : {"truncate", "reach", "interpolate", "aggregates", "hierarchy"}) {
+      ASSERT_NE(at(later), std::string::npos) << later;
+      EXPECT_LT(at(first), at(later)) << first << " " << later;
+    }
+}
+
+TEST_F(CommandLine, HelpHasAPageOnEachKey) {
+  const Ended key = signorini({"help", "solver.tolerance"});
+  EXPECT_EQ(key.status, 0) << key.err;
+  EXPECT_THAT(key.out, AllOf(HasSubstr("a key of [solver]"), HasSubstr("(0, 1)"), HasSubstr("1e-8"),
+                             HasSubstr("tolerance = 1e-10"), HasSubstr("--set solver.tolerance=1e-10")));
+  EXPECT_THAT(signorini({"help", "radius"}).out,
+              AllOf(HasSubstr("Keys of the same name:"), HasSubstr("obstacle.sphere.radius")));
+  EXPECT_THAT(signorini({"help", "obstacle.friction"}).out,
+              AllOf(HasSubstr("obstacle.coulomb.friction"), HasSubstr("coefficient of friction"),
+                    HasSubstr("type = \"coulomb\"\n  friction = 0.3")));
+  EXPECT_THAT(signorini({"help", "body"}).out,
+              AllOf(StartsWith("[[body]]"), HasSubstr("poisson"), HasSubstr("half_ball")));
+  EXPECT_EQ(signorini({"help", "qp"}).out, signorini({"qp", "--help"}).out);
+  EXPECT_EQ(signorini({"help"}).out, signorini({"--help"}).out);
+  const Ended wrong = signorini({"help", "tolerence"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no command, table or key 'tolerence', did you mean 'tolerance'?"));
+}
+
+// To renew it, copy the file that this names.
+TEST_F(CommandLine, TheManualPageIsWhatTheProgramSays) {
+  const std::string page = signorini({"help", "--manual"}).out;
+  if (read(SIGNORINI_SOURCE_DIR "/apps/signorini/signorini.1") == page) return;
+  const std::string renewed = testing::TempDir() + "signorini.1";
+  std::ofstream(renewed) << page;
+  ADD_FAILURE() << "apps/signorini/signorini.1 is not what the program says; the right text is in " << renewed;
+}
+
+TEST_F(CommandLine, BashCompletesWhatTheProgramKnows) {
+  const auto completed = [&](const std::string& words) {
+    std::ofstream(folder_ / "complete.bash") << "source " SIGNORINI_SOURCE_DIR "/apps/signorini/completion.sh\n"
+                                             << "COMP_WORDS=(" SIGNORINI_BINARY_DIR "/bin/signorini " << words << ")\n"
+                                             << "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_signorini\n"
+                                             << "printf '%s ' \"${COMPREPLY[@]}\"\n";
+    EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && bash complete.bash > .out").c_str()), 0);
+    return read(folder_ / ".out");
+  };
+  write("punch.toml", punch);
+  EXPECT_EQ(completed("so"), "solve ");
+  EXPECT_EQ(completed("solve pu"), "punch.toml ");
+  EXPECT_EQ(completed("solve punch.toml --q"), "--quiet ");
+  EXPECT_EQ(completed("solve punch.toml --set solver.tol"), "solver.tolerance= ");
+  EXPECT_EQ(completed("list smoo"), "smoothers ");
+  EXPECT_EQ(completed("help obstacle.sphere.r"), "obstacle.sphere.radius ");
 }
 
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
@@ -306,6 +407,59 @@ TEST_F(CommandLine, StepsThatAreFinishedOutliveAnInterrupt) {
   EXPECT_THAT(read(folder_ / "o/solution.pvd"), HasSubstr("solution_002.vtu"));
 }
 
+// By a method that takes for ever, once its table has begun.
+TEST_F(CommandLine, AnInterruptedSolveKeepsItsLastIterateMarked) {
+  write("membrane.toml", membrane);
+  const std::vector<std::string> slowly{"--set", "refine.uniform=5",       "--set", "solver.method=pgs",
+                                        "--set", "solver.tolerance=1e-13", "--set", "solver.max_iterations=1000000",
+                                        "--set", "output.pictures=false"};
+  std::vector<std::string> arguments{"solve", "membrane.toml", "--out", "o"};
+  arguments.insert(arguments.end(), slowly.begin(), slowly.end());
+  const pid_t child = start("signorini", arguments);
+  wait_until(child, [&] { return count_rows(read(folder_ / ".out")) > 3; });
+  kill(child, SIGINT);
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("interrupted after "),
+                               HasSubstr("the last iterate is written, marked \"converged\": false")));
+  const auto r = report("o");
+  EXPECT_EQ(r.at("interrupted"), true);
+  EXPECT_EQ(r.at("converged"), false);
+  EXPECT_THAT(r.at("reason").get<std::string>(), StartsWith("interrupted after "));
+  EXPECT_THAT(r.at("warnings").dump(), HasSubstr("no solution"));
+  EXPECT_GT(r.at("history").size(), 3u);
+  EXPECT_GE(r.at("probes")[0].at("value").get<double>(), 0.5 - 1e-12) << "admissible";
+  EXPECT_GT(r.at("contact")[0].at("nodes"), 0);
+  EXPECT_EQ(wrong_with({folder_ / "o/report.json"}), "");
+  const std::regex mark("Name=\"converged\"[^>]*>([01])<");
+  std::smatch found;
+  std::string vtu = read(folder_ / "o/solution.vtu");
+  ASSERT_TRUE(std::regex_search(vtu, found, mark));
+  EXPECT_EQ(found[1], "0");
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--quiet"}).status, 0);
+  vtu = read(folder_ / "o/solution.vtu");
+  ASSERT_TRUE(std::regex_search(vtu, found, mark));
+  EXPECT_EQ(found[1], "1");
+}
+
+TEST_F(CommandLine, AReaderWhoHasSeenEnoughEndsNoSolve) {
+  write("membrane.toml", membrane);
+  const std::string program = "cd '" + folder_.string() + "' && " SIGNORINI_BINARY_DIR "/bin/signorini ";
+  ASSERT_EQ(std::system((program + "solve membrane.toml --set refine.uniform=5 2> .err | head -n 1 > .out").c_str()),
+            0);
+  EXPECT_EQ(read(folder_ / ".out"), "membrane\n");
+  EXPECT_EQ(report("membrane").at("converged"), true) << read(folder_ / ".err");
+}
+
+TEST_F(CommandLine, StepsHaveATableThatIsMadeAsTheyAre) {
+  write("membrane.toml", membrane + "[steps]\ncount = 3\n");
+  const Ended ended = signorini({"solve", "membrane.toml", "--out", "o"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out,
+              StartsWith("membrane\n     step          t iterations    residual  contact   seconds\n   1 of 3 "));
+  EXPECT_THAT(ended.out, HasSubstr("\n   3 of 3           1 "));
+}
+
 TEST_F(CommandLine, WhatNohupStartsOutlivesItsTerminal) {
   write("membrane.toml", membrane);
   const auto old = std::signal(SIGHUP, SIG_IGN);
@@ -446,27 +600,7 @@ TEST_F(CommandLine, GroupsOffTheBoundaryAreAWarningAndNoParts) {
   EXPECT_THAT(diagonal.err, HasSubstr("no edge of the physical group 'diagonal' is on the boundary"));
 }
 
-/// What a terminal shows in the end of what was written to it.
-std::string shown(const std::string& written) {
-  const std::string erase = "\r\x1b[K";
-  std::string screen;
-  for (std::size_t at = 0; at < written.size(); ++at)
-    if (written.compare(at, erase.size(), erase) == 0) {
-      screen.erase(screen.rfind('\n') + 1);
-      at += erase.size() - 1;
-    } else {
-      screen += written[at];
-    }
-  return screen;
-}
-
-/// Rows of convergence tables: a number, three in exponential form, two more.
-std::ptrdiff_t count_rows(const std::string& text) {
-  static const std::regex row(R"(\d+ +\d\.\d+e\S+ +\d\.\d+e\S+ +-?\d\.\d+e\S+ +\d+ +\d+)");
-  return std::distance(std::sregex_iterator(text.begin(), text.end(), row), std::sregex_iterator());
-}
-
-TEST_F(CommandLine, ATerminalShowsProgressAndInTheEndEveryCycleOnce) {
+TEST_F(CommandLine, ATerminalShowsProgressInALineAndEveryCycleOnce) {
   write("membrane.toml", membrane);
   const std::string program = SIGNORINI_BINARY_DIR "/bin/signorini";
   int terminal = -1;
@@ -483,10 +617,13 @@ TEST_F(CommandLine, ATerminalShowsProgressAndInTheEndEveryCycleOnce) {
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
   const std::string screen = shown(written);
-  EXPECT_THAT(screen, HasSubstr("level 3: 1089 vertices"));
+  EXPECT_THAT(written, HasSubstr("level 3: 1089 vertices; iteration 1, residual "));
+  EXPECT_THAT(screen, AllOf(testing::Not(HasSubstr("so far")), testing::Not(HasSubstr("level 3: 1089"))))
+      << "one line, rewritten";
+  EXPECT_LT(written.find("iteration    residual"), written.find("\r\x1b[Kwriting"))
+      << "the table is made as the solve goes on";
   const std::string csv = read(folder_ / "membrane/convergence.csv");
   EXPECT_EQ(count_rows(screen), std::count(csv.begin(), csv.end(), '\n') - 1);
-  EXPECT_GT(count_rows(written), count_rows(screen)) << "no progress was shown";
 }
 
 }  // namespace

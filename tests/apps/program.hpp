@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -42,6 +45,8 @@ class Program : public Folder {
     return folder_ / name;
   }
 
+  std::string columns_ = "1000";  ///< so that no line is broken; "": as without it
+
   pid_t start(const std::string& program, std::vector<std::string> arguments) const {
     const std::string path = std::string(SIGNORINI_BINARY_DIR) + "/bin/" + program;
     std::vector<char*> argv{const_cast<char*>(path.c_str())};
@@ -50,6 +55,7 @@ class Program : public Folder {
     const pid_t child = fork();
     if (child != 0) return child;
     if (chdir(folder_.c_str()) != 0) _exit(126);
+    setenv("COLUMNS", columns_.c_str(), 1);
     dup2(open((folder_ / ".out").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open((folder_ / ".err").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     execv(path.c_str(), argv.data());
@@ -100,6 +106,18 @@ class Program : public Folder {
     return nlohmann::json::parse(read(folder_ / folder / "report.json"));
   }
 };
+
+/// How well reports agree with a definition of their schema: what python says.
+inline std::string wrong_with(const std::vector<fs::path>& reports, const std::string& definition = "") {
+  const std::string tests = SIGNORINI_SOURCE_DIR "/tests/docs/",
+                    schema = SIGNORINI_SOURCE_DIR "/docs/report.schema.json";
+  std::string command = "/usr/bin/python3 '" + tests + "validate_reports.py' '" + schema + "#" + definition + "'";
+  for (const fs::path& report : reports) command += " '" + report.string() + "'";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen((command + " 2>&1").c_str(), "r"), pclose);
+  std::string said;
+  for (int c; (c = std::fgetc(pipe.get())) != EOF;) said += static_cast<char>(c);
+  return said;
+}
 
 /// A membrane over an obstacle; solved in a moment.
 inline const std::string membrane = R"(title = "membrane"

@@ -104,6 +104,7 @@ TEST_F(Qp, SolvesWithinBoundsAndReports) {
   EXPECT_EQ(finest.at("vectors"), n);
   EXPECT_EQ(finest.at("critical"), touching);
   EXPECT_THAT(written("reports"), UnorderedElementsAre("r.json"));
+  EXPECT_EQ(wrong_with({folder_ / "reports/r.json"}, "qp"), "") << "needs the package python3-jsonschema";
 }
 
 // Springs whose stiffness ranges over twelve decades: what rounding hides from the cycles is found and mended.

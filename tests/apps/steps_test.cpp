@@ -155,6 +155,7 @@ TEST_F(Steps, WhatFailsAsAWholeIsSolvedInParts) {
   ASSERT_GE(steps.size(), 3u);
   EXPECT_EQ(steps.size(), r.at("failed_steps").size() + 2) << "each makes two of one";
   EXPECT_EQ(table("o/steps.csv").size(), steps.size());
+  EXPECT_EQ(wrong_with({folder_ / "o/report.json"}), "");
   std::size_t files = 0;
   for (const std::string& name : written("o")) files += name.starts_with("solution_");
   EXPECT_EQ(files, steps.size());

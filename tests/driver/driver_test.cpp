@@ -311,7 +311,16 @@ TEST(Driver, EndsOnWhateverLevelItIsToldTo) {
     } catch (const Error& error) {
       EXPECT_EQ(error.status(), Exit::interrupted);
     }
+    const bool finest = level == 2;  // which has an iterate of what was asked for
+    EXPECT_EQ(driver.report().interrupted, finest) << level;
+    ASSERT_EQ(driver.report().steps.size(), finest ? 1u : 0u);
+    if (finest) {
+      EXPECT_EQ(driver.report().last().summary.outcome, Outcome::interrupted);
+      EXPECT_EQ(driver.report().last().summary.iterations, 1);
+      EXPECT_FALSE(driver.report().converged());
+    }
     driver.solve();
+    EXPECT_FALSE(driver.report().interrupted);
     expect_as_new(driver);
   }
 }

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "amg/registration.hpp"
+#include "apps/signorini/command_line.hpp"
+#include "apps/signorini/option_text.hpp"
+#include "apps/signorini/text.hpp"
+#include "core/base/error.hpp"
+#include "core/component/plugin_loader.hpp"
+#include "core/scene/key_page.hpp"
+
+namespace signorini {
+namespace {
+
+const CLI::App* find_command(const CLI::App& program, const std::string& name) {
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
+  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<std::string> shown_options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_group().empty())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// An option of a plugin, as a key of [[obstacle]].
+struct PluginKey {
+  std::string plugin;
+  OptionSpec option;
+
+  std::string path() const { return fmt::format("obstacle.{}.{}", plugin, option.name); }
+};
+
+std::vector<PluginKey> plugin_keys() {
+  Registry registry = solver_components();
+  PluginLoader loader(registry);
+  std::vector<PluginKey> all;
+  for (const Entry& entry : catalogue(registry, loader, "obstacle").entries)
+    for (const OptionSpec& option : entry.options) all.push_back({entry.id, option});
+  return all;
+}
+
+std::vector<PluginKey> plugin_keys_named(const std::vector<PluginKey>& all, const std::string& name) {
+  std::vector<PluginKey> found;
+  for (const PluginKey& key : all)
+    if (name == key.option.name || name == key.path() || name == std::string("obstacle.") + key.option.name)
+      found.push_back(key);
+  return found;
+}
+
+std::string page(const PluginKey& key) {
+  const OptionSpec& option = key.option;
+  std::string value = *option.fallback ? option.fallback : option.type == OptionType::vector ? "[0, 0, 1]" : "0.3";
+  if (option.type == OptionType::text) value = '"' + value + '"';
+  const std::string example =
+      table_example(*find_table("obstacle"), fmt::format("type = \"{}\"\n{} = {}", key.plugin, option.name, value));
+  return fmt::format("{}: a key of [[obstacle]] where type = \"{}\"\n\n  {}\n\n  {}\n\nExample:\n{}", key.path(),
+                     key.plugin, option.help, option_kind(option), indented(example));
+}
+
+/// The page of the first key that is meant, and where else a key of the name is.
+std::string pages(const std::string& name, const std::vector<PluginKey>& of_plugins) {
+  const std::vector<KeyPlace> keys = keys_named(name);
+  const std::vector<PluginKey> more = plugin_keys_named(of_plugins, name);
+  if (keys.empty() && more.empty()) return {};
+  std::string text = keys.empty() ? page(more.front()) : key_page(keys.front());
+  std::string others;
+  for (const KeyPlace& place : keys)
+    if (&place != &keys.front()) others += fmt::format("  {:<32}  {}\n", place.path(), place.key->help);
+  for (const PluginKey& key : more)
+    if (!keys.empty() || &key != &more.front()) others += fmt::format("  {:<32}  {}\n", key.path(), key.option.help);
+  return others.empty() ? text : text + "\nKeys of the same name:\n" + others;
+}
+
+[[noreturn]] void refuse(const CLI::App& program, const std::string& name, const std::vector<PluginKey>& of_plugins) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : shown_commands(program)) known.push_back(command->get_name());
+  for (const TableSpec& table : table_specs()) known.emplace_back(table.name);
+  for (const KeyPlace& place : key_places()) known.emplace_back(place.key->name), known.push_back(place.path());
+  for (const PluginKey& key : of_plugins) known.emplace_back(key.option.name), known.push_back(key.path());
+  throw Error(Exit::usage, fmt::format("there is no command, table or key '{}'{}; see 'signorini help', and "
+                                       "docs/scene.md for the keys of scenes",
+                                       name, did_you_mean(name, known)));
+}
+
+void print(const std::vector<std::string>& words) {
+  for (const std::string& word : words) fmt::print("{}\n", word);
+}
+
+}  // namespace
+
+void help_command(const CLI::App& program, const HelpArguments& arguments) {
+  const std::string& name = arguments.name;
+  if (arguments.manual) return fmt::print("{}", manual_page(program));
+  if (name.empty()) return print_fitted(help_of(program));
+  if (const CLI::App* command = find_command(program, name)) return print_fitted(help_of(*command));
+  if (const TableSpec* table = find_table(name)) return print_fitted(table_page(*table));
+  const std::vector<PluginKey> of_plugins = plugin_keys();
+  const std::string text = pages(name, of_plugins);
+  if (text.empty()) refuse(program, name, of_plugins);
+  print_fitted(text);
+}
+
+void words_command(const CLI::App& program, const std::string& after) {
+  const auto keys = [](bool to_set) {
+    std::vector<std::string> all;
+    for (const KeyPlace& place : key_places()) {
+      const bool listed = place.table && place.table->listed;
+      all.push_back(!to_set        ? place.path()
+                    : !place.table ? fmt::format("{}=", place.key->name)
+                                   : fmt::format("{}{}.{}=", place.table->name, listed ? ".0" : "", place.key->name));
+    }
+    std::ranges::sort(all);
+    all.erase(std::ranges::unique(all).begin(), all.end());
+    return all;
+  };
+  if (after == "set") return print(keys(true));
+  if (after.empty() || after == "help")
+    for (const CLI::App* command : shown_commands(program)) fmt::print("{}\n", command->get_name());
+  if (after == "help") {
+    for (const TableSpec& table : table_specs()) fmt::print("{}\n", table.name);
+    print(keys(false));
+  }
+  if (after == "list") print(listable_kinds());
+  if (const CLI::App* command = after.empty() ? &program : find_command(program, after)) print(shown_options(*command));
+}
+
+}  // namespace signorini
