@@ -166,7 +166,8 @@ void print_of_written(const std::function<void()>& print) {
   }
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
   if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
-  print_warnings({"standard output: cannot be written: is the disk full, or its reader gone? The results are in their files."});
+  print_warnings(
+      {"standard output: cannot be written: is the disk full, or its reader gone? The results are in their files."});
 }
 
 void fail_unless_solved(bool solved, const std::string& reason) {

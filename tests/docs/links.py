@@ -47,7 +47,7 @@ for page in files("*.md"):
             wrong.append(f"{page.relative_to(source)}: {target} has no heading #{anchor}")
 
 for file in files("*.cpp", "*.hpp", "*.h", "*.py", "*.sh", "*.cmake", "*CMakeLists.txt", "*.toml", "dev"):
-    for name in re.findall(r"\bdocs/(?:\w+/)*\w+\.\w+\b", file.read_text(errors="replace")):
+    for name in re.findall(r"\bdocs/(?:\w+/)*\w+(?:\.\w+)+\b", file.read_text(errors="replace")):
         if file.name not in writers and not (source / name).exists():
             wrong.append(f"{file.relative_to(source)}: there is no {name}")
 
