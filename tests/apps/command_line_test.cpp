@@ -188,6 +188,7 @@ TEST_F(CommandLine, HelpHasAPageOnEachKey) {
 // To renew it, copy the file that this names.
 TEST_F(CommandLine, TheManualPageIsWhatTheProgramSays) {
   const std::string page = signorini({"help", "--manual"}).out;
+  EXPECT_THAT(page, HasSubstr(".TH SIGNORINI 1"));
   if (read(SIGNORINI_SOURCE_DIR "/apps/signorini/signorini.1") == page) return;
   const std::string renewed = testing::TempDir() + "signorini.1";
   std::ofstream(renewed) << page;
@@ -440,6 +441,35 @@ TEST_F(CommandLine, AnInterruptedSolveKeepsItsLastIterateMarked) {
   vtu = read(folder_ / "o/solution.vtu");
   ASSERT_TRUE(std::regex_search(vtu, found, mark));
   EXPECT_EQ(found[1], "1");
+}
+
+// Springs in a row, from zero.
+TEST_F(CommandLine, AnInterruptedMatrixSolveKeepsItsLastIterateMarked) {
+  constexpr int n = 1000;
+  std::string A = fmt::format("%%MatrixMarket matrix coordinate real symmetric\n{0} {0} {1}\n", n, 2 * n - 1);
+  std::string b = fmt::format("%%MatrixMarket matrix array real general\n{} 1\n", n), zero = b;
+  for (int i = 1; i <= n; ++i) {
+    A += fmt::format("{0} {0} 2\n", i);
+    if (i < n) A += fmt::format("{} {} -1\n", i + 1, i);
+    b += "1\n";
+    zero += "0\n";
+  }
+  write("A.mtx", A);
+  write("b.mtx", b);
+  write("start.mtx", zero);
+  const pid_t child =
+      start("signorini", {"qp", "A.mtx", "b.mtx", "--start", "start.mtx", "--method", "pgs", "--tol", "1e-13", "--set",
+                          "solver.max_iterations=1000000", "--out", "x.mtx", "--report", "r.json"});
+  wait_until(child, [&] { return count_rows(read(folder_ / ".out")) > 3; });
+  kill(child, SIGINT);
+  const Ended ended = wait_for(child);
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_THAT(ended.err, HasSubstr("interrupted after "));
+  EXPECT_THAT(ended.out, HasSubstr("not solved: interrupted after "));
+  EXPECT_EQ(nlohmann::json::parse(read(folder_ / "r.json")).at("converged"), false);
+  EXPECT_EQ(wrong_with({folder_ / "r.json"}, "qp"), "");
+  const std::string x = read(folder_ / "x.mtx");
+  EXPECT_EQ(std::count(x.begin(), x.end(), '\n'), n + 2);
 }
 
 TEST_F(CommandLine, AReaderWhoHasSeenEnoughEndsNoSolve) {
