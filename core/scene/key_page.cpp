@@ -206,7 +206,7 @@ std::string key_page(const KeyPlace& place) {
     text += fmt::format("\nOr for one run:\n  {}\n", set);
   if (place.table && std::string_view(place.table->name) == "solver")
     if (const std::string_view more = more_about(key.name); !more.empty())
-      text += fmt::format("\nFurther, in docs/solver.md: {}\n", more);
+      text += fmt::format("\nFurther: {}\n", more);
   return text;
 }
 
