@@ -205,8 +205,7 @@ std::string key_page(const KeyPlace& place) {
   if (const std::string set = override_of(place, line_in(example, key.name)); !set.empty())
     text += fmt::format("\nOr for one run:\n  {}\n", set);
   if (place.table && std::string_view(place.table->name) == "solver")
-    if (const std::string_view more = more_about(key.name); !more.empty())
-      text += fmt::format("\nFurther: {}\n", more);
+    if (const std::string_view more = more_about(key.name); !more.empty()) text += fmt::format("\nFurther: {}\n", more);
   return text;
 }
 

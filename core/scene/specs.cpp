@@ -24,7 +24,7 @@ constexpr KeySpec body[] = {
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
     {"order", choice, "auto", "auto | 1 | 2", "",
      "1: linear elements; 2: quadratic ones, with nodes on vertices and edges: the unknowns of one refinement more. "
-     "auto: 2 for elastic bodies, 1 for scalar ones; see docs/solver.md, \"Quadratic elements\""},
+     "auto: 2 for elastic bodies, 1 for scalar ones; see docs/theory/quadratic_elements.md"},
     {"pressure", text, "auto", "auto | linear | constant | none", "",
      "of quadratic elements where `poisson` is above 0.4, but in plane stress: pressures as unknowns of their own, so "
      "that these do not lock. linear: continuous, the default; constant: one per element; none: displacements alone. "
