@@ -1,19 +1,18 @@
 #include "core/geometry/cgal/creases.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "core/base/dot.hpp"
 #include "core/geometry/edges.hpp"
 #include "core/geometry/groups.hpp"
+#include "core/geometry/tips.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
 namespace {
 
-constexpr double digits = 1e-6;      // of the size of all: what files round away
-constexpr double around_tip = 0.25;  // of the curvature at a tip: more beside it is no tip's
+constexpr double digits = 1e-6;  // of the size of all: what files round away
 
 class CreaseFinder {
  public:
@@ -35,6 +34,9 @@ class CreaseFinder {
       sharp_[a].push_back({b, false});
       sharp_[b].push_back({a, false});
     }
+    const auto tips = find_tips(points_, triangles_, joints, edges.sharp, crease);
+    for (std::size_t v = 0; v < tips.size(); ++v)
+      if (tips[v] != 0) out_.tips.push_back(points_[v]);
     Index count = 0;
     const auto piece = pieces.numbered(count);
     std::vector<std::uint8_t> curved(static_cast<std::size_t>(count), 0);
@@ -46,7 +48,6 @@ class CreaseFinder {
     for (std::size_t v = 0; v < sharp_.size(); ++v)
       if (is_corner(static_cast<Index>(v))) follow_all(static_cast<Index>(v));
     for (std::size_t v = 0; v < sharp_.size(); ++v) follow_all(static_cast<Index>(v));  // what is left are loops
-    find_tips();
     return std::move(out_);
   }
 
@@ -88,29 +89,6 @@ class CreaseFinder {
       if (v == start || is_corner(v)) break;
       for (k = 0; k < sharp_[v].size() && sharp_[v][k].used;) ++k;
     }
-  }
-
-  /// Where no edge is sharp, but the faces around take more away from the full angle than those of a cone whose
-  /// opposite sides meet at the crease's angle; and the surface around is far less curved, per area.
-  void find_tips() {
-    std::vector<double> missing(points_.size(), 2 * std::numbers::pi), area(points_.size(), 0);
-    for (const auto& [a, b, c] : triangles_) {
-      const double size = length<3>(cross(edge(a, b), edge(a, c)));
-      for (const auto& [v, next, last] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
-        missing[v] -= angle(edge(v, next), edge(v, last));
-        area[v] += size;
-      }
-    }
-    std::vector<std::uint8_t> tip(points_.size());
-    const double most = 2 * std::numbers::pi * (1 - std::cos(crease_ / 2));
-    for (std::size_t v = 0; v < points_.size(); ++v) tip[v] = sharp_[v].empty() && std::abs(missing[v]) > most;
-    const auto curvature = [&](Index v) { return std::abs(missing[v]) / area[v]; };
-    for (const auto& triangle : triangles_)
-      for (const Index v : triangle)
-        for (const Index other : triangle)
-          if (v != other && sharp_[other].empty() && curvature(other) > around_tip * curvature(v)) tip[v] = 0;
-    for (std::size_t v = 0; v < points_.size(); ++v)
-      if (tip[v] != 0) out_.tips.push_back(points_[v]);
   }
 
   const std::vector<Point<3>>& points_;
