@@ -7,6 +7,7 @@
 #include "core/base/dot.hpp"
 #include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
+#include "core/geometry/tips.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -80,6 +81,9 @@ class Smoother {
     joint_ = joints.number;
     joints_ = joints.count;
     across_ = joints.beyond;
+    is_tip_.assign(points_.size(), 0);
+    if constexpr (D == 3)
+      if (!joint_normal_) is_tip_ = find_tips(points_, faces_, joints, edges.sharp, crease_);
     out_.turn.assign(faces_.size(), 0);
     for (std::size_t i = 0; i < across_.size(); ++i)
       if (edges.sharp[joint_[i]] != 0)
@@ -88,7 +92,7 @@ class Smoother {
         out_.turn[i / D] = std::max(out_.turn[i / D], edges.angle[i]);
   }
 
-  /// Corners of faces that belong together: at one vertex, and not across a crease.
+  /// Corners of faces that belong together: at one vertex, and not across a crease. At tips each is one of its own.
   void find_sides() {
     Groups sides(faces_.size() * D), pieces(faces_.size());
     for (Index i = 0; i < static_cast<Index>(across_.size()); ++i) {
@@ -97,7 +101,7 @@ class Smoother {
       pieces.join(f, g);
       for (int a = 0; a < D; ++a)
         for (int b = 0; b < D; ++b)
-          if (faces_[f][a] == faces_[g][b]) sides.join(f * D + a, g * D + b);
+          if (faces_[f][a] == faces_[g][b] && is_tip_[faces_[f][a]] == 0) sides.join(f * D + a, g * D + b);
     }
     out_.piece = pieces.numbered(out_.pieces);
     side_ = sides.numbered(count_);
@@ -136,6 +140,7 @@ class Smoother {
 
   /// Whether faces go all the way around a vertex without a crease.
   bool is_inner(const std::vector<Index>& corners) const {
+    if (is_tip_[faces_[corners[0] / D][corners[0] % D]] != 0) return false;
     return std::ranges::all_of(corners, [&](Index i) {
       for (int tip = 0; tip < D; ++tip)
         if (tip != i % D && across_[i / D * D + tip] < 0) return false;
@@ -151,6 +156,7 @@ class Smoother {
 
   Point<D> normal_of_side(Index s) {
     const auto& corners = of_side_[s];
+    if (is_tip_[vertex_of(s)] != 0) return normal_[corners[0] / D];
     Point<D> mean{}, in_plane_of{};
     bool one_plane = false, planes = false;
     for (const Index i : corners) {
@@ -332,6 +338,7 @@ class Smoother {
   std::vector<Index> side_;    // per face and corner
   std::vector<std::vector<Index>> of_side_;
   std::vector<std::uint8_t> flat_, is_crease_, side_flat_;
+  std::vector<std::uint8_t> is_tip_;  // per vertex
   std::vector<Point<D>> side_normal_, crease_tangent_;
   SmoothBoundary<D> out_;
 };

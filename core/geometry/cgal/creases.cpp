@@ -3,33 +3,52 @@
 #include <cmath>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/edges.hpp"
+#include "core/geometry/groups.hpp"
+#include "core/geometry/tips.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
 namespace {
 
-class Creases {
+constexpr double digits = 1e-6;  // of the size of all: what files round away
+
+class CreaseFinder {
  public:
-  Creases(const TriangleSurface& surface, double angle) : surface_(surface), cosine_(std::cos(angle)) {
-    sharp_.resize(surface.points().size());
-    for (std::size_t t = 0; t < surface.triangles().size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Index other = surface.neighbours()[t][k];
-        if (other < static_cast<Index>(t)) continue;  // every edge once
-        const Point<3> n = normal(t), m = normal(static_cast<std::size_t>(other));
-        if (dot(n, m) >= cosine_ * length<3>(n) * length<3>(m)) continue;
-        const Index a = surface.triangles()[t][(k + 1) % 3], b = surface.triangles()[t][(k + 2) % 3];
-        sharp_[a].push_back({b, false});
-        sharp_[b].push_back({a, false});
+  CreaseFinder(const TriangleSurface& surface, double crease)
+      : points_(surface.points()), triangles_(surface.triangles()), crease_(crease), sharp_(points_.size()) {
+    const auto joints = find_joints<3>(static_cast<Index>(points_.size()), triangles_);
+    const Edges edges = find_edges<3>(points_, triangles_, joints, crease);
+    Groups pieces(triangles_.size());
+    std::vector<Index> bent;  // faces beside those that they are not in one plane with
+    for (Index i = 0; i < static_cast<Index>(joints.beyond.size()); ++i) {
+      const Index other = joints.beyond[i];
+      if (other < i) continue;  // every edge once
+      if (edges.sharp[joints.number[i]] == 0) {
+        pieces.join(i / 3, other / 3);
+        if (height(i, other) > digits || height(other, i) > digits) bent.push_back(i / 3);
+        continue;
       }
+      const auto [a, b] = joint_of<3>(triangles_[i / 3], i % 3);
+      sharp_[a].push_back({b, false});
+      sharp_[b].push_back({a, false});
+    }
+    const auto tips = find_tips(points_, triangles_, joints, edges.sharp, crease);
+    for (std::size_t v = 0; v < tips.size(); ++v)
+      if (tips[v] != 0) out_.tips.push_back(points_[v]);
+    Index count = 0;
+    const auto piece = pieces.numbered(count);
+    std::vector<std::uint8_t> curved(static_cast<std::size_t>(count), 0);
+    for (const Index f : bent) curved[piece[f]] = 1;
+    for (const Index p : piece) out_.curved_piece.push_back(curved[p] != 0 ? p : -1);
   }
 
-  std::vector<Polyline> polylines() {
+  Creases run() {
     for (std::size_t v = 0; v < sharp_.size(); ++v)
-      if (corner(static_cast<Index>(v))) follow_all(static_cast<Index>(v));
+      if (is_corner(static_cast<Index>(v))) follow_all(static_cast<Index>(v));
     for (std::size_t v = 0; v < sharp_.size(); ++v) follow_all(static_cast<Index>(v));  // what is left are loops
-    return std::move(lines_);
+    return std::move(out_);
   }
 
  private:
@@ -38,19 +57,18 @@ class Creases {
     bool used;
   };
 
-  Point<3> normal(std::size_t t) const {
-    const auto& [a, b, c] = surface_.triangles()[t];
-    const Point<3> u = edge(a, b), v = edge(a, c);
-    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  /// Of the tip of one face, as faces and tips, over the plane of another one.
+  double height(Index of, Index over) const {
+    const auto& [a, b, c] = triangles_[over / 3];
+    const Point<3> n = cross(edge(a, b), edge(a, c));
+    return std::abs(dot(n, edge(a, triangles_[of / 3][of % 3]))) / length<3>(n);
   }
-  Point<3> edge(Index a, Index b) const { return difference<3>(surface_.points()[b], surface_.points()[a]); }
+  Point<3> edge(Index a, Index b) const { return difference<3>(points_[b], points_[a]); }
+  static double angle(const Point<3>& u, const Point<3>& v) { return std::atan2(length<3>(cross(u, v)), dot(u, v)); }
 
-  bool corner(Index v) const {
+  bool is_corner(Index v) const {
     const auto& ends = sharp_[v];
-    if (ends.empty()) return false;
-    if (ends.size() != 2) return true;
-    const Point<3> in = edge(ends[0].to, v), out = edge(v, ends[1].to);
-    return dot(in, out) < cosine_ * length<3>(in) * length<3>(out);
+    return !ends.empty() && (ends.size() != 2 || angle(edge(ends[0].to, v), edge(v, ends[1].to)) > crease_);
   }
 
   void follow_all(Index start) {
@@ -59,30 +77,29 @@ class Creases {
   }
 
   void follow(Index start, std::size_t k) {
-    Polyline& line = lines_.emplace_back();
-    line.push_back(surface_.points()[start]);
+    Polyline& line = out_.lines.emplace_back();
+    line.push_back(points_[start]);
     for (Index v = start; k < sharp_[v].size();) {
       sharp_[v][k].used = true;
       const Index next = sharp_[v][k].to;
       for (End& end : sharp_[next])
         if (end.to == v) end.used = true;
-      line.push_back(surface_.points()[next]);
+      line.push_back(points_[next]);
       v = next;
-      if (v == start || corner(v)) break;
+      if (v == start || is_corner(v)) break;
       for (k = 0; k < sharp_[v].size() && sharp_[v][k].used;) ++k;
     }
   }
 
-  const TriangleSurface& surface_;
-  double cosine_;
+  const std::vector<Point<3>>& points_;
+  const std::vector<std::array<Index, 3>>& triangles_;
+  double crease_;
   std::vector<std::vector<End>> sharp_;  // per vertex its sharp edges
-  std::vector<Polyline> lines_;
+  Creases out_;
 };
 
 }  // namespace
 
-std::vector<Polyline> find_creases(const TriangleSurface& surface, double angle) {
-  return Creases(surface, angle).polylines();
-}
+Creases find_creases(const TriangleSurface& surface, double crease) { return CreaseFinder(surface, crease).run(); }
 
 }  // namespace signorini::geometry

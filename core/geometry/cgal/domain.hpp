@@ -33,6 +33,16 @@ class Domain {
   virtual std::vector<Point<3>> surface_points() const = 0;
   /// Sharp edges as polylines that meet at most at their ends; a loop repeats its first point.
   virtual std::vector<Polyline> creases() const = 0;
+  /// Points off these that the surface is pointed at.
+  virtual std::vector<Point<3>> tips() const { return {}; }
+  /// Whether the surface is flat between creases.
+  virtual bool flat() const { return false; }
+  /// The number of the piece of the surface, as creases part it, that is nearest to a point; -1 if it is flat.
+  virtual Index curved_piece(const Point<3>&) const { return 0; }
+  /// Whether its faces may meet at any angle, so that meshes may miss a part of it.
+  virtual bool may_be_missed() const { return false; }
+  /// How far a point is from the surface, where that is so.
+  virtual double off_surface(const Point<3>&) const { return 0; }
   /// The largest size that still resolves the shape.
   virtual double coarsest_size() const = 0;
   /// How far faces may be from the surface, relative to the size.

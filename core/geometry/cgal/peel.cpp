@@ -26,6 +26,15 @@ bool flat(const Mesh<3>& mesh, const Face<3>& one, const Face<3>& two) {
   return n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > std::cos(5 * std::numbers::pi / 180);
 }
 
+/// The vertices of one face that another one has, too.
+Edge common_edge(const Face<3>& one, const Face<3>& two) {
+  Edge edge{};
+  std::size_t k = 0;
+  for (const Index v : one.vertices)
+    if (std::ranges::find(two.vertices, v) != two.vertices.end()) edge[k++] = v;
+  return sorted(edge);
+}
+
 /// The edge of an element that is in neither of two of its faces whole: it joins their free vertices.
 Edge free_edge(const std::array<Index, 4>& element, const Face<3>& one, const Face<3>& two) {
   Edge edge{};
@@ -40,7 +49,9 @@ Edge free_edge(const std::array<Index, 4>& element, const Face<3>& one, const Fa
 
 }  // namespace
 
-void peel_slivers(Mesh<3>& mesh) {
+void peel_slivers(Mesh<3>& mesh, const std::vector<CreaseEdge>& creases) {
+  std::set<Edge> kept_edges;
+  for (const CreaseEdge& crease : creases) kept_edges.insert(sorted(crease.ends));
   std::set<Edge> edges;  // of the boundary
   std::vector<std::vector<Index>> faces_of_element(mesh.elements.size());
   for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
@@ -54,6 +65,7 @@ void peel_slivers(Mesh<3>& mesh) {
     // The boundary stays a manifold only if the edge that comes up is not on it elsewhere.
     const bool peeled =
         faces.size() == 2 && flat(mesh, mesh.boundary[faces[0]], mesh.boundary[faces[1]]) &&
+        !kept_edges.contains(common_edge(mesh.boundary[faces[0]], mesh.boundary[faces[1]])) &&
         edges.insert(free_edge(mesh.elements[e], mesh.boundary[faces[0]], mesh.boundary[faces[1]])).second;
     if (!peeled) kept.push_back(mesh.elements[e]);
   }

@@ -23,9 +23,6 @@ constexpr double spare_evaluations = D == 2 ? 2e6 : 1e7;
 // Vertices granted to them, and queries between two looks at whether the user interrupts.
 constexpr double spare_vertices = 3e5, queries_per_poll = 64;
 
-// Where 5 to 20 for each element are usual, and more on a mesh of few.
-constexpr double few_queries = 5e5, queries_per_element = 500;
-
 // Sizes of fewer spacings of floating point numbers leave no room for vertices between vertices.
 constexpr double least_spacings = 8;
 
@@ -55,6 +52,17 @@ Sizing<D>::Sizing(const Size<D>& size, double ceiling, double diameter, const Ow
       units_(units),
       shape_(std::move(shape)),
       narrowest_(std::move(narrowest)) {}
+
+template <int D>
+double Sizing<D>::operator()(const Point<D>& p) const {
+  double h = std::min(asked(p), ceiling_);
+  for (const Halved& near : halved_) {
+    double square = 0;
+    for (int k = 0; k < D; ++k) square += (p[k] - near.center[k]) * (p[k] - near.center[k]);
+    if (square < near.distance * near.distance) h /= 2;
+  }
+  return h;
+}
 
 template <int D>
 double Sizing<D>::asked(Point<D> p) const {
@@ -87,13 +95,17 @@ void Sizing<D>::fail(const std::string& complaint) const {
 }
 
 template <int D>
-void Sizing<D>::no_end() const {
+void Sizing<D>::no_end(const std::optional<Point<D>>& place) const {
+  std::string where = narrowest_;
+  if (place)
+    where =
+        fmt::format("near [{:.6g}] vertices would be too close to sharp edges", fmt::join(units_.given(*place), ", "));
   throw NoEnd(
       shape_, "size",
       fmt::format(
           "the mesh does not come to an end{}{}; expected a size that varies gradually, on a shape without gaps "
           "and angles far below it",
-          narrowest_.empty() ? "" : ": ", narrowest_));
+          where.empty() ? "" : ": ", where));
 }
 
 template <int D>
@@ -106,11 +118,6 @@ void Sizing<D>::expect(double elements) {
   limit_ = evaluations_ + spare_evaluations<D> + 100 * elements;
   query_limit_ = queries_ + spare_evaluations<D> + 200 * elements;
   most_vertices_ = static_cast<std::size_t>(spare_vertices + elements);
-}
-
-template <int D>
-void Sizing<D>::be_impatient(double elements) const {
-  query_limit_ = queries_ + few_queries + queries_per_element * elements;
 }
 
 template <int D>

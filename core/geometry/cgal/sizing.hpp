@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geometry/cgal/own_units.hpp"
 #include "core/geometry/geometry.hpp"
@@ -27,7 +29,7 @@ class Sizing {
   Sizing(const Size<D>& size, double ceiling, double diameter, const OwnUnits<D>& units, std::string shape,
          std::string narrowest = "");
 
-  double operator()(const Point<D>& p) const { return std::min(asked(p), ceiling_); }
+  double operator()(const Point<D>& p) const;
   /// The same, but not cut; rounded to six decimal digits, so that it is the same in all units, see own_units.hpp.
   double asked(Point<D> p) const;
   /// Lets the size field end the work, as it does when the user interrupts; for phases that need no sizes.
@@ -38,13 +40,13 @@ class Sizing {
   /// Bounds the numbers of evaluations, queries and vertices from now on by the elements to be expected. Throws
   /// ShapeError when these are too many for memory, or for a mesh of 2e8 elements.
   void expect(double elements);
-  /// Bounds queries by a small multiple of what shapes without narrow details take of so many elements, until expect()
-  /// is called again.
-  void be_impatient(double elements) const;
+  /// Halves the sizes within a distance of a point, in the shape's own units.
+  void halve_near(const Point<D>& p, double distance) { halved_.push_back({p, distance}); }
   /// The mesher has to give up at so many vertices.
   std::size_t most_vertices() const { return most_vertices_; }
   /// Throws NoEnd: too many evaluations, or a failure that has the same cause.
-  [[noreturn]] void no_end() const;
+  /// @param place where that is, in the shape's own units
+  [[noreturn]] void no_end(const std::optional<Point<D>>& place = {}) const;
   /// Throws ShapeError when the shape is so thin that it takes very many elements wherever the sizes asked for until
   /// now are larger than it.
   void check_thickness(double measure) const;
@@ -56,9 +58,13 @@ class Sizing {
   double ceiling_, floor_;
   OwnUnits<D> units_;
   std::string shape_, narrowest_;
+  struct Halved {
+    Point<D> center;
+    double distance;
+  };
+  std::vector<Halved> halved_;
   mutable Point<D> last_{};
-  double limit_ = 1e7;
-  mutable double query_limit_ = 1e7;
+  double limit_ = 1e7, query_limit_ = 1e7;
   std::size_t most_vertices_ = 0;
   mutable double evaluations_ = 0, queries_ = 0, smallest_ = infinity;
 };

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
-#include "core/geometry/cgal/creases.hpp"
 #include "core/geometry/cgal/nearest.hpp"
+#include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -16,6 +16,13 @@ SolidDomain::SolidDomain(const std::string& file) : surface_(file, TriangleSurfa
   if (!surface_.closed())
     input_error(file, fmt::format("the surface is not closed, it has {} border edges; expected a closed surface",
                                   surface_.border_edges()));
+  for (const auto& [a, b, c] : surface_.triangles()) {
+    const auto& p = surface_.points();
+    if (length<3>(cross(difference<3>(p[b], p[a]), difference<3>(p[c], p[a]))) > 0) continue;
+    const auto at = surface_.given_points()[a];
+    input_error(file, fmt::format("a face has no area, near [{:g}, {:g}, {:g}]; expected triangles that are no lines",
+                                  at[0], at[1], at[2]));
+  }
   if (const auto pair = surface_.self_intersection()) {
     const auto at = surface_.given_points()[surface_.triangles()[pair->first][0]];
     input_error(file, fmt::format("the surface intersects itself, near [{:g}, {:g}, {:g}]", at[0], at[1], at[2]));
@@ -27,6 +34,8 @@ SolidDomain::SolidDomain(const std::string& file) : surface_(file, TriangleSurfa
                 fmt::format("the surface has {} components that bound more than one piece; expected one connected "
                             "solid",
                             nesting.size()));
+  creases_ = find_creases(surface_, default_crease);
+  flat_ = std::ranges::all_of(creases_.curved_piece, [](Index piece) { return piece < 0; });
 }
 
 double SolidDomain::volume() const {
@@ -58,7 +67,15 @@ std::vector<Point<3>> SolidDomain::surface_points() const {
   return points;
 }
 
-std::vector<Polyline> SolidDomain::creases() const { return find_creases(surface_, std::numbers::pi / 3); }
+double SolidDomain::off_surface(const Point<3>& p) const {
+  const auto& [a, b, c] = surface_.triangles()[surface_.nearest_triangle(p)];
+  const std::array corners{surface_.points()[a], surface_.points()[b], surface_.points()[c]};
+  const auto weights = nearest_weights(p, corners);
+  Point<3> at{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) at[k] += weights[i] * corners[i][k];
+  return length<3>(difference<3>(p, at));
+}
 
 double SolidDomain::coarsest_size() const {
   const auto [low, high] = box();
@@ -77,7 +94,24 @@ Point<3> SolidDomain::given_on_surface(const Point<3>& p) const {
   return q;
 }
 
+// How far flat faces are off the triangles, where these are round.
+SurfacePiece SolidDomain::piece_of(const Mesh<3>& mesh) const {
+  double most = 0;
+  for (const Face<3>& face : mesh.boundary) {
+    Point<3> center{};
+    for (const Index v : face.vertices)
+      for (std::size_t k = 0; k < 3; ++k) center[k] += mesh.points[v][k] / 3;
+    most = std::max(most, off_surface(center));
+  }
+  const auto [low, high] = box();
+  return {.kind = "triangles",
+          .faces = static_cast<Index>(mesh.boundary.size()),
+          .deviation = most * units().unit,
+          .size = length<3>(difference<3>(high, low)) * units().unit};
+}
+
 void SolidDomain::finish(Mesh<3>& mesh, const std::vector<bool>&) const {
+  if (!flat_) mesh.pieces.push_back(piece_of(mesh));
   std::vector<bool> on_surface(mesh.points.size(), false);
   for (const Face<3>& face : mesh.boundary)
     for (const Index v : face.vertices) on_surface[v] = true;

@@ -2,14 +2,8 @@
 // translation unit that instantiates these templates: all solids come through the abstract Domain.
 #include "core/geometry/cgal/tetrahedra.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Mesh_3/Slivers_exuder.h>
 #include <CGAL/Mesh_3/sliver_criteria.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_domain_with_polyline_features_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/make_mesh_3.h>
 #include <fmt/format.h>
@@ -19,11 +13,13 @@
 
 #include "core/geometry/cgal/checks.hpp"
 #include "core/geometry/cgal/crease_spacing.hpp"
+#include "core/geometry/cgal/filled.hpp"
+#include "core/geometry/cgal/labels.hpp"
+#include "core/geometry/cgal/mesh_domain.hpp"
 #include "core/geometry/cgal/peel.hpp"
 #include "core/geometry/cgal/reconnect.hpp"
 #include "core/geometry/cgal/sizing.hpp"
 #include "core/mesh/boundary.hpp"
-#include "core/mesh/hinges.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -36,192 +32,6 @@ constexpr double edge_bound = 0.7, facet_bound = 0.65, cell_bound = 0.74;
 // Dihedral angle in degrees below which slivers are exuded; what remains is 9 degrees or better on round shapes.
 // CGAL's perturbation would add four degrees, but its result differs from run to run (5.5).
 constexpr double least_dihedral_angle = 15;
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Point<3> plain(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
-Kernel::Point_3 cgal(const Point<3>& p) { return {p[0], p[1], p[2]}; }
-
-/// A Domain as a model of CGAL's concept MeshDomain_3, with one subdomain and one surface patch.
-class Oracle {
- public:
-  using R = Kernel;
-  using FT = Kernel::FT;
-  using Point_3 = Kernel::Point_3;
-  using Segment_3 = Kernel::Segment_3;
-  using Ray_3 = Kernel::Ray_3;
-  using Line_3 = Kernel::Line_3;
-  using Vector_3 = Kernel::Vector_3;
-  using Has_features = CGAL::Tag_false;
-  using Subdomain_index = int;
-  using Subdomain = boost::optional<Subdomain_index>;
-  using Surface_patch_index = std::pair<int, int>;
-  using Surface_patch = boost::optional<Surface_patch_index>;
-  using Index = boost::variant<Subdomain_index, Surface_patch_index>;
-  using Intersection = std::tuple<Point_3, Index, int>;
-
-  /// `sizing` counts the queries, and ends the work when they get too many or the user interrupts.
-  Oracle(const Domain* domain, const Sizing<3>* sizing) : domain_(domain), sizing_(sizing) {}
-
-  CGAL::Bbox_3 bbox() const {
-    const auto [a, b] = domain_->box();
-    return {a[0], a[1], a[2], b[0], b[1], b[2]};
-  }
-
-  struct Construct_initial_points {
-    const Oracle& oracle;
-    template <class Output>
-    Output operator()(Output out, int = 0) const {
-      for (const Point<3>& p : oracle.domain_->surface_points()) *out++ = std::pair(cgal(p), Index(surface_patch()));
-      return out;
-    }
-  };
-  struct Is_in_domain {
-    const Oracle& oracle;
-    Subdomain operator()(const Point_3& p) const {
-      oracle.sizing_->count_query();
-      return oracle.domain_->inside(plain(p)) ? Subdomain(1) : Subdomain();
-    }
-  };
-  struct Construct_intersection {
-    const Oracle& oracle;
-    template <class Query>
-    Intersection operator()(const Query& query) const {
-      const auto p = oracle.crossing(query);
-      return p ? Intersection(cgal(*p), Index(surface_patch()), 2) : Intersection(Point_3(), Index(), 0);
-    }
-  };
-  struct Do_intersect_surface {
-    const Oracle& oracle;
-    template <class Query>
-    Surface_patch operator()(const Query& query) const {
-      return oracle.crossing(query) ? Surface_patch(surface_patch()) : Surface_patch();
-    }
-  };
-
-  Construct_initial_points construct_initial_points_object() const { return {*this}; }
-  Is_in_domain is_in_domain_object() const { return {*this}; }
-  Construct_intersection construct_intersection_object() const { return {*this}; }
-  Do_intersect_surface do_intersect_surface_object() const { return {*this}; }
-
-  Index index_from_surface_patch_index(const Surface_patch_index& index) const { return index; }
-  Index index_from_subdomain_index(const Subdomain_index& index) const { return index; }
-  Surface_patch_index surface_patch_index(const Index& index) const { return boost::get<Surface_patch_index>(index); }
-  Subdomain_index subdomain_index(const Index& index) const { return boost::get<Subdomain_index>(index); }
-
- private:
-  static Surface_patch_index surface_patch() { return {0, 1}; }
-
-  using Ends = std::pair<Point<3>, Point<3>>;
-
-  // The part of a segment, ray or line within a box somewhat larger than the domain's: dual edges may reach millions of
-  // diameters out, where closed forms for crossings have no correct digit left.
-  template <class Query>
-  std::optional<Ends> clipped(const Query& query) const {
-    const Point_3 p = query.point(0);
-    const Vector_3 v = query.to_vector();
-    const auto [low, high] = domain_->box();
-    double first = std::is_same_v<Query, Line_3> ? -infinity : 0;
-    double last = std::is_same_v<Query, Segment_3> ? 1 : infinity;
-    for (int k = 0; k < 3; ++k) {
-      const double margin = high[k] - low[k];
-      if (v[k] != 0) {
-        const double one = (low[k] - margin - p[k]) / v[k], two = (high[k] + margin - p[k]) / v[k];
-        first = std::max(first, std::min(one, two));
-        last = std::min(last, std::max(one, two));
-      } else if (p[k] < low[k] - margin || p[k] > high[k] + margin) {
-        return {};
-      }
-    }
-    if (!(first < last) || !std::isfinite(first) || !std::isfinite(last)) return {};
-    return Ends(plain(p + first * v), last == 1 ? plain(p + v) : plain(p + last * v));
-  }
-
-  // The ends of a segment as they are: inside() is asked for them too, and the answers have to agree. Of a ray or a
-  // line the part that reaches beyond the domain.
-  template <class Query>
-  std::optional<Ends> ends(const Query& query) const {
-    if constexpr (std::is_same_v<Query, Segment_3>) {
-      return Ends(plain(query.source()), plain(query.target()));
-    } else {
-      const auto [low, high] = domain_->box();
-      const Point_3 p = query.point(0);
-      const Vector_3 v = query.to_vector();
-      const double reach = std::sqrt(CGAL::squared_distance(p, cgal(low))) + length<3>(difference<3>(high, low));
-      const Vector_3 beyond = 2 * reach / std::sqrt(v * v) * v;
-      return Ends(plain(std::is_same_v<Query, Ray_3> ? p : p - beyond), plain(p + beyond));
-    }
-  }
-
-  template <class Query>
-  std::optional<Point<3>> crossing(const Query& query) const {
-    sizing_->count_query();
-    const auto segment = domain_->exact() ? ends(query) : clipped(query);
-    return segment ? domain_->crossing(segment->first, segment->second) : std::nullopt;
-  }
-
-  const Domain* domain_;
-  const Sizing<3>* sizing_;
-};
-
-/// The distances that exudation takes its weights from, exact where the differences of floating point numbers have no
-/// correct digits left: four vertices on a flat face are coplanar but for rounding. Wrong weights make exudation pump
-/// the same vertex for ever, and those that are not finite end the program.
-struct ExudingKernel : Kernel {
-  struct Compute_power_distance_to_power_sphere_3 {
-    using result_type = FT;
-    using P = Weighted_point_3;
-    FT operator()(const P& p, const P& q, const P& r, const P& s, const P& t) const {
-      if (precise(p, q, r, s, t)) return Kernel().compute_power_distance_to_power_sphere_3_object()(p, q, r, s, t);
-      return CGAL::to_double(in<CGAL::Simple_cartesian<CGAL::Exact_rational>>(p, q, r, s, t));
-    }
-
-   private:
-    template <class K>
-    static typename K::FT in(const P& p, const P& q, const P& r, const P& s, const P& t) {
-      const CGAL::Cartesian_converter<Kernel, K> c;
-      return K().compute_power_distance_to_power_sphere_3_object()(c(p), c(q), c(r), c(s), c(t));
-    }
-    static bool precise(const P& p, const P& q, const P& r, const P& s, const P& t) {
-      const CGAL::Protect_FPU_rounding<true> protect;
-      return CGAL::has_smaller_relative_precision(in<CGAL::Simple_cartesian<CGAL::Interval_nt_advanced>>(p, q, r, s, t),
-                                                  1e-6);
-    }
-  };
-  Compute_power_distance_to_power_sphere_3 compute_power_distance_to_power_sphere_3_object() const { return {}; }
-};
-
-/// The Oracle with creases. What CGAL asks for as it protects them counts as queries, and the points that it makes as
-/// vertices: it does not look at their number there.
-class MeshDomain : public CGAL::Mesh_domain_with_polyline_features_3<Oracle> {
-  using Base = CGAL::Mesh_domain_with_polyline_features_3<Oracle>;
-
- public:
-  MeshDomain(const Domain* domain, const Sizing<3>* sizing) : Base(domain, sizing), sizing_(sizing) {}
-
-  Point_3 construct_point_on_curve(const Point_3& start, const Curve_index& curve, FT distance) const {
-    sizing_->count_query();
-    if (++points_ > sizing_->most_vertices()) sizing_->no_end();
-    return Base::construct_point_on_curve(start, curve, distance);
-  }
-  FT curve_segment_length(const Point_3& p, const Point_3& q, const Curve_index& curve, CGAL::Orientation o) const {
-    sizing_->count_query();
-    return Base::curve_segment_length(p, q, curve, o);
-  }
-  CGAL::Sign distance_sign(const Point_3& p, const Point_3& q, const Curve_index& curve) const {
-    sizing_->count_query();
-    return Base::distance_sign(p, q, curve);
-  }
-
- private:
-  const Sizing<3>* sizing_;
-  mutable std::size_t points_ = 0;
-};
-
-using Triangulation = CGAL::Mesh_triangulation_3<MeshDomain, ExudingKernel, CGAL::Sequential_tag>::type;
-using Complex =
-    CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, MeshDomain::Corner_index, MeshDomain::Curve_index>;
-using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
 /// A multiple of the size field, as CGAL's concept MeshDomainField_3.
 struct ScaledSize {
@@ -278,51 +88,76 @@ void exude(Complex& complex, const Sizing<3>& sizing) {
   }
 }
 
-/// Whether the refinement goes on until the surface is a manifold. Near sharp angles between faces it may do so for
-/// ever without a further vertex: those that it asks for are too close to edges.
-enum class Surface { manifold, any };
+/// How the inside is told.
+enum class Way {
+  manifold,  ///< by the centres of cells' spheres, refined until the surface is a manifold. Near sharp angles between
+             ///< faces it may be refined for ever without a further vertex: those asked for are too close to edges
+  middles,   ///< see LabelsByMiddles
+};
 
-/// @param factor of the sizes
-Complex refine(const Domain& domain, const Sizing<3>& sizing, Surface surface, double factor) {
+Complex refine(const Domain& domain, const Sizing<3>& sizing, Way way) {
   CGAL::get_default_random() = CGAL::Random(0);
-  MeshDomain mesh_domain(&domain, &sizing);
+  RefinementWatch watch(&sizing);
+  MeshDomain mesh_domain(&domain, &sizing, &watch);
   std::vector<std::vector<Kernel::Point_3>> creases;
   for (const Polyline& crease : domain.creases()) {
     creases.emplace_back();
     std::transform(crease.begin(), crease.end(), std::back_inserter(creases.back()), cgal);
   }
   mesh_domain.add_features(creases.begin(), creases.end());
+  for (const Point<3>& tip : domain.tips()) mesh_domain.add_corner(cgal(tip));
 
   namespace p = CGAL::parameters;
-  const Criteria criteria(p::edge_size = ScaledSize{&sizing, factor * edge_bound}, p::facet_angle = 25,
-                          p::facet_size = ScaledSize{&sizing, factor * facet_bound},
-                          p::facet_distance = ScaledSize{&sizing, factor * domain.flatness()},
-                          p::cell_radius_edge_ratio = 2, p::cell_size = ScaledSize{&sizing, factor * cell_bound});
+  const Criteria criteria(p::edge_size = ScaledSize{&sizing, edge_bound}, p::facet_angle = 25,
+                          p::facet_size = ScaledSize{&sizing, facet_bound},
+                          p::facet_distance = ScaledSize{&sizing, domain.flatness()}, p::cell_radius_edge_ratio = 2,
+                          p::cell_size = ScaledSize{&sizing, cell_bound});
   CGAL::Mesh_error_code error = CGAL::CGAL_MESH_3_NO_ERROR;
-  auto complex = CGAL::make_mesh_3<Complex>(
-      mesh_domain, criteria, surface == Surface::manifold ? p::manifold() : p::non_manifold(), p::no_perturb(),
-      p::no_exude(),
-      p::mesh_3_options(p::maximal_number_of_vertices = sizing.most_vertices(), p::pointer_to_error_code = &error));
+  Complex complex;
+  watch.expect_vertices([&] { return complex.triangulation().number_of_vertices(); });
+  CGAL::make_mesh_3_impl(
+      complex, mesh_domain, criteria, p::no_exude(), p::no_perturb(), p::no_odt(), p::no_lloyd(), true,
+      p::mesh_3_options(p::maximal_number_of_vertices = sizing.most_vertices(), p::pointer_to_error_code = &error),
+      way == Way::manifold ? p::manifold() : p::non_manifold());
   if (error != CGAL::CGAL_MESH_3_NO_ERROR) sizing.no_end();
+  if (way == Way::middles) LabelsByMiddles(complex, domain, sizing).put();
+  exude(complex, sizing);
   return complex;
 }
 
-Mesh<3> extract(const Complex& complex, std::vector<bool>& on_crease) {
-  Mesh<3> mesh;
+struct Extract {
+  Mesh<3> mesh;  ///< in the domain's own coordinates, without parts
+  std::vector<bool> on_crease;
+  std::vector<CreaseEdge> creases;
+};
+
+Extract extract(const Complex& complex) {
+  Extract out;
   std::unordered_map<Triangulation::Vertex_handle, Index, CGAL::Handle_hash_function> numbers;
-  const Triangulation& triangulation = complex.triangulation();
-  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
-    auto& element = mesh.elements.emplace_back();
-    for (int k = 0; k < 4; ++k) {
-      const auto vertex = cell->vertex(k);
-      const auto [entry, fresh] = numbers.emplace(vertex, mesh.vertices());
-      element[static_cast<std::size_t>(k)] = entry->second;
-      if (!fresh) continue;
-      mesh.points.push_back(plain(triangulation.geom_traits().construct_point_3_object()(vertex->point())));
-      on_crease.push_back(complex.in_dimension(vertex) <= 1);
+  const auto position = [&](Triangulation::Vertex_handle vertex) {
+    return plain(complex.triangulation().geom_traits().construct_point_3_object()(vertex->point()));
+  };
+  const auto number = [&](Triangulation::Vertex_handle vertex) {
+    const auto [entry, fresh] = numbers.emplace(vertex, out.mesh.vertices());
+    if (fresh) {
+      out.mesh.points.push_back(position(vertex));
+      out.on_crease.push_back(complex.in_dimension(vertex) <= 1);
     }
+    return entry->second;
+  };
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell) {
+    auto& element = out.mesh.elements.emplace_back();
+    for (int k = 0; k < 4; ++k) element[static_cast<std::size_t>(k)] = number(cell->vertex(k));
   }
-  return mesh;
+  for (auto edge = complex.edges_in_complex_begin(); edge != complex.edges_in_complex_end(); ++edge) {
+    const auto a = edge->first->vertex(edge->second), b = edge->first->vertex(edge->third);
+    const auto known = [&](Triangulation::Vertex_handle v) { return numbers.contains(v) ? numbers[v] : -1; };
+    const Point<3> p = position(a), q = position(b);
+    out.creases.push_back({{known(a), known(b)},
+                           {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2},
+                           length<3>(difference<3>(p, q))});
+  }
+  return out;
 }
 
 // Size values at the points inside the domain of a regular grid over its box, and on its surface.
@@ -341,41 +176,61 @@ std::vector<double> sampled_sizes(const Domain& domain, const Sizing<3>& sizing)
   return sizes;
 }
 
-/// In the domain's own coordinates, without parts.
-Mesh<3> mesh_of(const Domain& domain, const Sizing<3>& sizing, Surface surface, double factor,
-                std::vector<bool>& on_crease) {
-  on_crease.clear();
-  Complex complex = refine(domain, sizing, surface, factor);
-  exude(complex, sizing);
-  Mesh<3> mesh = extract(complex, on_crease);
+Extract mesh_of(const Domain& domain, const Sizing<3>& sizing, Way way) {
+  Extract out = extract(refine(domain, sizing, way));
+  Mesh<3>& mesh = out.mesh;
   if (mesh.elements.empty()) throw ShapeError(domain.name(), "size", "too large to resolve the shape");
   replace_flat_elements(mesh);
   mesh.boundary = find_boundary<3>(mesh.vertices(), mesh.elements);
-  peel_slivers(mesh);
-  return mesh;
+  peel_slivers(mesh, out.creases);
+  return out;
 }
 
-bool is_manifold(const Mesh<3>& mesh) {
-  const Hinges hinges = find_hinges(mesh);
-  return hinges.vertices.empty() && hinges.edges.empty();
+/// Halves sizes where something is missed, in some places of those that are near each other.
+bool halve(Sizing<3>& sizing, const Missed& missed) {
+  constexpr std::size_t most_places = 50;
+  constexpr double reach = 2;  // of elements there
+  std::vector<Missed::Place> taken;
+  for (const Missed::Place& place : missed.places) {
+    if (taken.size() == most_places) break;
+    if (std::ranges::any_of(taken, [&](const Missed::Place& other) {
+          return length<3>(difference<3>(other.at, place.at)) < other.size;
+        }))
+      continue;
+    taken.push_back(place);
+    sizing.halve_near(place.at, reach * place.size);
+  }
+  return !taken.empty();
 }
 
-/// Where a manifold is not come to soon, one is hoped for without asking for it, then at sizes somewhat smaller: near
-/// sharp angles it depends on where the first vertices happen to be. (Not at once: the meshes of all other shapes are
-/// as they are.)
-Mesh<3> patient_mesh(const Domain& domain, Sizing<3>& sizing, double elements, std::vector<bool>& on_crease) {
-  sizing.be_impatient(elements);
-  try {
-    return mesh_of(domain, sizing, Surface::manifold, 1, on_crease);
-  } catch (const NoEnd&) {
-  }
-  for (const double factor : {1.0, 0.9, 0.8, 0.7, 0.6}) {
-    sizing.expect(elements / (factor * factor * factor));
-    Mesh<3> mesh = mesh_of(domain, sizing, Surface::any, factor, on_crease);
-    if (is_manifold(mesh)) return mesh;
-  }
-  sizing.expect(elements);
-  return mesh_of(domain, sizing, Surface::manifold, 1, on_crease);
+/// A mesh that fills the domain, made in the way that is exact for it if that will do. Where neither does, sizes are
+/// halved at places that are missed, until the work has been that of many meshes.
+Extract filling(const Domain& domain, Sizing<3>& sizing, double elements) {
+  if (!domain.may_be_missed()) return mesh_of(domain, sizing, Way::manifold);
+  constexpr double spare_elements = 1e5, most_times = 10;
+  double left = spare_elements + most_times * elements;
+  std::string complaint;
+  Missed missed;
+  const auto attempt = [&](Way way) -> std::optional<Extract> {
+    missed = {};
+    sizing.expect(elements);
+    try {
+      Extract out = mesh_of(domain, sizing, way);
+      missed = find_missed(out.mesh, domain, out.creases);
+      left -= static_cast<double>(out.mesh.elements.size());
+      if (!missed) return out;
+      complaint = missed.complaint;
+    } catch (const NoEnd& error) {
+      complaint = error.complaint();
+    }
+    return {};
+  };
+  const bool flat = domain.flat();
+  for (const Way way : {flat ? Way::middles : Way::manifold, flat ? Way::manifold : Way::middles})
+    if (auto out = attempt(way)) return std::move(*out);
+  while (left > 0 && halve(sizing, missed))
+    if (auto out = attempt(Way::middles)) return std::move(*out);
+  throw ShapeError(domain.name(), "size", complaint);
 }
 
 }  // namespace
@@ -389,11 +244,10 @@ Mesh<3> tetrahedralize(const Domain& domain, const Size<3>& size) {
   const double elements = expected_elements<3>(domain.volume(), sizes);
   sizing.expect(elements);
   check_crease_spacing(domain, sizing);
-  std::vector<bool> on_crease;
-  Mesh<3> mesh = patient_mesh(domain, sizing, elements, on_crease);
-  domain.finish(mesh, on_crease);
-  require_valid(domain.name(), mesh);
-  return mesh;
+  Extract out = filling(domain, sizing, elements);
+  domain.finish(out.mesh, out.on_crease);
+  require_valid(domain.name(), out.mesh);
+  return std::move(out.mesh);
 }
 
 }  // namespace signorini::geometry

@@ -1,3 +1,7 @@
+// Preconditions of the kernel that a segment, and a triangle of the surface, are no points or lines: exact arithmetic
+// for every triangle in the coordinate planes, at every crossing. The reader has dropped such triangles.
+#define CGAL_KERNEL_NO_PRECONDITIONS
+
 #include "core/geometry/cgal/triangle_surface.hpp"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

@@ -133,5 +133,34 @@ TEST(SmoothSurface, ADrumIsRoundAndItsEdgesAreSharp) {
     }
 }
 
+/// A cone of half angle 63 degrees upon its base, by rings around the tip: straight up to that.
+TEST(SmoothSurface, AConeHasItsTip) {
+  constexpr int sides = 32, rings = 6;
+  Surface s{{{0, 0, 0}, {0, 0, -0.5}}, {}};
+  const auto at_ring = [](int ring, int i) { return 2 + (ring - 1) * sides + i % sides; };
+  for (int ring = 1; ring <= rings; ++ring)
+    for (int i = 0; i < sides; ++i) {
+      const double r = static_cast<double>(ring) / rings, angle = 2 * std::numbers::pi * i / sides;
+      s.points.push_back({r * std::cos(angle), r * std::sin(angle), -r / 2});
+    }
+  for (int i = 0; i < sides; ++i) {
+    s.triangles.push_back({0, at_ring(1, i), at_ring(1, i + 1)});
+    s.triangles.push_back({1, at_ring(rings, i + 1), at_ring(rings, i)});
+    for (int ring = 1; ring < rings; ++ring) {
+      s.triangles.push_back({at_ring(ring, i), at_ring(ring + 1, i), at_ring(ring + 1, i + 1)});
+      s.triangles.push_back({at_ring(ring, i), at_ring(ring + 1, i + 1), at_ring(ring, i + 1)});
+    }
+  }
+  const auto shape = smooth(s);
+  const double c = 1 / std::sqrt(5), d = 2 / std::sqrt(5);
+  for (double angle = 0.01; angle < 6.28; angle += 0.37)
+    for (const double r : {0.02, 0.08, 0.13, 0.3, 0.55}) {
+      const Vector3d out(std::cos(angle), std::sin(angle), 0);
+      const Vector3d on = r * out + Vector3d(0, 0, -r / 2), up = c * out + Vector3d(0, 0, d);
+      EXPECT_NEAR(at(*shape, on + 0.03 * up).value, 0.03, 3e-4) << r;  // facets: 7e-4
+    }
+  EXPECT_NEAR(at(*shape, Vector3d(0, 0, 0.1)).value, 0.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace signorini

@@ -1,5 +1,7 @@
 #include <cstdlib>
+#include <numbers>
 
+#include "core/base/dot.hpp"
 #include "geometry_checks.hpp"
 #include "surfaces.hpp"
 
@@ -97,9 +99,62 @@ Surface octahedron() {
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 }
 
+/// The hull of the middles of a cube's edges. Its faces meet at 54.7 degrees.
+Surface cuboctahedron() {
+  Surface s;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-1.0, 1.0}) {
+      s.points.push_back({a, b, 0});
+      s.points.push_back({a, 0, b});
+      s.points.push_back({0, a, b});
+    }
+  const auto plane = [&](const std::array<double, 3>& n, double distance) {
+    std::vector<int> face;
+    for (int v = 0; v < 12; ++v)
+      if (std::abs(n[0] * s.points[v][0] + n[1] * s.points[v][1] + n[2] * s.points[v][2] - distance) < 1e-12)
+        face.push_back(v);
+    return face;
+  };
+  const auto add = [&](int a, int b, int c, const std::array<double, 3>& n) {
+    const auto &p = s.points[a], &q = s.points[b], &r = s.points[c];
+    const Point<3> normal = cross({q[0] - p[0], q[1] - p[1], q[2] - p[2]}, {r[0] - p[0], r[1] - p[1], r[2] - p[2]});
+    s.triangles.push_back(dot(n, normal) > 0 ? std::array{a, b, c} : std::array{a, c, b});
+  };
+  for (int k = 0; k < 3; ++k)
+    for (const double sign : {-1.0, 1.0}) {
+      std::array<double, 3> n{};
+      n[k] = sign;
+      const auto f = plane(n, 1);  // a square: the vertex opposite to the first one is the one farthest from it
+      int opposite = 1;
+      for (int i = 1; i < 4; ++i) {
+        const auto &p = s.points[f[0]], &q = s.points[f[i]];
+        if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1.9) opposite = i;
+      }
+      for (int i = 1; i < 4; ++i)
+        if (i != opposite) add(f[0], f[i], f[opposite], n);
+    }
+  for (int k = 0; k < 8; ++k) {
+    const std::array<double, 3> n{k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0};
+    const auto f = plane(n, 2);
+    add(f[0], f[1], f[2], n);
+  }
+  return s;
+}
+
+void expect_filled(const Surface& surface, double volume, double h) {
+  const Mesh<3> m = mesh(TemporaryFile("solid.off", surface.off()), h);
+  test::expect_consistent(m);
+  EXPECT_NEAR(test::volume(m), volume, 1e-9 * volume);
+}
+
 // Their vertices lie on one sphere, and four at a time in planes.
 TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
-  for (const auto& [name, surface, volume] : {Named{"octahedron", octahedron(), 4.0 / 3}, {"cube", cube(-1, 1), 8}})
+  Surface bipyramid = octahedron();
+  for (auto& p : bipyramid.points) p[2] *= 0.5;
+  for (const auto& [name, surface, volume] : {Named{"octahedron", octahedron(), 4.0 / 3},
+                                              {"cuboctahedron", cuboctahedron(), 20.0 / 3},
+                                              {"bipyramid", bipyramid, 2.0 / 3},
+                                              {"cube", cube(-1, 1), 8}})
     for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
       for (const double h : {3.0, 1.5, 1.0, 0.7, 0.5, 0.35}) {
         SCOPED_TRACE(fmt::format("{}, size {}", name, h));
@@ -108,6 +163,90 @@ TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
         EXPECT_NEAR(test::volume(m), volume, 1e-9 * volume);
         EXPECT_GT(test::smallest_angle(m), 1);
       }
+}
+
+// An octahedron with a vertex pulled out: its faces meet in angles of 8 degrees there.
+TEST(Solid, FarCornersAreFilled) {
+  Surface s = octahedron();
+  s.points[0] = {1.1, 0.07, 0};
+  s.points[1] = {-1, 4, 0};
+  for (const Surface& t : {s, s.turned(0.7, 0.3).moved(100)})
+    for (const double h : {3.0, 0.7, 0.25}) {
+      SCOPED_TRACE(fmt::format("size {}", h));
+      expect_filled(t, 1.4, h);
+    }
+  EXPECT_GT(test::smallest_angle(mesh(TemporaryFile("far.off", s.off()), 0.7)), 1);
+}
+
+// A prism over a sharp triangle, and the notch that such a prism leaves.
+TEST(Solid, SharpAnglesAndNarrowNotchesAreFilled) {
+  for (const double degrees : {12.0, 6.0}) {
+    SCOPED_TRACE(degrees);
+    const double t = degrees * std::numbers::pi / 180, w = 1.5 * std::tan(t / 2);
+    const Surface wedge = test::prism({{0, 0}, {2, 0}, {2 * std::cos(t), 2 * std::sin(t)}}, 1, {{0, 1, 2}});
+    const Surface notched = test::prism({{-2, 0}, {2, 0}, {2, 2}, {w, 2}, {0, 0.5}, {-w, 2}, {-2, 2}}, 1,
+                                        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {4, 5, 6}, {4, 6, 0}});
+    for (const double h : {1.5, 0.4}) expect_filled(wedge, 2 * std::sin(t), h);
+    expect_filled(wedge.turned(0.7, 0.3), 2 * std::sin(t), 0.4);
+    expect_filled(notched, 8 - 1.5 * w, 0.7);
+  }
+}
+
+// What geometry/edges.hpp tells to be an edge is one, whatever its angle: here 20 degrees.
+TEST(Solid, ShallowEdgesAreKept) {
+  const double rise = 0.8 * std::tan(20 * std::numbers::pi / 180);
+  const Surface die = test::prism({{0, 0}, {3, 0}, {3, 1}, {2.2, 1 + rise}, {0.8, 1 + rise}, {0, 1}}, 1.5,
+                                  {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
+  for (const Surface& s : {die, die.turned(0.7, 0.3)})
+    for (const double h : {1.5, 0.4}) expect_filled(s, 1.5 * (3 + 2.2 * rise), h);
+}
+
+/// Over a regular polygon, to an apex at the height `high`, or a prism of that height.
+Surface over_polygon(int n, double high, bool pointed) {
+  Surface s;
+  const auto ring = [&](double z) {
+    for (int i = 0; i < n; ++i)
+      s.points.push_back({std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n), z});
+  };
+  ring(0);
+  if (!pointed) ring(high);
+  if (pointed) s.points.push_back({0, 0, high});
+  for (int i = 2; i < n; ++i) {
+    s.triangles.push_back({0, i, i - 1});
+    if (!pointed) s.triangles.push_back({n, n + i - 1, n + i});
+  }
+  for (int i = 0; i < n; ++i) {
+    const int k = (i + 1) % n;
+    if (pointed) {
+      s.triangles.push_back({i, k, n});
+    } else {
+      s.triangles.push_back({i, k, k + n});
+      s.triangles.push_back({i, k + n, i + n});
+    }
+  }
+  return s;
+}
+
+// The 32 edges of its side are none of a cylinder: elements have the size asked for.
+TEST(Solid, RoundSidesAreSmooth) {
+  const double area = 16 * std::sin(std::numbers::pi / 16);
+  for (const double h : {0.7, 0.4}) {
+    SCOPED_TRACE(h);
+    const Mesh<3> m = mesh(TemporaryFile("cylinder.stl", over_polygon(32, 2, false).stl()), h);
+    test::expect_consistent(m);
+    EXPECT_NEAR(test::volume(m), 2 * area, h * h / 12 * 2 * area);  // what chords of such a length leave
+    EXPECT_GT(test::mean_edge(m), 0.85 * h);
+  }
+}
+
+TEST(Solid, TheTipOfAConeIsThere) {
+  for (const double h : {1.5, 0.4}) {
+    const Mesh<3> m = mesh(TemporaryFile("cone.off", over_polygon(32, 4, true).off()), h);
+    test::expect_consistent(m);
+    double top = 0;
+    for (const Point<3>& p : m.points) top = std::max(top, p[2]);
+    EXPECT_EQ(top, 4) << h;
+  }
 }
 
 TEST(Solid, RealSurfacesAreFilled) {
