@@ -1,11 +1,12 @@
 #include "core/geometry/edges.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
 #include "core/geometry/groups.hpp"
 #include "core/mesh/simplex.hpp"
@@ -87,13 +88,13 @@ class Surface {
   }
   /// Nothing where it is not determined.
   std::optional<Slope> slope() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, terms<D>, terms<D>>> eigen(moments_);
-    const auto& own = eigen.eigenvalues();
+    const auto [own, directions] = eigenpairs(moments_);
+    if (own.size() == 0) return {};
     double seen = 0, slope = 0, explained = 0, spread = 0;
     int rank = 0;
     for (int k = 0; k < terms<D>; ++k) {
       if (!(own[k] > told * own[terms<D> - 1])) continue;
-      const Terms<D> v = eigen.eigenvectors().col(k);
+      const Terms<D> v = directions.col(k);
       const double part = v.dot(right_);
       seen += v[1] * v[1];
       slope += v[1] * part / own[k];
