@@ -422,9 +422,11 @@ class Covered {
     nodes_ = {from, std::ranges::upper_bound(from, pairs->nodes.end(), obstacle, {}, &PairedNode<B>::obstacle)};
   }
 
-  double at(Index node) const {
-    const auto found = std::ranges::lower_bound(nodes_, node, {}, &PairedNode<B>::node);
-    return found == nodes_.end() || found->node != node ? 1 : found->covered;
+  void tell(ContactNode<B>& node) const {
+    const auto found = std::ranges::lower_bound(nodes_, node.vertex, {}, &PairedNode<B>::node);
+    const bool known = found != nodes_.end() && found->node == node.vertex;
+    node.covered = known ? found->covered : 1;
+    node.taken = known ? found->taken : 0;
   }
 
  private:
@@ -442,8 +444,8 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
   const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
-    node.covered = covered.at(node.vertex);
-    node.area = std::max(node.covered, node.least_covered) * surface.area(node);
+    covered.tell(node);
+    node.area = (std::max(node.covered, node.least_covered) + node.taken) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
     if (!in_body) continue;

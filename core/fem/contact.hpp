@@ -17,6 +17,7 @@ struct ContactNode {
   /// Integral of the vertex's hat function over the faces the obstacle acts on; for a scalar obstacle without faces
   /// over the body. In elasticity only those faces count that face the obstacle: whose outer normal is within 60
   /// degrees of -direction; where there is none all do.
+  /// With what is taken over of nodes that are left out.
   double area;
   double pressure;  ///< consistent nodal force over covered area, positive where the obstacle pushes
   /// Exerted by the obstacle, global coordinates; without contact what a functional of the obstacle exerts, or zero.
@@ -34,6 +35,7 @@ struct ContactNode {
   bool hardly_covered() const { return covered < least_covered; }
   /// Whether the other body ends there.
   bool partly_covered() const { return covered < 0.9; }
+  double taken = 0;  ///< likewise: over its area, that of nodes beside it that are left out, and press on it
   static constexpr double least_covered = 0.5;
   double recovered = 0;  ///< the pressure at the node, see recover_pressure(); zero without contact
   FrictionLaw law{};     ///< where there is friction

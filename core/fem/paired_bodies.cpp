@@ -118,6 +118,7 @@ class Coupler {
     const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
     node.part = found.part(k);
     node.covered = found.covered[k];
+    node.taken = found.taken[k];
     node.gap = found.gap[k] / node.part + before;
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});

@@ -17,6 +17,7 @@ struct PairedNode {
   double gap;                  ///< mean distance along it, weighted by the node's dual basis function: a coefficient
   double part = 1;             ///< of the distance in the node's bound, see MortarCoupling::part()
   double covered = 1;          ///< part of the node's area that the master is in front of
+  double taken = 0;            ///< what it takes over of nodes that are left out, over its area
 };
 
 /// The sides of a model's bodies that may touch each other, coupled by mortar on one mesh.

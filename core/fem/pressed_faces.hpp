@@ -134,14 +134,14 @@ class PressedFaces {
     return true;
   }
 
-  /// But for those that lie beyond the end of another body.
+  /// But for those that lie beyond the end of another body, and those whose share is their neighbours'.
   void add_strangers(const Nodes<D>& nodes, Index obstacle) {
     std::vector<Index> strangers, beyond;
     for (const Index face : faces_) {
       const auto vertices = nodes.of_face(face);
       const bool ends = std::ranges::any_of(vertices, [&](Index v) {
         const Index k = number_of(v, {});
-        return k != unreachable && node_[k]->partly_covered();
+        return k != unreachable && (node_[k]->partly_covered() || node_[k]->taken > 0);
       });
       for (const Index v : vertices)
         if (number_of(v, {}) == unreachable) (ends ? beyond : strangers).push_back(v);

@@ -279,16 +279,23 @@ class Recovery {
 
   /// Measure of the part of a face where the linear function with the squares at its corners is positive, as far as
   /// another body is in front of its nodes. Corners that it is not in front of do not end the contact within the face:
-  /// that body does.
+  /// that body does. Nor do nodes whose share is their neighbours'.
   double positive(std::size_t f) const {
     const Face<D>& face = nodes_.mesh().boundary[faces_.faces()[f]];
     std::array<double, D> value;
     double sum = 0, covered = 0;
-    int pressed = 0;
+    int pressed = 0, unknown = 0;
+    bool taken = false;  // what presses at the others
     for (const Index k : faces_.corners(f)) {
-      if (k != unreachable) covered += faces_.node(k).covered;
+      if (k == unreachable) {
+        ++unknown;
+        continue;
+      }
+      covered += faces_.node(k).covered;
+      taken = taken || faces_.node(k).taken > 0;
       if (faces_.pressed(k)) sum += square_[k], ++pressed;
     }
+    if (taken) covered += unknown;
     for (int c = 0; c < D; ++c) {
       const Index k = faces_.corners(f)[c];
       value[c] = k == unreachable || faces_.node(k).hardly_covered() ? sum / std::max(pressed, 1) : square_[k];

@@ -120,6 +120,7 @@ class Gathering {
     Place place = Place::alone;
     double weight = 0, common = 0;
     Point<D> normal{};
+    bool left_out = false;  // as CoupleOptions has it
   };
 
   Index size() const { return static_cast<Index>(slave_.node.size()); }
@@ -185,6 +186,7 @@ class Gathering {
     }
     if (std::ranges::binary_search(options.left_out, slave_.node[p])) {
       out.place = Place::orphan;
+      out.left_out = true;
       return out;
     }
     // ∫ ψ_p (jump) · (direction) <= ∫ ψ_p (distance) with one jump for all faces of the node: the left-hand side is
@@ -199,16 +201,17 @@ class Gathering {
     const Node& node = nodes_[p];
     row_.clear();
     own_.clear();
-    double gap = 0, nearest = infinity, farthest = -infinity;
+    double gap = 0, taken = 0, nearest = infinity, farthest = -infinity;
     for (const Seat& s : seats(p)) {
       nearest = std::min(nearest, s.record->nearest);
       farthest = std::max(farthest, s.record->farthest);
       gap += add(s, s.corner, s.record->share[s.corner]);
-      if (orphans_) gap += add_orphans(s, part_of_orphans(*s.record, s.corner));
+      if (orphans_) gap += add_orphans(s, part_of_orphans(*s.record, s.corner), taken);
     }
     out.node.push_back(slave_.node[p]);
     out.weight.push_back(node.weight);
     out.covered.push_back(front_[p] > 0 ? node.weight / front_[p] : 1);
+    out.taken.push_back(front_[p] > 0 ? taken / front_[p] : 0);
     out.normal.push_back(node.normal);
     out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
     out.nearest.push_back(nearest);
@@ -224,13 +227,15 @@ class Gathering {
     return sum > 0 ? std::max(record.share[corner], 0.0) / sum : 0;
   }
 
-  double add_orphans(const Seat& s, double part) {
+  /// @param taken gets the area of those that are left out
+  double add_orphans(const Seat& s, double part, double& taken) {
     double gap = 0;
     for (std::size_t a = 0; part > 0 && a < Face::nodes; ++a) {
       const Index node = s.record->node[a];
       if (nodes_[node].place != Place::orphan) continue;
       const double share = part * s.record->share[a];
       gap += add(s, a, share);
+      if (nodes_[node].left_out) taken += share;
       own_.push_back({slave_.node[node], -share});
     }
     return gap;

@@ -170,6 +170,8 @@ TEST(FrictionAtFixesOfBodies, IsAllOfIt) {
           if (dimension == 2) EXPECT_NEAR(contact.tangential_force[0], -friction * pressed, 1e-6 * pressed);
           EXPECT_NEAR(contact.tangential_force[0], -friction * pressed, 0.01 * friction * pressed);
           EXPECT_EQ(contact.stick_nodes, 0);
+          // The nodes that are led are no pairs, and touch.
+          if (contact.pair->slave == "upper") EXPECT_NEAR(contact.area, pressed / weight, 1e-6);
           expect_opposite(contact, 1e-9);
           expect_balance(step, 1e-7 * pressed);
         }

@@ -1,49 +1,34 @@
 #include "driver/balance_warnings.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "apps/scenes/tables.hpp"
-#include "driver/driver.hpp"
+#include "tests/driver/warned.hpp"
 
 // Loads that are lost are told, and loads that balance each other are not taken for lost.
 
 namespace signorini::test {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
-
 const std::string refined = "[refine]\nuniform = 2\n";
 const std::string square = tables::block("block", "[0, 0]", "[1, 1]", "[7, 7]") +
                            tables::fix("block", "bottom", "[0, 0]") +
                            tables::plane("block", "right", "[1.01, 0]", "[-1, 0]");
 
-std::vector<std::string> warnings(const std::string& text) {
-  Driver driver(parse_scene(text + refined, "test.toml", "."));
-  EXPECT_TRUE(driver.solve().converged());
-  return driver.report().warnings;
-}
+std::vector<std::string> told(const std::string& text) { return warnings(text + refined); }
 
 auto warns_of(const std::string& body) {
   return Contains(AllOf(HasSubstr("body '" + body + "': forces balance up to"), HasSubstr("too small")));
 }
 
 TEST(BalanceWarnings, not_for_loads_that_cancel) {
-  EXPECT_THAT(
-      warnings(square + tables::load("block", "[-0.1, 0]", "left") + tables::load("block", "[0.1, 0]", "right")),
-      Not(warns_of("block")));
-  EXPECT_THAT(warnings(square + tables::load("block", "['0.1 * cos(pi * x)', 0]", "top")), Not(warns_of("block")));
+  EXPECT_THAT(told(square + tables::load("block", "[-0.1, 0]", "left") + tables::load("block", "[0.1, 0]", "right")),
+              Not(warns_of("block")));
+  EXPECT_THAT(told(square + tables::load("block", "['0.1 * cos(pi * x)', 0]", "top")), Not(warns_of("block")));
 }
 
 // A prescribed boundary whose forces cancel, solved as far as rounding allows.
 TEST(BalanceWarnings, forces_that_cancel_are_not_lost) {
-  Driver driver(parse_scene(tables::block("block", "[-1, -1]", "[1, 1]", "[4, 4]") +
-                                tables::fix("block", "boundary", "['sin(x) * cos(y)', '0.5 * cos(x) * sin(y)']") +
-                                "[solver]\ntolerance = 1e-17\n" + refined,
-                            "test.toml", "."));
+  Driver driver(scene_of(tables::block("block", "[-1, -1]", "[1, 1]", "[4, 4]") +
+                         tables::fix("block", "boundary", "['sin(x) * cos(y)', '0.5 * cos(x) * sin(y)']") +
+                         "[solver]\ntolerance = 1e-17\n" + refined));
   EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
 }
 
@@ -53,15 +38,15 @@ TEST(BalanceWarnings, not_for_radial_forces_of_axisymmetric_bodies) {
                                          "plane = 'axisymmetric'\norder = 1\nyoung = 1\npoisson = 0.3\n") +
                            tables::fix("ring", "top", "['free', 0]") +
                            tables::plane("ring", "bottom", "[0, 0]", "[0, 1]");
-  EXPECT_THAT(warnings(ring + tables::load("ring", "[0.05, 0]", "left")), Not(warns_of("ring")));
+  EXPECT_THAT(told(ring + tables::load("ring", "[0.05, 0]", "left")), Not(warns_of("ring")));
 }
 
 TEST(BalanceWarnings, for_loads_lost_beside_what_displacements_do) {
   const std::string pressed = tables::block("block", "[0, 0]", "[1, 1]", "[7, 7]") +
                               tables::fix("block", "top", "[0, -0.05]") +
                               tables::plane("block", "bottom", "[0, 0]", "[0, 1]");
-  EXPECT_THAT(warnings(pressed + tables::load("block", "[0, -1e-16]")), warns_of("block"));
-  EXPECT_THAT(warnings(pressed + tables::load("block", "[0, -1e-3]")), Not(warns_of("block")));
+  EXPECT_THAT(told(pressed + tables::load("block", "[0, -1e-16]")), warns_of("block"));
+  EXPECT_THAT(told(pressed + tables::load("block", "[0, -1e-3]")), Not(warns_of("block")));
 }
 
 // Of bodies that touch each other each has loads of its own to be compared with.
@@ -72,9 +57,9 @@ TEST(BalanceWarnings, for_the_body_whose_loads_are_lost) {
                            "[[obstacle]]\ntype = 'elastic'\nbody = 'upper'\non = 'bottom'\nother = 'lower'\nother_on "
                            "= 'top'\n" +
                            tables::load("upper", "[-0.01, 0]", "left") + tables::load("upper", "[0.01, 0]", "right");
-  const auto told = warnings(pair + tables::load("lower", "[0, -1e-16]"));
-  EXPECT_THAT(told, warns_of("lower"));
-  EXPECT_THAT(told, Not(warns_of("upper")));
+  const auto both = told(pair + tables::load("lower", "[0, -1e-16]"));
+  EXPECT_THAT(both, warns_of("lower"));
+  EXPECT_THAT(both, Not(warns_of("upper")));
 }
 
 // What presses on a block from above and from below cancels, up to rounding, and is what acts there.
@@ -87,7 +72,7 @@ TEST(BalanceWarnings, not_for_a_body_between_two_others) {
       "other_on = 'bottom'\n"
       "[[obstacle]]\ntype = 'elastic_coulomb'\nfriction = 0.3\nbody = 'b1'\non = 'top'\nother = 'b2'\n"
       "other_on = 'bottom'\n";
-  EXPECT_THAT(warnings(stack), Not(Contains(HasSubstr("forces balance up to"))));
+  EXPECT_THAT(told(stack), Not(Contains(HasSubstr("forces balance up to"))));
 }
 
 }  // namespace

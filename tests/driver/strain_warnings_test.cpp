@@ -1,39 +1,11 @@
 #include "driver/strain_warnings.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "apps/scenes/tables.hpp"
-#include "core/base/error.hpp"
-#include "driver/driver.hpp"
+#include "tests/driver/warned.hpp"
 
 // What linear elasticity says of large strains is warned of, and refused where a body would be pressed through itself.
 
 namespace signorini::test {
 namespace {
-
-using testing::AllOf;
-using testing::Contains;
-using testing::HasSubstr;
-using testing::Not;
-
-Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml", "."); }
-
-std::vector<std::string> warnings(const std::string& text) {
-  Driver driver(scene_of(text));
-  EXPECT_TRUE(driver.solve().converged());
-  return driver.report().warnings;
-}
-
-auto refused(const std::string& text) {
-  try {
-    Driver(scene_of(text)).solve();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), Exit::input);
-    return std::string(error.what());
-  }
-  return std::string("not refused");
-}
 
 /// A block of height 1 on a plane, its top moved down.
 std::string squeezed(double by, const std::string& material, bool flat = true) {
