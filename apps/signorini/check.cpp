@@ -47,7 +47,7 @@ void print_parts(const Mesh<D>& mesh) {
 void print_symmetry(const std::vector<Mirror>& mirrors) {
   if (mirrors.empty()) return;
   std::string planes;
-  for (const Mirror& mirror : mirrors) planes += " " + plane_name(mirror);
+  for (const Mirror& mirror : mirrors) planes += fmt::format(" {}", plane_name(mirror));
   say("symmetry: one of {} copies is meshed, beside{}\n", 1 << mirrors.size(), planes);
 }
 
