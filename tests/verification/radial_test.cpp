@@ -102,7 +102,7 @@ void expect_orders(int cells, int refinements, int order) {
 TEST(Radial, Orders2D) { expect_orders<2>(16, 4, 1); }
 TEST(Radial, Orders3D) { expect_orders<3>(7, 3, 1); }
 TEST(Radial, OrdersOfQuadraticElements2D) { expect_orders<2>(16, 4, 2); }
-TEST(Radial, OrdersOfQuadraticElements3D) { expect_orders<3>(7, 2, 2); }
+TEST(Radial, OrdersOfQuadraticElements3D) { expect_orders<3>(7, 3, 2); }
 
 /// The ball of radius 2 with zero boundary values, freely meshed and moved onto the sphere under refinement.
 TEST(Radial, OrderInABall) {
