@@ -259,12 +259,14 @@ class Discretizer {
     if (!term.obstacle->renewal() || given) return;
     const bool held = out_.problem.fixed[p] & ~out_.problem.constraints.tangential.back();
     if (!has_faces && !held) return;
-    input_error(term.origin,
-                fmt::format("at ({}) {}, so that the force that friction depends on is not known there, which is not "
-                            "available in this version",
-                            fmt::join(nodes_.at(p), ", "),
-                            has_faces ? "other obstacles hold the body along other directions"
-                                      : "a fix prescribes the displacement along the normal"));
+    input_error(
+        term.origin,
+        fmt::format("at ({}) {}, so that the force that friction depends on is not known there, which is not "
+                    "available in this version{}",
+                    fmt::join(nodes_.at(p), ", "),
+                    has_faces ? "other obstacles hold the body along other directions"
+                              : "a fix prescribes the displacement along the normal",
+                    has_faces ? "; one obstacle whose 'distance' is the least of theirs may take their place" : ""));
   }
 
   void prescribe_global(Index p, const FixedDirections<B>& fixed) {

@@ -87,7 +87,7 @@ class Chooser {
     for (const bool exchanged : {false, true})
       if (frees(exchanged ? other : body, exchanged ? body : other, model_.obstacles[k]))
         return {exchanged, "nodes of the other side are prescribed"};
-    for (const auto& [stiffer, coarser] : {std::pair{alike, as_fine}, std::pair{the_same, the_same}}) {
+    for (const auto& [stiffer, coarser] : {std::pair{alike * the_same, as_fine}, std::pair{the_same, the_same}}) {
       if (body.modulus > stiffer * other.modulus) return {true, softer(other, body)};
       if (other.modulus > stiffer * body.modulus) return {false, softer(body, other)};
       if (body.size > coarser * other.size) return {true, finer(other, body)};

@@ -60,6 +60,15 @@ TEST(Slave, DoesNotDependOnWhichIsNamedFirst) {
   }
 }
 
+// A ratio of moduli of exactly two, but for the rounding of other units.
+TEST(Slave, DoesNotDependOnUnits) {
+  const PairReport plain = pair_of({.lower_cells = "[8, 4]", .lower = material(200000), .upper = material(100000)});
+  const PairReport scaled =
+      pair_of({.lower_cells = "[8, 4]", .lower = material(0.2), .upper = material(std::nextafter(0.1, 0))});
+  EXPECT_EQ(plain.slave, scaled.slave);
+  EXPECT_EQ(plain.reason.substr(0, 5), scaled.reason.substr(0, 5)) << plain.reason << ", " << scaled.reason;
+}
+
 /// The upper block, softer by half, with one more fix.
 std::string with_fix(const std::string& fix, const std::string& obstacle) {
   return text_of({.lower = material(1.9), .obstacle = obstacle, .more = fix});

@@ -50,9 +50,12 @@ def run(commands, folder):
     environment = os.environ | {"PATH": f"{programs}:{os.environ['PATH']}"}
     ended = subprocess.run(["bash", "-euc", "\n".join(lines)], cwd=folder, env=environment, capture_output=True,
                            text=True)
-    if ended.returncode or ended.stderr:
+    if ended.returncode:
         sys.exit(f"{commands}ends with {ended.returncode}\n{ended.stdout}{ended.stderr}")
-    return ended.stdout
+    for warning in ended.stderr.splitlines():
+        if "](warnings.md" not in page and not any(agree(line, warning) for line in page.splitlines()):
+            sys.exit(f"{commands}warns, and the page neither shows it nor says where warnings are explained:\n{warning}")
+    return ended.stdout + ended.stderr
 
 
 def expect_shown(text, output):

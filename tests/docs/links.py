@@ -61,4 +61,5 @@ scenes = (source / "apps/scenes/README.md").read_text()
 wrong += [f"apps/scenes/README.md: no row for {file.name}" for file in files("*.toml")
           if file.parent == source / "apps/scenes" and f"({file.name}): " not in scenes]
 
-sys.exit("\n".join(wrong))
+if wrong:
+    sys.exit("\n".join(wrong))
