@@ -85,6 +85,7 @@ void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) c
 
 template <int D, int B>
 void BodyRun<D, B>::add_result_warnings(const Report& report, std::vector<std::string>& warnings) const {
+  if (!report.converged()) return;  // what an iterate looks like that is no solution says nothing of the scene
   append(warnings, apart_warnings(scene_, body_, report, results_));
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
   if constexpr (D == B) {

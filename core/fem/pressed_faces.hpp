@@ -49,8 +49,13 @@ class PressedFaces {
   const std::vector<Index>& around(Index k) const { return around_[k]; }
   /// Whether another body ends beside a node.
   bool at_end(Index k) const { return at_end_[k]; }
-  /// Whether the body's own surface ends at a node, and does not go on beyond a plane of symmetry.
-  bool at_rim(Index k) const { return at_rim_[k] && on_[k] == 0; }
+  /// Whether the body's own surface ends at a node, and does not go on beyond a plane of symmetry, or the axis, as
+  /// smoothly as it came: that of a cone ends in its tip.
+  bool at_rim(Index k) const {
+    bool goes_on = false;
+    each_mirror(on_[k], [&](const Flat<D>& mirror) { goes_on = goes_on || B != D || is_smooth_across(k, mirror); });
+    return at_rim_[k] && !goes_on;
+  }
   /// One of the faces at a node that has neighbours.
   Index face_at(Index k) const { return face_at_[k]; }
   /// How far to go from a node in search of samples: so many rings of neighbours, more where they are few.

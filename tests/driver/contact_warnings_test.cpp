@@ -41,5 +41,19 @@ TEST(ApartWarnings, name_obstacles_of_scalars) {
   EXPECT_THAT(membrane("-10"), Not(Contains(HasSubstr("never touch"))));
 }
 
+// Pressures under the tip of a rigid cone have no limit, those under a ball have.
+TEST(ContactWarnings, OfTipsOnTheAxis) {
+  const auto pressed = [](const std::string& shape) {
+    return warnings(
+        "[[body]]\nname = 'soil'\nshape = 'rectangle'\nfrom = [0, -10]\nto = [10, 0]\ncells = [40, 40]\nplane = "
+        "'axisymmetric'\nyoung = 100\npoisson = 0.3\n[[fix]]\nbody = 'soil'\non = 'bottom'\nvalue = [0, 0]\n"
+        "[[obstacle]]\ntype = 'contact'\nbody = 'soil'\non = 'top'\n" +
+        shape + "[refine]\nuniform = 2\n");
+  };
+  const auto told = Contains(HasSubstr("the largest pressure is where an edge or a corner touches"));
+  EXPECT_THAT(pressed("shape = 'plane'\npoint = [0, -0.05]\nnormal = ['sin(pi / 36)', '-cos(pi / 36)']\n"), told);
+  EXPECT_THAT(pressed("shape = 'ball'\ncenter = [0, 19.95]\nradius = 20\n"), Not(told));
+}
+
 }  // namespace
 }  // namespace signorini::test
