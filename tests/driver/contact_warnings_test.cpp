@@ -52,7 +52,7 @@ TEST(ContactWarnings, OfTipsOnTheAxis) {
   };
   const auto told = Contains(HasSubstr("the largest pressure is where an edge or a corner touches"));
   EXPECT_THAT(pressed("shape = 'plane'\npoint = [0, -0.05]\nnormal = ['sin(pi / 36)', '-cos(pi / 36)']\n"), told);
-  EXPECT_THAT(pressed("shape = 'ball'\ncenter = [0, 19.95]\nradius = 20\n"), Not(told));
+  EXPECT_THAT(pressed("shape = 'sphere'\ncenter = [0, 19.95]\nradius = 20\n"), Not(told));
 }
 
 }  // namespace
