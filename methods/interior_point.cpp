@@ -190,7 +190,6 @@ void InteriorPointIteration<B>::turn_into_springs(const VectorBlocks<B>& springs
     if (!block || free == 0) continue;
     const Eigen::MatrixXd Z = T.rightCols(free);
     const Eigenpairs own = eigenpairs(Z.transpose() * Eigen::Map<const Matrix>(block) * Z);
-    if (own.values.size() == 0) continue;
     T.rightCols(free) = Z * own.vectors;
     for (int k = 0; k < free; ++k) change.added[Offset{corner.p} * B + corner.held + k] += std::max(own.values[k], 0.0);
   }

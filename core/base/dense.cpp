@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <limits>
 
 namespace signorini {
 
@@ -12,7 +13,9 @@ using Eigen::VectorXd;
 using Matrix = Eigen::Ref<const MatrixXd>;
 
 Eigenpairs eigenpairs(const Matrix& symmetric) {
-  if (!symmetric.allFinite()) return {};
+  const Eigen::Index n = symmetric.rows();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (!symmetric.allFinite()) return {VectorXd::Constant(n, none), MatrixXd::Constant(n, n, none)};
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(symmetric);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }

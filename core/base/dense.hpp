@@ -11,7 +11,7 @@ struct Eigenpairs {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
-/// Empty where the matrix has entries that are no numbers.
+/// No numbers where the matrix has entries that are none.
 Eigenpairs eigenpairs(const Eigen::Ref<const Eigen::MatrixXd>& symmetric);
 
 /// A symmetric matrix as L D L^T, with pivots.

@@ -89,7 +89,6 @@ class Surface {
   /// Nothing where it is not determined.
   std::optional<Slope> slope() const {
     const auto [own, directions] = eigenpairs(moments_);
-    if (own.size() == 0) return {};
     double seen = 0, slope = 0, explained = 0, spread = 0;
     int rank = 0;
     for (int k = 0; k < terms<D>; ++k) {

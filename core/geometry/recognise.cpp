@@ -129,7 +129,7 @@ std::optional<Curve<D>> round_start(std::span<const Point<D>> points) {
 std::optional<Vector<3>> flat_direction(const Eigen::Matrix3d& moments) {
   constexpr double small = 0.05;
   const auto [values, directions] = eigenpairs(moments);
-  if (values.size() == 0 || !(values[0] <= small * values[2])) return {};
+  if (!(values[0] <= small * values[2])) return {};
   return Vector<3>(directions.col(0));
 }
 
@@ -184,7 +184,6 @@ std::optional<Curve<3>> torus_start(std::span<const Point<3>> points, std::span<
     lines.row(static_cast<Eigen::Index>(i)) << m.transpose(), n.transpose();
   }
   const Eigenpairs found = eigenpairs(lines.transpose() * lines);
-  if (found.values.size() == 0) return {};
   const Eigen::Matrix<double, 6, 1> axis = found.vectors.col(0);
   const double size = axis.head<3>().norm();
   if (!(size > 1e-6)) return {};
