@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-9;  // of the extent
+constexpr double off_plane = 1e-9;  // of the extent
 
 /// Applies one plane of symmetry to a shape.
 class Halving {
@@ -59,8 +59,8 @@ class Halving {
     const double extent = (*high)[axis_] - (*low)[axis_];
     if (beside((*low)[axis_], (*high)[axis_])) return;
     check_middle(((*low)[axis_] + (*high)[axis_]) / 2, extent);
-    check_images(polygon, rounding * extent);
-    polygon = upper_part(polygon, rounding * extent);
+    check_images(polygon, off_plane * extent);
+    polygon = upper_part(polygon, off_plane * extent);
   }
 
   void operator()(const Scene::MeshFile&) const {}
@@ -69,12 +69,12 @@ class Halving {
  private:
   /// Whether all of the shape is on one side.
   bool beside(double low, double high) const {
-    const double near = rounding * (high - low);
+    const double near = off_plane * (high - low);
     return low >= at_ - near || high <= at_ + near;
   }
 
   void check_middle(double middle, double extent) const {
-    if (std::abs(middle - at_) > rounding * extent)
+    if (std::abs(middle - at_) > off_plane * extent)
       refuse(fmt::format("is not in its middle, {} = {:g}", axis_name(axis_), middle));
   }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double touching = 1e-12;  // of the terms of a distance: what rounding makes of it
 
 template <int B>
-using Side = typename Polyhedron<B>::Side;
+using ReadSide = typename Polyhedron<B>::Side;
 
 /// Takes sides as long as they are independent.
 template <int B>
@@ -34,7 +34,7 @@ class Collector {
 
  private:
   const Polyhedron<B>& polyhedron_;
-  Side<B> side_;
+  ReadSide<B> side_;
   double rows_[B * B];
   int count_ = 0;
   HeldSides<B> sides_;
@@ -46,7 +46,7 @@ int sides_of(const Polyhedron<B>& polyhedron) {
 }
 
 template <int B>
-bool touches(const Side<B>& side, const double* x) {
+bool touches(const ReadSide<B>& side, const double* x) {
   double terms = std::abs(side.bound);
   for (int i = 0; i < B; ++i) terms += std::abs(side.normal[i] * x[i]);
   return Polyhedron<B>::excess(side, x) >= -touching * terms;
@@ -56,7 +56,8 @@ bool touches(const Side<B>& side, const double* x) {
 template <int B>
 void take_pairs(const Polyhedron<B>& polyhedron, Collector<B>& held) {
   for (int k = 0; k < sides_of(polyhedron); k += 2)
-    if (Side<B> lower, upper; polyhedron.get(k, lower) && polyhedron.get(k + 1, upper) && -lower.bound == upper.bound)
+    if (ReadSide<B> lower, upper;
+        polyhedron.get(k, lower) && polyhedron.get(k + 1, upper) && -lower.bound == upper.bound)
       held.take(k);
 }
 
@@ -64,7 +65,7 @@ void take_pairs(const Polyhedron<B>& polyhedron, Collector<B>& held) {
 /// orthogonal to these, which is stored behind them.
 template <int B, class Visit>
 void each_row(const Polyhedron<B>& polyhedron, const HeldSides<B>& sides, double* rows, int count, const Visit& visit) {
-  Side<B> side;
+  ReadSide<B> side;
   for (int k = 0; k < B && sides.number[k] > 0; ++k) {
     if (count == B || !polyhedron.get(sides.number[k] - 1, side)) continue;
     if (Polyhedron<B>::add_row(side.normal, rows, count)) visit(side, rows + B * count++);
@@ -78,7 +79,7 @@ HeldSides<B> sides_at(const Polyhedron<B>& polyhedron, const double* x) {
   Collector<B> held(polyhedron);
   take_pairs(polyhedron, held);
   for (int k = 0; k < sides_of(polyhedron); ++k)
-    if (Side<B> side; polyhedron.get(k, side) && touches<B>(side, x)) held.take(k);
+    if (ReadSide<B> side; polyhedron.get(k, side) && touches<B>(side, x)) held.take(k);
   return held.found();
 }
 
@@ -94,7 +95,7 @@ HeldSides<B> sides_before(const Polyhedron<B>& polyhedron, const double* d, cons
   std::vector<std::array<double, B>> directions;
   std::vector<int> touched;
   for (int k = 0; k < sides_of(polyhedron); ++k) {
-    Side<B> side;
+    ReadSide<B> side;
     if (!polyhedron.get(k, side) || !touches<B>(side, y)) continue;
     const double length = block::norm<B>(side.normal);
     std::array<double, B>& direction = directions.emplace_back();
@@ -125,7 +126,7 @@ template <int B>
 void go_onto(const Polyhedron<B>& polyhedron, const HeldSides<B>& sides, double* y) {
   for (int pass = 0; pass < 2; ++pass) {  // the second one takes off what rounding of the way leaves
     double rows[B * B];
-    each_row(polyhedron, sides, rows, 0, [&](const Side<B>& side, const double* row) {
+    each_row(polyhedron, sides, rows, 0, [&](const ReadSide<B>& side, const double* row) {
       double along = 0;
       for (int i = 0; i < B; ++i) along += side.normal[i] * row[i];
       const double by = Polyhedron<B>::excess(side, y) / along;
@@ -141,7 +142,7 @@ int held_coordinates(const Polyhedron<B>& polyhedron, const HeldSides<B>& sides,
   int count = 0;
   for (int k = 0; k < B; ++k)
     if (off >> k & 1u) rows[B * count++ + k] = 1;
-  each_row(polyhedron, sides, rows, count, [&](const Side<B>&, const double*) { ++count; });
+  each_row(polyhedron, sides, rows, count, [&](const ReadSide<B>&, const double*) { ++count; });
   const int held = count;
   for (int k = 0; k < B && count < B; ++k) {
     double axis[B] = {};

@@ -17,9 +17,9 @@ constexpr Index fewest_blocks = 4;               // below, chance makes rows ali
 constexpr double alike = 0.75;
 
 /// Compares which blocks rows are coupled to, blocks beginning `shift` columns before a multiple of their size.
-class Couplings {
+class BlockCouplings {
  public:
-  Couplings(const SparseRows& A, Index block, Index shift) : A_(A), block_(block), shift_(shift) {}
+  BlockCouplings(const SparseRows& A, Index block, Index shift) : A_(A), block_(block), shift_(shift) {}
 
   /// Part of the pairs of rows i and i + 1, i + shift + 1 no multiple of the block, that are coupled to the same
   /// blocks; pairs with rows that are coupled to nothing, such as those of prescribed values, do not count, nor those
@@ -62,7 +62,7 @@ class Couplings {
 /// Rows i and i + 1 of different blocks that are coupled to the same columns but for few.
 double part_alike_across(const SparseRows& A, Index block) {
   // Shifted by one, the pairs within blocks of two are those across; of three, one of the two pairs is.
-  const double part = Couplings(A, block, 1).part_alike();
+  const double part = BlockCouplings(A, block, 1).part_alike();
   return block == 2 ? part : std::max(0.0, 2 * part - 1);
 }
 
@@ -84,7 +84,7 @@ double part_mixed(const SparseRows& A, Index block) {
 int recognised_block(const SparseRows& A) {
   if (!is_square(A)) return 1;
   for (const Index block : {3, 2})
-    if (A.rows % block == 0 && A.rows >= fewest_blocks * block && Couplings(A, block, 0).part_alike() >= most &&
+    if (A.rows % block == 0 && A.rows >= fewest_blocks * block && BlockCouplings(A, block, 0).part_alike() >= most &&
         part_alike_across(A, block) <= mostly_not && part_mixed(A, block) >= more_than_rounding)
       return block;
   return 1;

@@ -13,15 +13,15 @@
 namespace signorini {
 namespace {
 
-using Vector = std::vector<double>;  // B per vector of a level
+using Values = std::vector<double>;  // B per vector of a level
 
 constexpr int steps_on_coarsest = 40, steps_on_finest = 8;  // of conjugate gradients
 constexpr int inverse_iterations = 4;
 constexpr int steps_of_long_search = 2000;  // about what sixty cycles take
 
 template <int B>
-Vector interpolated(const Prolongation& P, const Vector& coarse) {
-  Vector fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
+Values interpolated(const Prolongation& P, const Values& coarse) {
+  Values fine(static_cast<std::size_t>(P.fine()) * B, 0.0);
   weights::with<B>(P, [&](const auto& weight) {
     for (Index p = 0; p < P.fine(); ++p)
       weights::interpolate<B>(P, weight, p, coarse.data(), fine.data() + Offset{p} * B);
@@ -37,7 +37,7 @@ void for_each_diagonal(const BlockMatrix<B>& A, const Visit& visit) {
 
 template <int B>
 Precondition by_diagonal(const BlockMatrix<B>& A) {
-  return [&](const Vector& r, Vector& z) {
+  return [&](const Values& r, Values& z) {
     for_each_diagonal(A, [&](Offset i, double diagonal) { z[i] = r[i] / diagonal; });
   };
 }
@@ -50,7 +50,7 @@ class Search {
       : A_(A), levels_(levels), nothing_off_(static_cast<std::size_t>(A.size()), 0) {}
 
   void run() const {
-    Vector smooth = smoothest_on_coarsest();
+    Values smooth = smoothest_on_coarsest();
     for (std::size_t k = 0; k <= levels_.matrices.size(); ++k) {
       if (k < levels_.matrices.size()) check_lost(k);
       if (k > 0) smooth = interpolated<B>(levels_.prolongations[k - 1], smooth);
@@ -66,11 +66,11 @@ class Search {
   }
 
   // Up to rounding, Galerkin's matrices tell what the finest one will.
-  void check(std::size_t level, Vector d) const {
+  void check(std::size_t level, Values d) const {
     if (energy_along(matrix(level), d).of_matrix < 0) check_on_finest(level, std::move(d));
   }
 
-  void check_on_finest(std::size_t level, Vector d) const {
+  void check_on_finest(std::size_t level, Values d) const {
     for (std::size_t k = level; k < levels_.prolongations.size(); ++k) d = interpolated<B>(levels_.prolongations[k], d);
     refuse_if_negative_along(A_, d);
   }
@@ -82,21 +82,21 @@ class Search {
 
   /// By conjugate gradients; where they meet a direction without energy, or with less, that one. For the diagonal
   /// times a smooth direction this is a step of inverse iteration, and whatever falls in the space it searches is met.
-  Vector solution(std::size_t k, Vector r, int steps) const {
+  Values solution(std::size_t k, Values r, int steps) const {
     const BlockMatrix<B>& A = matrix(k);
-    Vector d;
+    Values d;
     apply_mask<B>(off(k), r);
     masked_cg<B>(A, off(k), by_diagonal(A), {.iterations = steps}, r, d);
     scale_to_one(d);
     return d;
   }
 
-  Vector times_diagonal(std::size_t k, Vector d) const {
+  Values times_diagonal(std::size_t k, Values d) const {
     for_each_diagonal(matrix(k), [&](Offset i, double diagonal) { d[i] *= diagonal; });
     return d;
   }
 
-  static void scale_to_one(Vector& d) {
+  static void scale_to_one(Values& d) {
     double largest = 0;
     for (const double value : d) largest = std::max(largest, std::abs(value));
     if (largest > 0)
@@ -104,12 +104,12 @@ class Search {
   }
 
   /// A direction of about the least energy there, or one that falls.
-  Vector smoothest_on_coarsest() const {
+  Values smoothest_on_coarsest() const {
     const BlockMatrix<B>& A = matrix(0);
     std::vector<double> scale;
     const Eigen::SparseMatrix<double> S = with_unit_diagonal(A, off(0), scale);
     HeldCholesky factor;
-    Vector out = random_vector(scale.size());
+    Values out = random_vector(scale.size());
     if (!factor.factorise(S, affordable_operations(S.nonZeros()))) return solution(0, out, steps_on_coarsest);
     Eigen::Map<Eigen::VectorXd> d(out.data(), S.rows());
     for (std::size_t i = 0; i < out.size(); ++i)
@@ -126,22 +126,22 @@ class Search {
 
   // A component is decoupled when its diagonal entry, the energy of its function, is not positive.
   void check_lost(std::size_t k) const {
-    const Vector energy = energy_of_lost(k);
+    const Values energy = energy_of_lost(k);
     const auto least = std::min_element(energy.begin(), energy.end());
     if (least == energy.end() || *least >= 0) return;
-    Vector d(energy.size(), 0.0);
+    Values d(energy.size(), 0.0);
     d[static_cast<std::size_t>(least - energy.begin())] = 1;
     check_on_finest(k, std::move(d));
   }
 
   /// d'Ad for the function d of each component that is off on level k, zero for the others; empty where none is off.
-  Vector energy_of_lost(std::size_t k) const {
+  Values energy_of_lost(std::size_t k) const {
     const std::vector<Flags>& lost = off(k);
     if (std::ranges::all_of(lost, [](Flags flags) { return flags == 0; })) return {};
     const Prolongation& P = levels_.prolongations[k];
     const BlockMatrix<B>& A = matrix(k + 1);
     const std::vector<Flags>& gone = off(k + 1);
-    Vector energy(lost.size() * B, 0.0);
+    Values energy(lost.size() * B, 0.0);
     weights::with<B>(P, [&](const auto& weight) {
       for (Index p = 0; p < A.size(); ++p)
         for (Offset c = P.row[p]; c < P.row[p + 1]; ++c)
@@ -192,7 +192,7 @@ void refuse_indefinite(const BlockMatrix<B>& A, const AlgebraicLevels<B>& levels
 template <int B>
 void refuse_indefinite_by_steps(const BlockMatrix<B>& A) {
   const std::vector<Flags> nothing_off(static_cast<std::size_t>(A.size()), 0);
-  Vector r = random_vector(nothing_off.size() * B), d;
+  Values r = random_vector(nothing_off.size() * B), d;
   if (masked_cg<B>(A, nothing_off, by_diagonal(A), {.iterations = steps_of_long_search}, r, d).singular)
     refuse_if_negative_along(A, d);
 }

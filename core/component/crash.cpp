@@ -22,17 +22,17 @@
 namespace signorini {
 namespace {
 
-struct Library {
+struct MappedFile {
   char file[512];
   std::uintptr_t begin, end;  // of its addresses
 };
 
 // Read by handlers of signals: never moved, counted when complete.
 constexpr int most = 64;
-Library libraries[most];
+MappedFile libraries[most];
 std::atomic<int> count = 0;
 
-const Library* library_of(const void* address) {
+const MappedFile* library_of(const void* address) {
   const auto at = reinterpret_cast<std::uintptr_t>(address);
   for (int k = 0; k < count.load(std::memory_order_acquire); ++k)
     if (libraries[k].begin <= at && at < libraries[k].end) return &libraries[k];
@@ -40,12 +40,12 @@ const Library* library_of(const void* address) {
 }
 
 /// The plugin that was called last, null where none was.
-const Library* plugin_on_stack() {
+const MappedFile* plugin_on_stack() {
   constexpr int deepest = 256;
   void* frames[deepest];
   const int depth = backtrace(frames, deepest);
   for (int k = 0; k < depth; ++k)
-    if (const Library* found = library_of(frames[k])) return found;
+    if (const MappedFile* found = library_of(frames[k])) return found;
   return nullptr;
 }
 
@@ -53,7 +53,7 @@ void write_text(const char* text) {
   if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
-[[noreturn]] void end_for(const Library& plugin, const char* what) {
+[[noreturn]] void end_for(const MappedFile& plugin, const char* what) {
   write_text("signorini: error: ");
   write_text(plugin.file);
   write_text(": ");
@@ -84,7 +84,7 @@ struct sigaction earlier[std::size(caught)];  // what a sanitizer had installed,
 // again.
 void on_signal(int signal, siginfo_t* info, void*) {
   for (std::size_t k = 0; k < std::size(caught); ++k) sigaction(caught[k], &earlier[k], nullptr);
-  if (const Library* plugin = plugin_on_stack()) end_for(*plugin, name_of(signal));
+  if (const MappedFile* plugin = plugin_on_stack()) end_for(*plugin, name_of(signal));
   const bool fault = info->si_code > 0 && info->si_code != SI_KERNEL;
   if (!fault) raise(signal);
 }
@@ -92,7 +92,7 @@ void on_signal(int signal, siginfo_t* info, void*) {
 std::terminate_handler before = nullptr;
 
 [[noreturn]] void on_terminate() {
-  if (const Library* plugin = plugin_on_stack())
+  if (const MappedFile* plugin = plugin_on_stack())
     end_for(*plugin, "an exception left a function of the plugin that must not throw");
   before();
   std::abort();
@@ -100,17 +100,17 @@ std::terminate_handler before = nullptr;
 
 // exit() runs on the stack of its caller: that of a plugin would pass for success.
 void on_exit_of_plugin() {
-  if (const Library* plugin = plugin_on_stack()) end_for(*plugin, "the plugin ended the program by exit()");
+  if (const MappedFile* plugin = plugin_on_stack()) end_for(*plugin, "the plugin ended the program by exit()");
 }
 
 // Threads ignore this signal where nobody handles it.
 constexpr int look_at_stack = SIGURG;
 std::atomic<int> looked = 0;
-std::atomic<const Library*> at_work = nullptr;
+std::atomic<const MappedFile*> at_work = nullptr;
 
 void on_look(int) {
   const int error = errno;
-  if (const Library* plugin = plugin_on_stack()) at_work = plugin;
+  if (const MappedFile* plugin = plugin_on_stack()) at_work = plugin;
   ++looked;
   errno = error;
 }
@@ -140,7 +140,7 @@ std::string plugin_at_work() {
   at_work = nullptr;
   const int asked = ask_threads();
   for (int wait = 0; looked < asked && wait < 100; ++wait) usleep(1000);
-  const Library* found = at_work;
+  const MappedFile* found = at_work;
   return found ? found->file : std::string();
 }
 
@@ -166,11 +166,11 @@ void name_plugins_that_crash() {
 void remember_plugin(const std::filesystem::path& file, const void* address) {
   const int next = count.load();
   if (next == most || library_of(address)) return;
-  Library& library = libraries[next];
+  MappedFile& library = libraries[next];
   std::strncpy(library.file, file.c_str(), sizeof library.file - 1);
   struct Search {
     std::uintptr_t address;
-    Library* library;
+    MappedFile* library;
   } search{reinterpret_cast<std::uintptr_t>(address), &library};
   const auto visit = [](dl_phdr_info* info, std::size_t, void* data) {
     auto& wanted = *static_cast<Search*>(data);

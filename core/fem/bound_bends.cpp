@@ -13,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t batch = 2048;  // edges per call of a plugin
-constexpr double rounding = 1e-13;   // of bounds whose differences are taken
+constexpr double no_bend = 1e-13;    // of bounds whose differences are taken
 
 struct Interval {
   double lower, upper;
@@ -97,7 +97,7 @@ class EdgeBends {
   static double bend_of(const Edge& edge, double Interval::*side) {
     const double a = edge.a.*side, middle = edge.middle.*side, b = edge.b.*side, bends = bend(a, middle, b);
     if (!std::isfinite(bends)) return 0;
-    return std::fabs(bends) > rounding * (std::fabs(a) + std::fabs(middle) + std::fabs(b)) ? bends : 0;
+    return std::fabs(bends) > no_bend * (std::fabs(a) + std::fabs(middle) + std::fabs(b)) ? bends : 0;
   }
 
   /// On the edge, which may be curved.

@@ -17,7 +17,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-9;  // of displacements and bounds, what x may be beyond these
+constexpr double beyond_bounds = 1e-9;  // of displacements and bounds, what x may be beyond these
 
 template <class Numbers>
 bool all_finite(const Numbers& numbers) {
@@ -210,7 +210,7 @@ class Check {
     for (int k = 0; k < B; ++k) {
       const double beyond = std::max(lower[k] - at(slot)[k], at(slot)[k] - upper[k]);
       const double bound = std::min(std::abs(lower[k]), std::abs(upper[k]));
-      if (beyond > rounding * (largest_ + bound)) return true;
+      if (beyond > beyond_bounds * (largest_ + bound)) return true;
     }
     return false;
   }

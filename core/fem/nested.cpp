@@ -15,7 +15,7 @@ namespace {
 
 // Energies of a random vector agree that well where only rounding tells the matrices apart. On curved boundaries, or
 // with coefficients that vary, they differ far more.
-constexpr double rounding = 1e-11;
+constexpr double same_energy = 1e-11;
 
 template <int B>
 void clear_fixed(const DiscreteProblem<B>& problem, std::vector<double>& x) {
@@ -97,7 +97,7 @@ bool is_galerkin(const DiscreteProblem<B>& coarse, const Prolongation& prolongat
   std::vector<double> Pz = interpolate(coarse, z, prolongation, fine);
   clear_fixed(fine, Pz);
   const double below = energy_along(coarse.A, z).of_matrix, above = energy_along(fine.A, Pz).of_matrix;
-  return std::abs(above - below) <= rounding * below;
+  return std::abs(above - below) <= same_energy * below;
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                                                                       \

@@ -23,7 +23,7 @@ constexpr double beside = 1.8;
 // A direction that leads out of a face by less than this part of itself leads along it.
 constexpr double along = 1e-9;
 // Lengths of less than this part of the coordinates are rounding.
-constexpr double rounding = 1e-12;
+constexpr double no_length = 1e-12;
 // So far from its corners, beside its size, points are inside a piece, whatever surfaces meet at these.
 constexpr double pulled_in = 1e-6;
 
@@ -260,7 +260,7 @@ template <int D>
 double rounding_in(const Box<D>& box) {
   double most = 0;
   for (int k = 0; k < D; ++k) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
-  return rounding * most;
+  return no_length * most;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace signorini {
 namespace {
 
 /// What is left of a normal of less than this length is rounding.
-constexpr double rounding = 1e-6;
+constexpr double no_normal = 1e-6;
 /// Along a normal it is at most so many times as deep as to the nearest face: those 60 degrees from opposite pair.
 constexpr double along_normal = 2;
 /// Depths of less than this part of the mesh are rounding.
@@ -192,7 +192,7 @@ std::optional<double> prescribed_along(const std::vector<FixedDirections<D>>& fi
     left -= along * along;
     value += along * fixed->value[i];
   }
-  return left <= rounding ? std::optional(value) : std::nullopt;
+  return left <= no_normal ? std::optional(value) : std::nullopt;
 }
 
 /// What is prescribed of the master in front of places of the slave: a node of that may be prescribed to move along
@@ -219,14 +219,14 @@ class PrescribedMaster {
       const std::array<double, D> place = seen_along(face, points_[vertex], normal);
       double there = 0, size = std::abs(value);
       for (int i = 0; i < D; ++i) {
-        if (place[i] < -rounding) return false;
-        if (place[i] <= rounding) continue;
+        if (place[i] < -no_normal) return false;
+        if (place[i] <= no_normal) continue;
         const auto fixed = prescribed_along(fixes_, nodes_.of_vertex(face.vertices[i]), direction);
         if (!fixed) return false;
         there += place[i] * *fixed;
         size = std::max(size, std::abs(*fixed));
       }
-      return std::abs(there - value) <= rounding * size;
+      return std::abs(there - value) <= no_normal * size;
     });
   }
 
@@ -341,7 +341,7 @@ std::optional<FreeNormal<D>> free_normal(const std::vector<FixedDirections<D>>& 
     out.prescribed += along * fixed->value[k];
   }
   out.part = std::sqrt(dot(out.direction, out.direction));
-  if (fixed->count == D || !(out.part > rounding)) return {};
+  if (fixed->count == D || !(out.part > no_normal)) return {};
   for (double& c : out.direction) c /= out.part;
   return out;
 }

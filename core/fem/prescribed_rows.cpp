@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;  // of terms that cancel
+constexpr double cancelled = 1e-12;  // of terms that cancel
 
 }  // namespace
 
@@ -55,7 +55,7 @@ double PrescribedRows<B>::force(Index k, const double* along, const std::vector<
     block::transposed_product<B>(value.data() + at * B * B, along, entry);
     for (int i = 0; i < B; ++i) add(entry[i] * x[Offset{column[at]} * B + i]);
   }
-  return std::fabs(sum) > rounding * size ? sum : 0;
+  return std::fabs(sum) > cancelled * size ? sum : 0;
 }
 
 namespace {

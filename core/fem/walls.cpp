@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6;  // of lengths and directions: vertices of files may be in single precision
+constexpr double same_wall = 1e-6;  // of lengths and directions: vertices of files may be in single precision
 
 template <int D>
 class WallFinder {
@@ -37,7 +37,7 @@ class WallFinder {
 
  private:
   bool same(const Flat<D>& a, const Flat<D>& b) const {
-    return std::abs(dot(a.normal, b.normal)) > 1 - rounding && lies_on<D>(a, b.point, size_);
+    return std::abs(dot(a.normal, b.normal)) > 1 - same_wall && lies_on<D>(a, b.point, size_);
   }
 
   bool is_held(Index p, const Point<D>& normal) const {
@@ -50,7 +50,7 @@ class WallFinder {
       square += along * along;
       by += along * fixed->value[k];
     }
-    return square > 1 - rounding && by == 0;
+    return square > 1 - same_wall && by == 0;
   }
 
   /// Whether nodes of a face stay on its plane, and some are free to move along it.
@@ -66,7 +66,7 @@ class WallFinder {
   /// Whether the plane ends all bodies, and holds them everywhere.
   bool ends_all(const Flat<D>& plane) const {
     for (const Point<D>& x : mesh_.points)
-      if (dot(difference<D>(x, plane.point), plane.normal) > rounding * size_) return false;
+      if (dot(difference<D>(x, plane.point), plane.normal) > same_wall * size_) return false;
     for (Index f = 0; f < static_cast<Index>(mesh_.boundary.size()); ++f) {
       const auto node = nodes_.of_face(f);
       if (std::ranges::all_of(node, [&](Index p) { return lies_on<D>(plane, nodes_.at(p), size_); }) &&
@@ -96,7 +96,7 @@ double extent(const Mesh<D>& mesh) {
 
 template <int D>
 bool lies_on(const Flat<D>& plane, const Point<D>& x, double extent) {
-  return std::abs(dot(difference<D>(x, plane.point), plane.normal)) <= rounding * extent;
+  return std::abs(dot(difference<D>(x, plane.point), plane.normal)) <= same_wall * extent;
 }
 
 template <int D>

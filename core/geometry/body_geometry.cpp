@@ -21,7 +21,7 @@ namespace signorini::geometry {
 namespace {
 
 // Of the size of a piece: what digits in a file round away, what is flat, and what "fit" takes for a shape.
-constexpr double rounding = 1e-6, flat = 1e-9, near = 1e-3;
+constexpr double off_shape = 1e-6, flat = 1e-9, near = 1e-3;
 
 template <int D>
 Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
@@ -267,7 +267,7 @@ class Chooser {
       std::optional<Recognised<D>> found = shape_of(group);
       for (std::size_t before = 0; found && before < group.size();) {
         before = group.size();
-        const double reach = rounding * size_of(group);
+        const double reach = off_shape * size_of(group);
         group = connected(first, at, [&](Index f, const std::vector<Index>&) {
           return open.contains(f) && is_on(found->curve, f, reach);
         });
@@ -431,7 +431,8 @@ class Chooser {
     }
     if (!mesh_.bends.empty()) add_middles(piece, points, normals);
     const double size = size_of(piece);
-    auto found = recognise<D>(points, normals, rounding * size, (surfaces_ == Surfaces::fit ? near : rounding) * size);
+    auto found =
+        recognise<D>(points, normals, off_shape * size, (surfaces_ == Surfaces::fit ? near : off_shape) * size);
     if (found && !is_along(found->curve, piece)) found.reset();
     return found;
   }
@@ -475,7 +476,8 @@ class Chooser {
     return std::ranges::all_of(piece, [&](Index f) {
       for (int i = 0; i < D; ++i) {
         const Point<D>& p = mesh_.points[faces_[f][i]];
-        if (curve.kind == CurveKind::cone && least_radius<D>(curve, p) <= rounding * size_of({f})) continue;  // the tip
+        if (curve.kind == CurveKind::cone && least_radius<D>(curve, p) <= off_shape * size_of({f}))
+          continue;  // the tip
         const auto off = height<D>(curve, p);
         if (!off) return false;
         const double along = dot(off->normal, corner_normal(mesh_, mesh_.boundary[f], i));

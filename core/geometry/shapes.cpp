@@ -15,7 +15,7 @@ namespace signorini::geometry {
 
 namespace {
 
-using Vector = std::vector<Field>;
+using Components = std::vector<Field>;
 
 double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
 Point<3> scaled(double s, const Point<3>& a) { return {s * a[0], s * a[1], s * a[2]}; }
@@ -77,13 +77,13 @@ Placement placement(const Point<3>& origin, const Point<3>& axis = {}) {
   return {{origin[0], origin[1], origin[2]}, {axis[0], axis[1], axis[2]}};
 }
 
-Point<3> value(const Vector& fields, const Site& site) {
+Point<3> value(const Components& fields, const Site& site) {
   Point<3> v{};
   for (std::size_t k = 0; k < std::min<std::size_t>(fields.size(), 3); ++k) v[k] = fields[k](site);
   return v;
 }
 
-Point<3> direction(const Vector& fields, const Site& site, const char* key, const std::string& origin) {
+Point<3> direction(const Components& fields, const Site& site, const char* key, const std::string& origin) {
   Point<3> v = value(fields, site);
   const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   if (largest == 0) input_error(origin, fmt::format("{}: found a zero vector, expected a direction", key));
@@ -97,7 +97,7 @@ double positive(const Field& field, const Site& site, const char* key, const std
   return v;
 }
 
-bool constant(const Vector& fields) {
+bool constant(const Components& fields) {
   return std::ranges::all_of(fields, [](const Field& f) { return f.constant().has_value(); });
 }
 
@@ -130,7 +130,7 @@ Point<3> gradient(const Field& distance, const Site& site, int dimension, double
 
 }  // namespace
 
-std::unique_ptr<DistanceFunction> plane(const Vector& point, const Vector& normal, double t,
+std::unique_ptr<DistanceFunction> plane(const Components& point, const Components& normal, double t,
                                         const std::string& origin) {
   if (constant(normal)) direction(normal, {}, "normal", origin);
   return std::make_unique<Shape>(
@@ -141,7 +141,7 @@ std::unique_ptr<DistanceFunction> plane(const Vector& point, const Vector& norma
       t, [=](const Site& site) { return placement(value(point, site), direction(normal, site, "normal", origin)); });
 }
 
-std::unique_ptr<DistanceFunction> sphere(const Vector& center, const Field& radius, bool inside, double t,
+std::unique_ptr<DistanceFunction> sphere(const Components& center, const Field& radius, bool inside, double t,
                                          const std::string& origin) {
   if (radius.constant()) positive(radius, {}, "radius", origin);
   return std::make_unique<Shape>(
@@ -152,8 +152,8 @@ std::unique_ptr<DistanceFunction> sphere(const Vector& center, const Field& radi
       t, [=](const Site& site) { return placement(value(center, site)); });
 }
 
-std::unique_ptr<DistanceFunction> cylinder(const Vector& center, const Vector& axis, const Field& radius, bool inside,
-                                           double t, const std::string& origin) {
+std::unique_ptr<DistanceFunction> cylinder(const Components& center, const Components& axis, const Field& radius,
+                                           bool inside, double t, const std::string& origin) {
   if (radius.constant()) positive(radius, {}, "radius", origin);
   if (constant(axis)) direction(axis, {}, "axis", origin);
   return std::make_unique<Shape>(
@@ -166,8 +166,8 @@ std::unique_ptr<DistanceFunction> cylinder(const Vector& center, const Vector& a
       t, [=](const Site& site) { return placement(value(center, site), direction(axis, site, "axis", origin)); });
 }
 
-std::unique_ptr<DistanceFunction> expression(const Field& distance, const Vector& normal, int dimension, double length,
-                                             double t, const std::string& origin) {
+std::unique_ptr<DistanceFunction> expression(const Field& distance, const Components& normal, int dimension,
+                                             double length, double t, const std::string& origin) {
   if (!normal.empty() && constant(normal)) direction(normal, {}, "normal", origin);
   const double relative_step = std::cbrt(std::numeric_limits<double>::epsilon());  // balances truncation and rounding
   return std::make_unique<Shape>(

@@ -25,10 +25,10 @@ std::optional<double> number_of(const RawValue& raw) {
   return std::nullopt;
 }
 
-constexpr double rounding = 1e-12;  // of places and t, and of values around 1
+constexpr double off_range = 1e-12;  // of places and t, and of values around 1
 
 double checked(double number, const RawValue& raw, std::string_view range) {
-  if (std::holds_alternative<std::string>(raw.value)) number = Range(range).rounded(number, rounding);  // expressions
+  if (std::holds_alternative<std::string>(raw.value)) number = Range(range).rounded(number, off_range);  // expressions
   if (!Range(range).contains(number)) wrong_type(raw, Range(range).expected("a number"));
   return number;
 }
@@ -47,8 +47,8 @@ double slack(const Field& field, const Site& site) {
       return 0.0;
     }
   };
-  double most = rounding;
-  for (int k = 0; k < 4; ++k) most = std::max(most, std::min(change(k, -rounding), change(k, rounding)));
+  double most = off_range;
+  for (int k = 0; k < 4; ++k) most = std::max(most, std::min(change(k, -off_range), change(k, off_range)));
   return most;
 }
 

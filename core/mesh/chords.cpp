@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6, widest = 1.01 * std::numbers::pi / 3;  // angles
+constexpr double least_turn = 1e-6, widest = 1.01 * std::numbers::pi / 3;  // angles
 constexpr double same = 0.05, same_direction = 1e-3;
 constexpr std::size_t round = 5;  // directions of faces
 
@@ -120,7 +120,7 @@ void each_marked_joint(const MeshHierarchy<D>& hierarchy, std::vector<bool> mark
 }  // namespace
 
 double sagitta(double angle, double across) {
-  return angle > rounding && angle <= largest_turn ? angle * across / 8 : 0;
+  return angle > least_turn && angle <= largest_turn ? angle * across / 8 : 0;
 }
 
 template <int D>

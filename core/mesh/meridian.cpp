@@ -12,13 +12,13 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-9;  // of the largest radius
+constexpr double off_axis = 1e-9;  // of the largest radius
 
 void move_onto_axis(Mesh<2>& mesh, std::string_view place) {
   double largest = 0;
   for (const Point<2>& x : mesh.points) largest = std::fmax(largest, x[0]);
   for (Point<2>& x : mesh.points) {
-    if (std::fabs(x[0]) <= rounding * largest) x[0] = 0;
+    if (std::fabs(x[0]) <= off_axis * largest) x[0] = 0;
     if (!(x[0] >= 0))
       input_error(place, fmt::format("an axisymmetric body has a vertex at ({}, {}), expected r >= 0 everywhere: x is "
                                      "the radius, and only that half of the section is meshed",

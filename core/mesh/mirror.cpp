@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6;  // of the extent: vertices of files may be in single precision
+constexpr double single_precision = 1e-6;  // of the extent: vertices of files may be in single precision
 
 template <int D>
 bool face_lies_on(const Mesh<D>& mesh, const Face<D>& face, const Mirror& mirror) {
@@ -30,7 +30,7 @@ void add_mirror(Mesh<D>& mesh, const Mirror& mirror, std::string_view place) {
     extent = std::max(extent, (*most)[i] - (*least)[i]);
     if (i == mirror.axis) low = (*least)[i], high = (*most)[i];
   }
-  const double near = rounding * extent;
+  const double near = single_precision * extent;
   if (low < mirror.at - near && high > mirror.at + near)
     input_error(place, fmt::format("the body reaches from {:g} to {:g}, beyond the plane of symmetry {} on both sides; "
                                    "expected all of its mesh on one side",

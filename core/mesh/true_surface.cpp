@@ -10,13 +10,13 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-6;  // of a face: vertices so far off are on the surface
+constexpr double off_surface = 1e-6;  // of a face: vertices so far off are on the surface
 constexpr int most_steps = 8;
 constexpr double settled = 1e-12;  // of a face
 constexpr double grazing = 0.1;    // cosine from which on a line does not meet the surface nearby
 
 template <int D>
-std::array<Point<D>, D> corners(const Mesh<D>& mesh, Index face) {
+std::array<Point<D>, D> face_corners(const Mesh<D>& mesh, Index face) {
   return points_of(mesh.points, mesh.boundary[face].vertices);
 }
 
@@ -67,8 +67,8 @@ bool stands_for_surface(const Mesh<D>& mesh, Index face) {
   if (number < 0) return false;
   const Curve<D>& curve = mesh.curves[number];
   if (curve.kind == CurveKind::elements) return false;
-  const auto corner = corners(mesh, face);
-  const double near = rounding * size<D>(corner);
+  const auto corner = face_corners(mesh, face);
+  const double near = off_surface * size<D>(corner);
   for (int i = 0; i < D; ++i) {
     std::array<double, D> at{};
     at[i] = 1;
@@ -81,7 +81,7 @@ bool stands_for_surface(const Mesh<D>& mesh, Index face) {
 template <int D>
 SurfacePoint<D> surface_at(const Mesh<D>& mesh, Index face, const std::array<double, D>& barycentric,
                            const Point<D>& direction) {
-  const auto corner = corners(mesh, face);
+  const auto corner = face_corners(mesh, face);
   const Point<D> outwards = unit<D>(area_normal(corner)), start = combined<D>(corner, barycentric);
   const Curve<D>& curve = mesh.curves[mesh.boundary[face].curve];
   SurfacePoint<D> out{0, outwards};

@@ -32,7 +32,7 @@ constexpr double least_node = 1e-12;
 // rounding. (Those around an edge see something else.)
 constexpr double facing = 0.5 - 1e-9;
 // Entries of a row of less than this part of its largest one are rounding.
-constexpr double rounding = 1e-14;
+constexpr double no_entry = 1e-14;
 
 void check(const CoupleOptions& options, std::string_view place) {
   const auto require = [&](bool fine, const char* what, double found) {
@@ -267,7 +267,7 @@ class Gathering {
       if (row_.empty() || row_.back().node != w.node) row_.push_back({w.node, 0});
       row_.back().value += w.value / weight;
     }
-    std::erase_if(row_, [&](const Weight& w) { return std::abs(w.value) <= rounding * largest; });
+    std::erase_if(row_, [&](const Weight& w) { return std::abs(w.value) <= no_entry * largest; });
     for (const Weight& w : row_) sum += w.value;
     std::ranges::sort(row_, {}, &Weight::node);
     for (const Weight& w : row_) {

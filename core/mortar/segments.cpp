@@ -9,7 +9,7 @@ namespace {
 // Cosine of the angle up to which normals count as opposite: 60 degrees, less rounding.
 constexpr double facing = 0.5 - 1e-9;
 // Pieces of less than this part of their face are rounding.
-constexpr double rounding = 1e-14;
+constexpr double no_piece = 1e-14;
 // Segments that overlap by less than this part of their face do so by rounding.
 constexpr double whole = 1e-9;
 // The direction towards the closest points is known when a step changes it by less than this angle: distances then are
@@ -107,7 +107,7 @@ void SegmentFinder<D>::consider(Index face, Index other) {
     out.piece = clipped(out.piece, f);
     if (out.piece.empty()) return;
   }
-  if (measure(out.piece) <= rounding * frame_.area) return;
+  if (measure(out.piece) <= no_piece * frame_.area) return;
   for (int i = 0; i < D; ++i) out.gap.add(height[i], out.shape[i]);
   const auto [least, most] = range(out.gap, out.piece);
   if (least <= front_ && most >= -behind_) segments_.push_back(out);
@@ -226,12 +226,12 @@ double SegmentFinder<D>::split_by_nearness() {
     for (Piece<K> inside : rest_) {
       for (const Affine<K>& f : segments_[s].shape) {
         each_simplex(clipped(inside, -f), [this](const std::array<Point<K>, K + 1>& simplex) {
-          if (signed_measure<K>(simplex) > rounding * frame_.area) next_.emplace_back(simplex);
+          if (signed_measure<K>(simplex) > no_piece * frame_.area) next_.emplace_back(simplex);
         });
         inside = clipped(inside, f);
       }
       const double area = measure(inside);
-      if (area <= rounding * frame_.area) continue;
+      if (area <= no_piece * frame_.area) continue;
       covered += area;
       nearest_.push_back(segments_[s]);
       nearest_.back().piece = inside;

@@ -14,7 +14,7 @@ namespace signorini::geometry {
 
 namespace {
 
-constexpr double rounding = 1e-6;  // of the domain's own coordinates
+constexpr double off_domain = 1e-6;  // of the domain's own coordinates
 constexpr double flat = 1e-9;      // of h^3
 
 class Inspection {
@@ -100,7 +100,7 @@ class Inspection {
                             (point(a)[2] + point(b)[2] + point(c)[2]) / 3};
       double off = domain_.off_surface(center);
       for (const Point<3>& p : {middle(a, b), middle(b, c), middle(c, a)}) off = std::max(off, domain_.off_surface(p));
-      if (off <= rounding) continue;
+      if (off <= off_domain) continue;
       const double area = length<3>(cross(difference<3>(point(b), point(a)), difference<3>(point(c), point(a)))) / 2;
       explained_ += off * area;
       if (!domain_.flat()) continue;
@@ -113,7 +113,7 @@ class Inspection {
     double volume = 0;
     for (const Simplex<3>& element : mesh_.elements) volume += signed_volume<3>(corners<3>(mesh_.points, element));
     const double whole = domain_.volume(), off = volume - whole;
-    if (std::abs(off) > explained_ + rounding * whole && complaint_.empty())
+    if (std::abs(off) > explained_ + off_domain * whole && complaint_.empty())
       complaint_ = fmt::format("the volume of the mesh is off by {:.2g} %", 100 * off / whole);
   }
 
