@@ -14,7 +14,7 @@ constexpr double more_than_rounding = 1e-5;      // part of couplings; of cells 
 constexpr Index fewest_blocks = 4;               // below, chance makes rows alike
 /// Blocks that both rows are coupled to over those that one is. Zeros and single prescribed components take some away;
 /// neighbours in a seven-point stencil have 5 / 7.
-constexpr double alike = 0.75;
+constexpr double enough_alike = 0.75;
 
 /// Compares which blocks rows are coupled to, blocks beginning `shift` columns before a multiple of their size.
 class BlockCouplings {
@@ -35,7 +35,7 @@ class BlockCouplings {
       both_.clear();
       std::ranges::set_intersection(one_, other_, std::back_inserter(both_));
       const auto either = static_cast<double>(one_.size() + other_.size() - both_.size());
-      found += static_cast<double>(both_.size()) >= alike * either;
+      found += static_cast<double>(both_.size()) >= enough_alike * either;
     }
     return count > 0 ? static_cast<double>(found) / count : 0;
   }

@@ -23,7 +23,7 @@ constexpr int worn_out = 6;              // iterations above which a new factori
 constexpr int most_refinements = 12;     // at which it replaces the old one at once, where it holds everything
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double shortening = 0.25;      // of steps whose parts within the bounds raise the energy
-constexpr double rounding = 1e-6;        // components of a direction without energy that are zero but for rounding
+constexpr double no_component = 1e-6;    // components of a direction without energy that are zero but for rounding
 constexpr double suspicious =
     1e-5;                         // part of p'Dp below which a direction's energy may come from a stale factorisation
 constexpr int max_sweeps = 60;    // of Gauss-Seidel alone, there and back
@@ -261,14 +261,14 @@ bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
   if (motions.cols() == 0) return false;
   const Eigen::VectorXd g = motions.transpose() * Eigen::Map<const Eigen::VectorXd>(r_.data(), motions.rows());
   AllowedMotions allowed(g.size());
-  const double nothing = rounding / std::sqrt(static_cast<double>(motions.rows()));
+  const double nothing = no_component / std::sqrt(static_cast<double>(motions.rows()));
   for (Index slot = 0; slot < level.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
       const Bound<B> bound(level, slot, k);
       const auto row = motions.row(Offset{level.constraints.vector[slot]} * B + k);
       if (row.norm() > nothing) allowed.bound(row, bound.lower, bound.upper);
     }
-  return allowed.nearest(g).norm() > rounding * g.norm();
+  return allowed.nearest(g).norm() > no_component * g.norm();
 }
 
 // The full step cut off component by component where that lowers the energy, else shorter ones, else as far as the
@@ -278,7 +278,7 @@ bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
   double largest = 0;
   for (const double d : d_) largest = std::max(largest, std::abs(d));
   const double step =
-      singular ? admissible_step<B>(level, d_, infinity, rounding * largest) : admissible_step<B>(level, d_, 1, 0);
+      singular ? admissible_step<B>(level, d_, infinity, no_component * largest) : admissible_step<B>(level, d_, 1, 0);
   if (step == infinity) return false;
   const auto n = d_.size();
   const std::vector<double> before(level.x, level.x + n);

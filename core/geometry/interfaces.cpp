@@ -14,7 +14,7 @@
 namespace signorini::geometry {
 namespace {
 
-constexpr double straight = 1e-9;  // of an edge's length
+constexpr double on_edge = 1e-9;  // of an edge's length
 
 template <int D>
 Point<D> normal_of(const Mesh<D>& mesh, const std::array<Index, D>& face) {
@@ -73,7 +73,7 @@ class Bender {
       const Point<D>&a = mesh_.points[on_[k].ends[0]], &b = mesh_.points[on_[k].ends[1]];
       const double size = length<D>(difference<D>(a, b));
       const Point<D> middle = midpoint<D>(a, b), off = difference<D>(place(on_[k], middle, size), middle);
-      if (length<D>(off) <= straight * size) continue;
+      if (length<D>(off) <= on_edge * size) continue;
       bend[k] = off;
       any = true;
     }

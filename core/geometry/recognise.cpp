@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_points = 2000;  // that a shape is fitted to
+constexpr std::size_t most_fitted = 2000;  // that a shape is fitted to
 constexpr int most_steps = 40;
 
 template <int D>
@@ -205,7 +205,7 @@ std::optional<Curve<3>> torus_start(std::span<const Point<3>> points, std::span<
 /// Evenly some of many.
 template <int D>
 std::vector<Point<D>> some(std::span<const Point<D>> all) {
-  const std::size_t stride = (all.size() + most_points - 1) / most_points;
+  const std::size_t stride = (all.size() + most_fitted - 1) / most_fitted;
   std::vector<Point<D>> out;
   for (std::size_t i = 0; i < all.size(); i += stride) out.push_back(all[i]);
   return out;

@@ -14,17 +14,17 @@
 namespace signorini {
 namespace {
 
-enum class Kind { integer, natural, real };
+enum class NumberKind { integer, natural, real };
 struct Type {
   std::string_view name, other_name;
-  Kind kind;
+  NumberKind kind;
   std::size_t size;
 };
-constexpr Type types[] = {{"char", "int8", Kind::integer, 1},   {"uchar", "uint8", Kind::natural, 1},
-                          {"short", "int16", Kind::integer, 2}, {"ushort", "uint16", Kind::natural, 2},
-                          {"int", "int32", Kind::integer, 4},   {"uint", "uint32", Kind::natural, 4},
-                          {"int64", "long", Kind::integer, 8},  {"uint64", "ulong", Kind::natural, 8},
-                          {"float", "float32", Kind::real, 4},  {"double", "float64", Kind::real, 8}};
+constexpr Type types[] = {{"char", "int8", NumberKind::integer, 1},   {"uchar", "uint8", NumberKind::natural, 1},
+                          {"short", "int16", NumberKind::integer, 2}, {"ushort", "uint16", NumberKind::natural, 2},
+                          {"int", "int32", NumberKind::integer, 4},   {"uint", "uint32", NumberKind::natural, 4},
+                          {"int64", "long", NumberKind::integer, 8},  {"uint64", "ulong", NumberKind::natural, 8},
+                          {"float", "float32", NumberKind::real, 4},  {"double", "float64", NumberKind::real, 8}};
 
 struct Property {
   std::string name;
@@ -56,7 +56,7 @@ Property read_property(TextLines& lines) {
   std::string_view word = lines.word();
   if (word == "list") {
     property.count = &type_of(lines, lines.word());
-    if (property.count->kind == Kind::real) lines.fail("the length of a list is no integer");
+    if (property.count->kind == NumberKind::real) lines.fail("the length of a list is no integer");
     word = lines.word();
   }
   property.type = &type_of(lines, word);
@@ -110,14 +110,14 @@ class Values {
   template <class Of>
   double real(const Type& type, const Of& of) {
     if (storage_ == Storage::text) return lines_.real(lines_.next(), of);
-    return type.kind == Kind::real ? (type.size == 4 ? raw<float>(of) : raw<double>(of))
-                                   : static_cast<double>(integer(type, of));
+    return type.kind == NumberKind::real ? (type.size == 4 ? raw<float>(of) : raw<double>(of))
+                                         : static_cast<double>(integer(type, of));
   }
 
   template <class Of>
   Offset integer(const Type& type, const Of& of) {
     if (storage_ == Storage::text) return lines_.integer(lines_.next(), of);
-    const bool natural = type.kind == Kind::natural;
+    const bool natural = type.kind == NumberKind::natural;
     switch (type.size) {
       case 1:
         return natural ? raw<std::uint8_t>(of) : raw<std::int8_t>(of);

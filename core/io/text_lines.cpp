@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::string_view padding("\0\x1a \t\v\f\r\n", 8);
+constexpr std::string_view trailing("\0\x1a \t\v\f\r\n", 8);
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
@@ -24,7 +24,7 @@ std::string_view without_plus(std::string_view word) {
 }  // namespace
 
 TextLines::TextLines(std::string_view text, std::string_view place, LineFormat format)
-    : text_(text.substr(0, text.find_last_not_of(padding) + 1)), place_(place), size_(text.size()), format_(format) {
+    : text_(text.substr(0, text.find_last_not_of(trailing) + 1)), place_(place), size_(text.size()), format_(format) {
   if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
 }
 

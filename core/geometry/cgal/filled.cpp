@@ -15,7 +15,7 @@ namespace signorini::geometry {
 namespace {
 
 constexpr double off_domain = 1e-6;  // of the domain's own coordinates
-constexpr double flat = 1e-9;      // of h^3
+constexpr double flat = 1e-9;        // of h^3
 
 class Inspection {
  public:

@@ -21,7 +21,7 @@ Point<3> normal(const Mesh<3>& mesh, const Face<3>& face) {
   return {n[0] / l, n[1] / l, n[2] / l};
 }
 
-bool flat(const Mesh<3>& mesh, const Face<3>& one, const Face<3>& two) {
+bool lie_flat(const Mesh<3>& mesh, const Face<3>& one, const Face<3>& two) {
   const Point<3> n = normal(mesh, one), m = normal(mesh, two);
   return n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > std::cos(5 * std::numbers::pi / 180);
 }
@@ -64,7 +64,7 @@ void peel_slivers(Mesh<3>& mesh, const std::vector<CreaseEdge>& creases) {
     const auto& faces = faces_of_element[e];
     // The boundary stays a manifold only if the edge that comes up is not on it elsewhere.
     const bool peeled =
-        faces.size() == 2 && flat(mesh, mesh.boundary[faces[0]], mesh.boundary[faces[1]]) &&
+        faces.size() == 2 && lie_flat(mesh, mesh.boundary[faces[0]], mesh.boundary[faces[1]]) &&
         !kept_edges.contains(common_edge(mesh.boundary[faces[0]], mesh.boundary[faces[1]])) &&
         edges.insert(free_edge(mesh.elements[e], mesh.boundary[faces[0]], mesh.boundary[faces[1]])).second;
     if (!peeled) kept.push_back(mesh.elements[e]);

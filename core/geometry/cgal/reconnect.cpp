@@ -13,7 +13,7 @@ namespace signorini::geometry {
 
 namespace {
 
-constexpr double flat = 1e-3;             // of h^3, where a regular tetrahedron has 0.12
+constexpr double sliver = 1e-3;           // of h^3, where a regular tetrahedron has 0.12
 constexpr double least_gain = 1e-6;       // more than rounding makes
 constexpr std::size_t largest_ring = 10;  // elements around an edge that may be removed
 
@@ -32,7 +32,7 @@ class Reconnection {
   bool run() {
     bool any = false;
     for (std::size_t k = 0; k < mesh_.elements.size(); ++k)
-      while (!gone(static_cast<Index>(k)) && quality(mesh_.elements[k]) < flat && improve(static_cast<Index>(k)))
+      while (!gone(static_cast<Index>(k)) && quality(mesh_.elements[k]) < sliver && improve(static_cast<Index>(k)))
         any = true;
     if (any) std::erase_if(mesh_.elements, [](const Simplex<3>& element) { return element[0] < 0; });
     return any;
@@ -156,7 +156,7 @@ class Reconnection {
 
 bool replace_flat_elements(Mesh<3>& mesh) {
   const auto is_flat = [&](const Simplex<3>& element) {
-    return relative_volume<3>(corners<3>(mesh.points, element)) < flat;
+    return relative_volume<3>(corners<3>(mesh.points, element)) < sliver;
   };
   return std::ranges::any_of(mesh.elements, is_flat) && Reconnection(mesh).run();
 }
