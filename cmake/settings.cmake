@@ -30,6 +30,9 @@ target_include_directories(signorini_settings INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
 target_compile_features(signorini_settings INTERFACE cxx_std_20)
 target_compile_options(signorini_settings INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wno-psabi>)
+# Where several files are compiled as one, what is local to one of them is there for the others, too.
+target_compile_options(signorini_settings INTERFACE
+  $<BUILD_INTERFACE:$<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow;-Wno-subobject-linkage>>)
 if(SIGNORINI_NATIVE)
   # Not for programs that link the installed libraries: these may be for other processors, and are checked by valgrind.
   target_compile_options(signorini_settings INTERFACE $<BUILD_INTERFACE:-march=native>)
