@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
 constexpr const char* place = "matrix";
 // Of an entry, relative to the diagonal entries of its row and column.
-constexpr double rounding = 1e-12;
+constexpr double rounding = rounding_of_differences;
 
 [[noreturn]] void fail(const std::string& message) { input_error(place, message); }
 

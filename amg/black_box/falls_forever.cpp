@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "core/algebra/energy_along.hpp"
+#include "core/base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-14;   // of d'Ad, relative to d'Dd with the diagonal D of A
-constexpr double negligible = 1e-8;  // components of d and work along it, relative to the largest possible
+constexpr double rounding = rounding_of_sums;  // of d'Ad, relative to d'Dd with the diagonal D of A
+constexpr double negligible = 1e-8;            // components of d and work along it, relative to the largest possible
 
 template <int B>
 bool meets_a_bound(const Constraints<B>& c, const std::vector<double>& d, double small) {

@@ -10,13 +10,14 @@
 #include "core/algebra/products.hpp"
 #include "core/algebra/random_vector.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/solver/weights.hpp"
 
 namespace signorini {
 namespace {
 
 // Of a component of the product with a random vector, relative to the sum of the moduli that it is made of.
-constexpr double rounding = 1e-10;
+constexpr double rounding = rounding_of_bases;
 
 std::string name(const char* what, std::size_t k, std::size_t count) {
   return fmt::format("{} {} of {}, coarsest first", what, k + 1, count);

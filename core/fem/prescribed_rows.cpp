@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;  // of terms that cancel
+constexpr double rounding = rounding_of_differences;  // of terms that cancel
 
 }  // namespace
 

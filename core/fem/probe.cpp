@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/nearest_on_face.hpp"
 #include "core/mesh/curve.hpp"
@@ -17,7 +18,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;
+constexpr double rounding = rounding_of_differences;
 constexpr double boundary_rounding = 1e-6;  // of the vertices of mesh files in single precision
 
 template <int D>

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/paired_sides.hpp"
 #include "core/fem/select.hpp"
@@ -14,7 +15,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-12;  // of the body's extent
+constexpr double rounding = rounding_of_differences;  // of the body's extent
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/dense.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/mesh/join.hpp"
 #include "core/sdk/block.hpp"
@@ -15,7 +16,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = 1e-10;  // part of the largest one below which a singular value is zero
+constexpr double rounding = rounding_of_bases;  // part of the largest one below which a singular value is zero
 
 /// Rows, of which only what decides their null space is kept.
 class Rows {
