@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/dot.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/sdk/block.hpp"
 #include "driver/touching_bodies.hpp"
 
@@ -66,10 +67,10 @@ double most_acting(const StepReport& report, const BalanceReport& balance) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
-                                          const std::vector<double>& load, const StepReport& report, double rounding) {
+Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
+                          const std::vector<double>& load, const StepReport& report, double rounding) {
   constexpr double noticeable = 0.01, uneven = 1e-3;
-  std::vector<std::string> warnings;
+  Warnings warnings;
   if (!report.summary.converged()) return warnings;
   const BodyReport& whole = report.bodies.front();
   for (std::size_t part = 0; part < report.balance.size(); ++part) {
@@ -80,17 +81,19 @@ std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body&
     const double contact = largest_contact(report, report.balance[part].body);
     if (loads == 0 && acting > rounding && left > uneven * acting && contact > noticeable * acting)
       warnings.push_back(
-          fmt::format("body '{}': forces balance up to {:.2g}, where {:.2g} acts: some of them are not known; {}",
-                      report.balance[part].body, left, acting,
-                      report.summary.outcome == Outcome::rounding
-                          ? "that is what the machine's precision leaves of a mesh and material like these"
-                          : "a smaller tolerance may help"));
+          warning<"unbalanced">(report.balance[part].body, left,
+                                fmt::format("{:.2g} acts: some of them are not known; {}", acting,
+                                            report.summary.outcome == Outcome::rounding
+                                                ? "that is what the machine's precision leaves of a mesh and material "
+                                                  "like these"
+                                                : "a smaller tolerance may help")));
     if (!(loads > 0 && left > noticeable * loads)) continue;
     warnings.push_back(
-        fmt::format("body '{}': forces balance up to {:.2g}, where the loads are {:.2g}: these are too small beside "
-                    "stiffness times displacement for the tolerance or the machine's precision, and what they do is "
-                    "not known",
-                    report.balance[part].body, left, loads));
+        warning<"unbalanced">(report.balance[part].body, left,
+                              fmt::format("the loads are {:.2g}: these are too small beside stiffness times "
+                                          "displacement for the tolerance or the machine's precision, and what they do "
+                                          "is not known",
+                                          loads)));
   }
   return warnings;
 }
@@ -107,9 +110,9 @@ double imbalance(const StepReport& report, const std::vector<double>& u) {
   return worst;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                           \
-  template std::vector<std::string> balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&, \
-                                                           const std::vector<double>&, const StepReport&, double);
+#define SIGNORINI_INSTANTIATE(D, B)                                                           \
+  template Warnings balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&, \
+                                           const std::vector<double>&, const StepReport&, double);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -4,6 +4,7 @@
 
 #include "core/fem/nodes.hpp"
 #include "core/io/report.hpp"
+#include "core/io/warning.hpp"
 #include "core/scene/scene.hpp"
 
 namespace signorini {
@@ -13,8 +14,8 @@ namespace signorini {
 /// @param report of this body alone, with its parts
 /// @param rounding forces that are no larger are none
 template <int D, int B>
-std::vector<std::string> balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
-                                          const std::vector<double>& load, const StepReport& report, double rounding);
+Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
+                          const std::vector<double>& load, const StepReport& report, double rounding);
 
 /// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or an obstacle:
 /// the largest of its parts. Forces that cancel within one of these are known by their work alone.

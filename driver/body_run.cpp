@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/paired_sides.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/solver/attainable.hpp"
 #include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
@@ -24,15 +25,13 @@
 namespace signorini {
 namespace {
 
-void append(std::vector<std::string>& warnings, std::vector<std::string> more) {
-  std::move(more.begin(), more.end(), std::back_inserter(warnings));
-}
+void append(Warnings& warnings, Warnings more) { std::move(more.begin(), more.end(), std::back_inserter(warnings)); }
 
 }  // namespace
 
 template <int D, int B>
 BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress,
-                       Times& times, std::vector<std::string>& warnings, PromisedMemory* promised)
+                       Times& times, Warnings& warnings, PromisedMemory* promised)
     : scene_(scene),
       body_(body),
       registry_(registry),
@@ -73,7 +72,7 @@ Model<B> BodyRun<D, B>::model(const LoadStep& step) const {
 }
 
 template <int D, int B>
-void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) const {
+void BodyRun<D, B>::add_warnings(double t, Warnings& warnings) const {
   const Model<B> now = model({1, 0, t});
   check_symmetry(hierarchy_, now);
   if constexpr (D == B) refuse_unseen_overlap(nodes(), now);
@@ -84,7 +83,7 @@ void BodyRun<D, B>::add_warnings(double t, std::vector<std::string>& warnings) c
 }
 
 template <int D, int B>
-void BodyRun<D, B>::add_result_warnings(const Report& report, std::vector<std::string>& warnings) const {
+void BodyRun<D, B>::add_result_warnings(const Report& report, Warnings& warnings) const {
   if (!report.converged()) return;  // what an iterate looks like that is no solution says nothing of the scene
   append(warnings, apart_warnings(scene_, body_, report, results_));
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
@@ -195,14 +194,14 @@ double rounding_of_forces(const BlockMatrix<B>& A, const std::vector<double>& u)
   return terms * std::numeric_limits<double>::epsilon() * stiffest * farthest;
 }
 
-void add_once(std::string warning, std::vector<std::string>& warnings) {
+void add_once(Warning warning, Warnings& warnings) {
   if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(std::move(warning));
 }
 
 }  // namespace
 
 template <int D, int B>
-StepReport BodyRun<D, B>::solve(const LoadStep& step, std::vector<std::string>& warnings) {
+StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   const double t = step.to;
   model_ = model(step);
   model_.follows = follows_;
@@ -220,18 +219,10 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, std::vector<std::string>& 
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty())
-    add_once(fmt::format("{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves "
-                         "least along them",
-                         model_.origin, fmt::join(solution.undetermined, "; ")),
-             warnings);
-  if (solution.slides_on)
-    add_once(
-        fmt::format("{}: in a step bodies slide past each other by more than part of an element, however often they "
-                    "are paired anew: take shorter steps",
-                    model_.origin),
-        warnings);
+    add_once(warning<"undetermined-motion">(model_.origin, fmt::join(solution.undetermined, "; ")), warnings);
+  if (solution.slides_on) add_once(warning<"slides-on">(model_.origin), warnings);
   const double rounding = rounding_of_forces(solution.discretization.problem.A, results_.u);
-  for (std::string& warning :
+  for (Warning& warning :
        balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report, rounding))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.

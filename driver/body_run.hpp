@@ -6,6 +6,7 @@
 #include "core/component/registry.hpp"
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
+#include "core/io/warning.hpp"
 #include "core/sdk/stepping.hpp"
 #include "driver/dirichlet_neumann.hpp"
 #include "driver/memory.hpp"
@@ -23,7 +24,7 @@ class BodyRun {
   /// adds to `times` what everything takes. Error(Exit::input) as read_scene() has them.
   /// @param promised memory of the bodies before it; null: it is alone
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
-          std::vector<std::string>& warnings, PromisedMemory* promised = nullptr);
+          Warnings& warnings, PromisedMemory* promised = nullptr);
 
   /// Those of all steps, which may be others than before. Error(Exit::input) for one outside the body.
   void find_probes();
@@ -31,7 +32,7 @@ class BodyRun {
   void begin(double t);
   /// Tries the step, from the last solution that was accepted where there is one, and says what came out. Errors: see
   /// NestedSolver.
-  StepReport solve(const LoadStep& step, std::vector<std::string>& warnings);
+  StepReport solve(const LoadStep& step, Warnings& warnings);
   /// What the last solve() found is where the next step starts, and what its friction counts from.
   void accept();
   /// Whether a step depends on the way before it, as with friction.
@@ -46,9 +47,9 @@ class BodyRun {
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);
   /// What is odd about the scene as it is at t, before it is solved.
-  void add_warnings(double t, std::vector<std::string>& warnings) const;
+  void add_warnings(double t, Warnings& warnings) const;
   /// What is odd about the results.
-  void add_result_warnings(const Report& report, std::vector<std::string>& warnings) const;
+  void add_result_warnings(const Report& report, Warnings& warnings) const;
 
   const Scene::Body& body() const { return scene_.bodies[body_]; }
   const MeshHierarchy<D>& hierarchy() const { return hierarchy_; }

@@ -52,7 +52,7 @@ struct Mesher {
   const Scene& scene;
   const Scene::Body& body;
   int block;
-  std::vector<std::string>* warnings;
+  Warnings* warnings;
   const Progress& progress;
 
   Mesh<D> operator()(const Scene::MeshFile& given) const {
@@ -63,7 +63,7 @@ struct Mesher {
     refuse_lost_groups(scene, body, mesh, groups);
     mesh.region = regions(scene, body, mesh, groups);
     if (warnings)
-      for (std::string& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
+      for (Warning& warning : mesh_warnings(mesh, groups, body.source.of("mesh")))
         warnings->push_back(std::move(warning));
     return mesh;
   }
@@ -106,8 +106,7 @@ int dimension_of(const Scene& scene) {
 }
 
 template <int D>
-Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::vector<std::string>* warnings,
-                const Progress& progress) {
+Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, Warnings* warnings, const Progress& progress) {
   Mesh<D> mesh = std::visit(Mesher<D>{scene, given, block, warnings, progress}, halved_shape(scene, given));
   for (const Mirror& mirror : scene.symmetry.planes)
     add_mirror(mesh, mirror, scene.symmetry.source.of(axis_name(mirror.axis)));
@@ -124,8 +123,7 @@ Mesh<D> mesh_of(const Scene& scene, const Scene::Body& given, int block, std::ve
 }
 
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
-                      const Progress& progress) {
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, Warnings* warnings, const Progress& progress) {
   const Scene::Body& given = scene.bodies[body];
   if (given.parts.empty()) return mesh_of<D>(scene, given, block, warnings, progress);
   std::vector<Mesh<D>> meshes;
@@ -139,7 +137,7 @@ Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vect
   return join(std::move(meshes), names, materials);
 }
 
-template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
-template Mesh<3> coarsest_mesh(const Scene&, std::size_t, int, std::vector<std::string>*, const Progress&);
+template Mesh<2> coarsest_mesh(const Scene&, std::size_t, int, Warnings*, const Progress&);
+template Mesh<3> coarsest_mesh(const Scene&, std::size_t, int, Warnings*, const Progress&);
 
 }  // namespace signorini

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/warning.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
 #include "driver/progress.hpp"
@@ -16,7 +17,6 @@ int dimension_of(const Scene& scene);
 /// @param block unknowns per vertex, to refuse meshes that would not fit into memory
 /// @param warnings where there are any, what is odd about the mesh is added
 template <int D>
-Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, std::vector<std::string>* warnings,
-                      const Progress& progress);
+Mesh<D> coarsest_mesh(const Scene& scene, std::size_t body, int block, Warnings* warnings, const Progress& progress);
 
 }  // namespace signorini

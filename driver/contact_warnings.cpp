@@ -13,6 +13,7 @@
 #include "core/fem/paired_sides.hpp"
 #include "core/fem/select.hpp"
 #include "core/geometry/smooth_boundary.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/chords.hpp"
 #include "core/mesh/connected.hpp"
 #include "driver/numbers.hpp"
@@ -68,18 +69,16 @@ std::string at_step(const Report& report, const StepReport& step) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere) {
-  std::vector<std::string> warnings;
+Warnings start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool everywhere) {
+  Warnings warnings;
   if constexpr (B == D)
     for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
       const auto start = start_depth(nodes, model, static_cast<Index>(k), everywhere);
       // Away from the faces that may touch, a convex obstacle may well reach into the body.
       const bool deeply = start && !everywhere && start->depth > deep * start->extent;
       if (!start || !(start->completely || deeply)) continue;
-      warnings.push_back(fmt::format(
-          "{}: the body starts {}inside the obstacle: it reaches {:.3g} deep, and is {:.3g} thick along the "
-          "obstacle's normal there; is that normal reversed?",
-          model.obstacles[k].origin, start->completely ? "completely " : "", start->depth, start->extent));
+      warnings.push_back(warning<"starts-inside">(model.obstacles[k].origin, start->completely ? "completely " : "",
+                                                  start->depth, start->extent));
     }
   return warnings;
 }
@@ -110,40 +109,31 @@ void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactS
 }
 
 template <int D, int B>
-std::vector<std::string> pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
-  std::vector<std::string> warnings;
+Warnings pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
+  Warnings warnings;
   if constexpr (B == D)
     for (const ObstacleTerm<D>& term : model.obstacles) {
       if (!term.other) continue;
       const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
       const MortarCoupling<D> coupling = couple_sides(nodes, model, term, faces.slave, faces.master);
-      if (coupling.nodes() == 0)
-        warnings.push_back(fmt::format(
-            "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is "
-            "another side meant?",
-            term.origin));
+      if (coupling.nodes() == 0) warnings.push_back(warning<"not-facing">(term.origin));
       const std::vector<FixedDirections<D>> fixes = collect_fixes<D, D>(nodes, model);
       const PrescribedNodes fixed = prescribed_nodes(nodes, fixes, coupling);
       Index lost = fixed.normal;
       if (term.obstacle->functional()) couple_sides_with_friction<D>(nodes, model, term, faces, fixes, {}, &lost);
       if (lost > 0 && fixed.normal > 0 && fixed.normal < fixed.all)
-        warnings.push_back(fmt::format(
-            "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the normal: "
-            "nothing keeps the other body off them; expected free nodes, or the other side as the slave ('slave')",
-            term.origin, fixed.normal, fixed.all));
+        warnings.push_back(warning<"prescribed-slave">(term.origin, fixed.normal, fixed.all,
+                                                       "normal: nothing keeps the other body off them"));
       if (term.obstacle->friction() && lost > 0 && lost > fixed.normal)
-        warnings.push_back(fmt::format(
-            "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the surface: "
-            "no friction acts there along that; expected free nodes, or the other side as the slave ('slave')",
-            term.origin, lost, fixed.all));
+        warnings.push_back(
+            warning<"prescribed-slave">(term.origin, lost, fixed.all, "surface: no friction acts there along that"));
     }
   return warnings;
 }
 
 template <int D, int B>
-std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, const Report& report,
-                                        const Results<D, B>& results) {
-  std::vector<std::string> warnings;
+Warnings apart_warnings(const Scene& scene, std::size_t body, const Report& report, const Results<D, B>& results) {
+  Warnings warnings;
   if (!report.converged()) return warnings;
   const std::vector<int> numbers = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -158,25 +148,21 @@ std::vector<std::string> apart_warnings(const Scene& scene, std::size_t body, co
     for (const ContactNode<B>& node : paired ? results.masters : results.contact.nodes)
       if (std::cmp_equal(node.obstacle, k)) least = std::min(least, node.gap);
     if (!std::isfinite(least)) continue;
-    warnings.push_back(fmt::format(
-        "{}: '{}' {}; at the end a distance of {:.3g} is left between them", obstacle.source.table, obstacle.body,
-        paired ? fmt::format("and '{}' never touch", obstacle.other) : std::string("and the obstacle never touch"),
-        least));
+    warnings.push_back(warning<"never-touch">(
+        obstacle.source.table, obstacle.body,
+        paired ? fmt::format("and '{}'", obstacle.other) : std::string("and the obstacle"), least));
   }
   return warnings;
 }
 
-std::vector<std::string> contact_warnings(const Scene& scene, const Report& report) {
-  std::vector<std::string> warnings;
+Warnings contact_warnings(const Scene& scene, const Report& report) {
+  Warnings warnings;
   for (std::size_t k = 0; k < scene.obstacles.size(); ++k) {
     const std::string& origin = scene.obstacles[k].source.table;
     const StepReport& farthest = worst(report, k, off);
     const ContactReport& contact = farthest.contact[k];
     if (off(contact) > noticeable)
-      warnings.push_back(fmt::format(
-          "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: "
-          "contact is linearised about the undeformed body, and for these displacements the "
-          "obstacle or the boundary is too curved{}",
+      warnings.push_back(warning<"too-curved">(
           origin, std::fmax(contact.largest_penetration, contact.largest_opening),
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
                                                                  : "off the obstacle though contact is claimed",
@@ -185,60 +171,43 @@ std::vector<std::string> contact_warnings(const Scene& scene, const Report& repo
                        : ", or quadratic elements are too coarse"));
     const StepReport& between = worst(report, k, off_between);
     if (const ContactReport& c = between.contact[k]; off_between(c) > coarse)
-      warnings.push_back(fmt::format(
-          "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: conditions hold at nodes "
-          "alone; expected smaller elements there",
+      warnings.push_back(warning<"between-nodes">(
           origin, c.penetration_between_nodes,
           c.largest_displacement > 0 ? fmt::format("where displacements are up to {:.3g}", c.largest_displacement)
                                      : "which no node touches",
           at_step(report, between)));
     if (const ContactReport& c = report.steps.back().contact[k]; !c.resolved)
-      warnings.push_back(fmt::format(
-          "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of "
-          "the contact may be off by a third or more, or depend on the mesh where an edge or a corner touches; "
-          "expected smaller elements there",
-          origin, c.nodes == 1 ? "1 node" : fmt::format("{} nodes", c.nodes)));
-    else if (c.peaks_at_edge)
       warnings.push_back(
-          fmt::format("{}: the largest pressure is where an edge or a corner touches: there it grows with smaller "
-                      "elements, and is not to be relied on",
-                      origin));
+          warning<"unresolved-contact">(origin, c.nodes == 1 ? "1 node" : fmt::format("{} nodes", c.nodes)));
+    else if (c.peaks_at_edge)
+      warnings.push_back(warning<"peak-at-edge">(origin));
     const StepReport& past = worst(report, k, beyond);
     if (const ContactReport& c = past.contact[k]; beyond(c) > many)
-      warnings.push_back(fmt::format(
-          "{}: {} of {} nodes in contact have come to where the other body is no longer in front of them{}: pairs are "
-          "those of the start of a step; expected smaller steps ([steps])",
-          origin, c.beyond_nodes, c.nodes, at_step(report, past)));
+      warnings.push_back(warning<"slid-past">(origin, c.beyond_nodes, c.nodes, at_step(report, past)));
     const StepReport& held = worst(report, k, undetermined);
     if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)
-      warnings.push_back(fmt::format(
-          "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix, or pressed on by other "
-          "obstacles as well, along directions that depend on each other{}: how the force there divides is not "
-          "determined; what presses, {:.3g}, is counted as the obstacle's",
-          origin, c.undetermined_nodes, c.nodes, at_step(report, held), c.undetermined_force));
+      warnings.push_back(warning<"undetermined-force">(origin, c.undetermined_nodes, c.nodes, at_step(report, held),
+                                                       c.undetermined_force));
   }
   return warnings;
 }
 
 template <int D>
-std::vector<std::string> turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
+Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
   constexpr double noticeable_turn = 0.1;
   if (model.plane == Plane::axisymmetric) return {};
   const std::vector<double> turns =
       mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u);
   const double largest = *std::ranges::max_element(turns);
   if (!(largest > noticeable_turn)) return {};
-  return {
-      fmt::format("{}: {} turns by {:.2g} degrees: linear elasticity and contact take rotations for small ones, and "
-                  "see strains of {:.1g} in this one that are not there",
-                  model.origin, turns.size() > 1 ? "one of the bodies" : "the body", largest * 180 / std::numbers::pi,
-                  0.5 * largest * largest)};
+  return {warning<"large-turn">(model.origin, turns.size() > 1 ? "one of the bodies" : "the body",
+                                largest * 180 / std::numbers::pi, 0.5 * largest * largest)};
 }
 
 template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&);
 template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&);
-template std::vector<std::string> turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);
-template std::vector<std::string> turn_warnings(const Model<3>&, const Nodes<3>&, const std::vector<double>&);
+template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);
+template Warnings turn_warnings(const Model<3>&, const Nodes<3>&, const std::vector<double>&);
 
 namespace {
 
@@ -261,9 +230,9 @@ double flattened(const Results<D, B>& results, Index obstacle) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
-                                        const Results<D, B>& results) {
-  std::vector<std::string> warnings;
+Warnings chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
+                        const Results<D, B>& results) {
+  Warnings warnings;
   for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
     if (!results.deformed[k]) continue;
     const double depth = flattened(results, static_cast<Index>(k));
@@ -271,27 +240,18 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
     const double most = depth > 0 ? edged * depth : noticeable * displacement;
     const auto add = [&](const char* whose, double sagitta, double angle) {
       if (!(sagitta > most)) return;
-      warnings.push_back(fmt::format(
-          "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
-          "where {}displacements are up to {:.3g}: the gap is off by up to {:.2g} % of what closes it, refinement "
-          "brings "
-          "out the edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {}{} "
-          "puts a smooth surface through the vertices, but where single faces between edges tell nothing round",
-          model.obstacles[k].origin, whose, sagitta,
-          depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement,
-          100 * sagitta / (depth > 0 ? depth : displacement), whose,
-          angle > geometry::default_crease
-              ? fmt::format(", with a crease of more than the {:.0f} degrees between them,",
-                            angle * 180 / std::numbers::pi)
-              : ""));
+      warnings.push_back(
+          warning<"flat-faces">(model.obstacles[k].origin, whose, sagitta,
+                                depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement,
+                                100 * sagitta / (depth > 0 ? depth : displacement), whose,
+                                angle > geometry::default_crease
+                                    ? fmt::format(", with a crease of more than the {:.0f} degrees between them,",
+                                                  angle * 180 / std::numbers::pi)
+                                    : ""));
     };
     const auto add_smoothed = [&](const char* whose, const SmoothedOver& over) {
       if (!(over.error() > noticeable * (depth > 0 ? depth : displacement))) return;
-      warnings.push_back(fmt::format(
-          "{}: where they touch, the {} is taken for a smooth surface over faces that meet at up to {:.3g} degrees, "
-          "and "
-          "is {:.3g} off these, where {}displacements are up to {:.3g}: such a surface is as good as its vertices; "
-          "expected smaller faces, or, where an edge is meant, a smaller 'crease'",
+      warnings.push_back(warning<"smoothed-edges">(
           model.obstacles[k].origin, whose, over.angle * 180 / std::numbers::pi, over.by,
           depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
     };
@@ -309,12 +269,11 @@ std::vector<std::string> chord_warnings(const Model<B>& model, const MeshHierarc
   return warnings;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                                 \
-  template std::vector<std::string> start_warnings(const Nodes<D>&, const Model<B>&, bool);                         \
-  template std::vector<std::string> pair_warnings(const Nodes<D>&, const Model<B>&);                                \
-  template std::vector<std::string> apart_warnings(const Scene&, std::size_t, const Report&, const Results<D, B>&); \
-  template std::vector<std::string> chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&,       \
-                                                   const Results<D, B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                 \
+  template Warnings start_warnings(const Nodes<D>&, const Model<B>&, bool);                         \
+  template Warnings pair_warnings(const Nodes<D>&, const Model<B>&);                                \
+  template Warnings apart_warnings(const Scene&, std::size_t, const Report&, const Results<D, B>&); \
+  template Warnings chord_warnings(const Model<B>&, const MeshHierarchy<D>&, const Nodes<D>&, const Results<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -9,6 +9,7 @@
 #include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/components.hpp"
@@ -159,7 +160,7 @@ void Driver::begin() {
 bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   const bool whole = by.halvings == 0;
   progress_.step(by, report_.planned_steps);
-  std::vector<std::string> warnings = report_.warnings;  // those of what fails are of no use
+  Warnings warnings = report_.warnings;  // those of what fails are of no use
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
   if (progress_.is_ended()) return keep_iterate(std::move(report), std::move(warnings));
   const bool stuck = is_stuck(report);
@@ -179,9 +180,7 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
   if (stuck && veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
-  if (turned)
-    warnings.push_back(fmt::format("step {}: at t = {} friction has turned round: {}; expected shorter steps ([steps])",
-                                   by.number, by.to, at_newcomers));
+  if (turned) warnings.push_back(warning<"friction-turned">(by.number, by.to, at_newcomers));
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();
@@ -190,10 +189,10 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
 
 /// Of steps those that were finished are enough. What a single one has come to is worth having: until the work was
 /// ended that was all of it.
-bool Driver::keep_iterate(StepReport report, std::vector<std::string> warnings) {
+bool Driver::keep_iterate(StepReport report, Warnings warnings) {
   if (report_.has_steps()) progress_.stop_if_interrupted();
   report_.interrupted = true;
-  warnings.emplace_back("interrupted: these results are those of the last iterate, which is no solution");
+  warnings.push_back(warning<"interrupted">());
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   return false;
@@ -231,8 +230,7 @@ bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
 
 void Driver::note_failure(const LoadStep& by, const char* what, int iterations, const std::string& reason) {
   report_.failed.push_back({by.number, by.from, by.to, iterations, reason});
-  report_.warnings.push_back(
-      fmt::format("step {}: from t = {} to {} {}, and it was cut in two: {}", by.number, by.from, by.to, what, reason));
+  report_.warnings.push_back(warning<"step-cut">(by.number, by.from, by.to, what, reason));
 }
 
 void Driver::forget_matrices() {
@@ -251,7 +249,7 @@ void Driver::add_step(StepReport report) {
   report_.steps.push_back(std::move(report));
 }
 
-StepReport Driver::solve_step(const LoadStep& by, std::vector<std::string>& warnings) {
+StepReport Driver::solve_step(const LoadStep& by, Warnings& warnings) {
   std::vector<StepReport> reports;
   for (std::size_t body = 0; body < bodies(); ++body) {
     if (bodies() > 1) progress_.phase(fmt::format("body '{}'", solved_.bodies[body].name));
@@ -265,7 +263,7 @@ StepReport Driver::solve_step(const LoadStep& by, std::vector<std::string>& warn
 }
 
 void Driver::finish() {
-  std::vector<std::string>& warnings = report_.warnings;
+  Warnings& warnings = report_.warnings;
   for (auto& warning : contact_warnings(scene_, report_)) warnings.push_back(std::move(warning));
   for (std::size_t body = 0; body < bodies(); ++body)
     std::as_const(*this).visit(body, [&](const auto& run) {

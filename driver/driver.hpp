@@ -85,8 +85,8 @@ class Driver {
   void build_bodies();
   void begin();
   bool advance(const LoadStep& by, const std::function<void()>& done);
-  bool keep_iterate(StepReport report, std::vector<std::string> warnings);
-  StepReport solve_step(const LoadStep& by, std::vector<std::string>& warnings);
+  bool keep_iterate(StepReport report, Warnings warnings);
+  StepReport solve_step(const LoadStep& by, Warnings& warnings);
   bool is_stuck(const StepReport& report) const;
   const std::string* veto_against_cutting() const;
   bool turns_friction(std::size_t body) const;
@@ -100,7 +100,7 @@ class Driver {
   Scene solved_;  // the same with_touching_bodies()
   const Progress& progress_;
   Registry registry_;
-  std::vector<std::string> mesh_warnings_;
+  Warnings mesh_warnings_;
   Report report_;
   std::vector<AnyRun> bodies_;
 };

@@ -1,4 +1,5 @@
 #include "driver/fitting_order.hpp"
+#include "core/io/warning_kinds.hpp"
 
 #include <fmt/format.h>
 
@@ -15,14 +16,11 @@ void take(Scene::Body& body, int order, std::optional<Pressure> pressure) {
 
 }  // namespace
 
-bool take_linear_elements(Scene& scene, std::size_t number, const TooLarge& why, std::vector<std::string>& warnings) {
+bool take_linear_elements(Scene& scene, std::size_t number, const TooLarge& why, Warnings& warnings) {
   Scene::Body& body = scene.bodies[number];
   if (body.order == 1 || !body.order_chosen) return false;
   take(body, 1, Pressure::none);
-  warnings.push_back(
-      fmt::format("{}: elements are linear, for quadratic ones do not fit: {}. Linear elements bend too little: a "
-                  "coarser mesh of quadratic ones is likely to be more accurate",
-                  body.source.table, why.complaint()));
+  warnings.push_back(warning<"linear-elements">(body.source.table, why.complaint()));
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/hanging.hpp"
 #include "core/mesh/hinges.hpp"
 #include "driver/numbers.hpp"
@@ -24,20 +25,17 @@ std::string points(const Mesh<D>& mesh, const std::array<Index, N>& vertices) {
 std::string and_others(std::size_t count) { return count > 1 ? fmt::format(", and at {} more", count - 1) : ""; }
 
 template <int D>
-void add_joints(const Mesh<D>& mesh, const std::string& place, std::vector<std::string>& warnings) {
+void add_joints(const Mesh<D>& mesh, const std::string& place, Warnings& warnings) {
   const Hinges hinges = find_hinges(mesh);
   if (const auto& all = hinges.vertices; !all.empty())
-    warnings.push_back(fmt::format("{}: elements hang together only by the vertex at {}{}: the body has a hinge there",
-                                   place, points(mesh, std::array{all[0]}), and_others(all.size())));
-  if (const auto& all = hinges.edges; !all.empty())
-    warnings.push_back(fmt::format("{}: elements hang together only by the edge {}{}: the body has a hinge there",
-                                   place, points(mesh, all[0]), and_others(all.size())));
-  if (const auto all = find_hanging_vertices(mesh); !all.empty())
     warnings.push_back(
-        fmt::format("{}: the vertex at {} lies inside the {} {} of an element that it is no vertex of{}: "
-                    "the body is torn there",
-                    place, points(mesh, std::array{all[0].vertex}), D == 2 ? "edge" : "face",
-                    points(mesh, mesh.boundary[all[0].face].vertices), and_others(all.size())));
+        warning<"hinge">(place, "vertex at " + points(mesh, std::array{all[0]}), and_others(all.size())));
+  if (const auto& all = hinges.edges; !all.empty())
+    warnings.push_back(warning<"hinge">(place, "edge " + points(mesh, all[0]), and_others(all.size())));
+  if (const auto all = find_hanging_vertices(mesh); !all.empty())
+    warnings.push_back(warning<"torn">(place, points(mesh, std::array{all[0].vertex}),
+                                       (D == 2 ? "edge " : "face ") + points(mesh, mesh.boundary[all[0].face].vertices),
+                                       and_others(all.size())));
 }
 
 /// Of the scene's fixes, loads and obstacles.
@@ -54,13 +52,10 @@ std::vector<Selection> selections(const Scene& scene, const Scene::Body& body) {
 }  // namespace
 
 template <int D>
-std::vector<std::string> mesh_warnings(const Mesh<D>& mesh, const FileGroups& groups, const std::string& place) {
-  std::vector<std::string> warnings;
+Warnings mesh_warnings(const Mesh<D>& mesh, const FileGroups& groups, const std::string& place) {
+  Warnings warnings;
   for (const auto& [name, faces, elsewhere] : groups.off_boundary)
-    warnings.push_back(
-        fmt::format("{}: {} of the {} {} of the physical group '{}' are not on the boundary: they are left "
-                    "out of the part of that name",
-                    place, elsewhere, faces, D == 2 ? "edges" : "faces", name));
+    warnings.push_back(warning<"group-inside">(place, elsewhere, faces, D == 2 ? "edges" : "faces", name));
   add_joints(mesh, place, warnings);
   return warnings;
 }
@@ -85,8 +80,8 @@ void refuse_lost_groups(const Scene& scene, const Scene::Body& body, const Mesh<
   }
 }
 
-#define SIGNORINI_INSTANTIATE(D)                                                                          \
-  template std::vector<std::string> mesh_warnings(const Mesh<D>&, const FileGroups&, const std::string&); \
+#define SIGNORINI_INSTANTIATE(D)                                                          \
+  template Warnings mesh_warnings(const Mesh<D>&, const FileGroups&, const std::string&); \
   template void refuse_lost_groups(const Scene&, const Scene::Body&, const Mesh<D>&, const FileGroups&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

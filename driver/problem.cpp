@@ -1,12 +1,13 @@
 #include "driver/problem.hpp"
 
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/families.hpp"
 
 namespace signorini {
 
 template <int D>
-MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings,
-                                 const Progress& progress, std::size_t body, PromisedMemory* promised) {
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, Warnings* warnings, const Progress& progress,
+                                 std::size_t body, PromisedMemory* promised) {
   Mesh<D> coarsest = coarsest_mesh<D>(scene, body, block, warnings, progress);
   progress.stop_if_interrupted();
   const int order = scene.bodies[body].order, refinements = scene.refine.uniform + order - 1;
@@ -17,16 +18,11 @@ MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std:
   MeshHierarchy<D> meshes = hierarchy(std::move(coarsest), refinements);
   if (order == 2) meshes.straightened += straighten_families(meshes.levels.back());
   if (warnings && meshes.straightened > 0)
-    warnings->push_back(
-        fmt::format("{}: {} midpoints of edges stay off the curved surface they belong to, or elements "
-                    "would be turned inside out there; a finer mesh follows it",
-                    scene.bodies[body].source.table, meshes.straightened));
+    warnings->push_back(warning<"straight-edges">(scene.bodies[body].source.table, meshes.straightened));
   return meshes;
 }
 
-template MeshHierarchy<2> build_hierarchy(const Scene&, int, std::vector<std::string>*, const Progress&, std::size_t,
-                                          PromisedMemory*);
-template MeshHierarchy<3> build_hierarchy(const Scene&, int, std::vector<std::string>*, const Progress&, std::size_t,
-                                          PromisedMemory*);
+template MeshHierarchy<2> build_hierarchy(const Scene&, int, Warnings*, const Progress&, std::size_t, PromisedMemory*);
+template MeshHierarchy<3> build_hierarchy(const Scene&, int, Warnings*, const Progress&, std::size_t, PromisedMemory*);
 
 }  // namespace signorini

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/io/warning.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/scene/scene.hpp"
 #include "driver/coarse_mesh.hpp"
@@ -40,7 +41,7 @@ decltype(auto) at_step(const Scene& scene, double t, const Work& work) {
 /// @param warnings where there are any, what is odd about the mesh of a file is added
 /// @param promised memory of the bodies before it, to which its own is added; null: it is alone
 template <int D>
-MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, std::vector<std::string>* warnings = nullptr,
+MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, Warnings* warnings = nullptr,
                                  const Progress& progress = Progress(), std::size_t body = 0,
                                  PromisedMemory* promised = nullptr);
 

@@ -10,6 +10,7 @@
 #include "core/fem/cut_faces.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/contact_report.hpp"
 #include "driver/materials.hpp"
@@ -182,7 +183,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
 }
 
 template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
+Warnings scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
   if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
   const Field ratio = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
@@ -191,34 +192,31 @@ std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh,
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) poisson = std::max(poisson, ratio(site_in(mesh, e, 1)));
   if (poisson < 0.45 || (body.order == 2 && body.pressure != Pressure::none)) return {};
   if (body.order == 2)
-    return {fmt::format(
-        "poisson = {}: quadratic elements of displacements alone lose accuracy in nearly incompressible material, "
-        "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not",
-        poisson)};
-  return {
-      fmt::format("poisson = {}: linear elements are too stiff for nearly incompressible material, and refinement "
-                  "helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at 0.49, and "
-                  "290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not lock",
-                  poisson, 2 * poisson / (1 - 2 * poisson))};
+    return {warning<"locking">(poisson, "quadratic elements of displacements alone lose accuracy in",
+                               "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not")};
+  return {warning<"locking">(
+      poisson, "linear elements are too stiff for",
+      fmt::format("and refinement helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at "
+                  "0.49, and 290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not "
+                  "lock",
+                  2 * poisson / (1 - 2 * poisson)))};
 }
 
 namespace {
 
 /// @param alike further places with this expression
-std::string cut_warning(const CutSelection& cut, const std::vector<std::string>& alike, int dimension) {
-  std::string text = fmt::format(
-      "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked",
-      cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces", cut.picked);
-  if (cut.wrong > 0) text += fmt::format(", it does not hold on about {:.2g} of these", cut.wrong);
-  if (cut.missed > 0) text += fmt::format(", and it holds on about {:.2g} besides", cut.missed);
-  text += "; a smaller 'size' or more 'cells' follow it more closely";
-  return alike.empty() ? text : text + fmt::format("; so at {}", fmt::join(alike, ", "));
+Warning cut_warning(const CutSelection& cut, const std::vector<std::string>& alike, int dimension) {
+  std::string off;
+  if (cut.wrong > 0) off += fmt::format(", it does not hold on about {:.2g} of these", cut.wrong);
+  if (cut.missed > 0) off += fmt::format(", and it holds on about {:.2g} besides", cut.missed);
+  return warning<"cut-faces">(cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces",
+                              cut.picked, off, alike.empty() ? "" : fmt::format("; so at {}", fmt::join(alike, ", ")));
 }
 
 /// One for each expression, which may stand in several places.
 template <int D>
-std::vector<std::string> cut_warnings(const std::vector<CutSelection>& cuts) {
-  std::vector<std::string> warnings;
+Warnings cut_warnings(const std::vector<CutSelection>& cuts) {
+  Warnings warnings;
   std::vector<const CutSelection*> told;
   for (const CutSelection& cut : cuts) {
     const auto same = [&](const CutSelection* other) {
@@ -245,25 +243,19 @@ bool drags_unknown(const Scene::Obstacle& obstacle) {
 }  // namespace
 
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model,
-                                        std::size_t body) {
-  std::vector<std::string> warnings;
+Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model, std::size_t body) {
+  Warnings warnings;
   const std::vector<int> fixes = numbers_of(scene.fixes, scene.bodies[body]);
   for (const FixConflict& conflict : fix_conflicts(nodes, model))
-    warnings.push_back(fmt::format("{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
-                                   scene.fixes[fixes[conflict.later]].source.table,
-                                   scene.fixes[fixes[conflict.earlier]].source.table, conflict.vertices,
-                                   conflict.vertices == 1 ? "vertex" : "vertices"));
-  for (std::string& warning : cut_warnings<D>(cut_selections(nodes.mesh(), model)))
-    warnings.push_back(std::move(warning));
+    warnings.push_back(warning<"conflicting-fixes">(scene.fixes[fixes[conflict.later]].source.table,
+                                                    scene.fixes[fixes[conflict.earlier]].source.table,
+                                                    conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
+  for (Warning& warning : cut_warnings<D>(cut_selections(nodes.mesh(), model))) warnings.push_back(std::move(warning));
   const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];
     if (!model.obstacles[k].obstacle->functional() || !drags_unknown(obstacle)) continue;
-    warnings.push_back(fmt::format(
-        "{}: 'distance' depends on t and tells how the obstacle moves across its surface, not along it: friction takes "
-        "it to be at rest along it; a plane, sphere or cylinder that moves drags the body with it",
-        obstacle.source.of("distance")));
+    warnings.push_back(warning<"unknown-drag">(obstacle.source.of("distance")));
   }
   return warnings;
 }
@@ -273,7 +265,7 @@ std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& node
                                        std::vector<Point<B>>);                                                         \
   template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,       \
                                   const Summary&, std::size_t);                                                        \
-  template std::vector<std::string> model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
+  template Warnings model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)
 SIGNORINI_RESULTS(2, 2)
@@ -281,7 +273,7 @@ SIGNORINI_RESULTS(3, 3)
 
 template Probes<2> locate_probes(const Mesh<2>&, const Scene&, std::size_t);
 template Probes<3> locate_probes(const Mesh<3>&, const Scene&, std::size_t);
-template std::vector<std::string> scene_warnings(const Scene&, const Mesh<2>&, std::size_t);
-template std::vector<std::string> scene_warnings(const Scene&, const Mesh<3>&, std::size_t);
+template Warnings scene_warnings(const Scene&, const Mesh<2>&, std::size_t);
+template Warnings scene_warnings(const Scene&, const Mesh<3>&, std::size_t);
 
 }  // namespace signorini

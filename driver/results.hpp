@@ -10,6 +10,7 @@
 #include "core/fem/probe.hpp"
 #include "core/fem/rigid_gap.hpp"
 #include "core/fem/slave_choice.hpp"
+#include "core/io/warning.hpp"
 #include "driver/nested_solver.hpp"
 #include "driver/symmetry.hpp"
 
@@ -55,12 +56,11 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
 
 /// What is known beforehand to spoil the result, seen on the coarsest mesh.
 template <int D>
-std::vector<std::string> scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t body = 0);
+Warnings scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t body = 0);
 
 /// Fixes that contradict each other, one sentence per pair, and expressions that cut through faces of the coarsest
 /// mesh.
 template <int D, int B>
-std::vector<std::string> model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model,
-                                        std::size_t body = 0);
+Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model, std::size_t body = 0);
 
 }  // namespace signorini

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/connected.hpp"
 #include "driver/contact_warnings.hpp"
 
@@ -29,7 +30,7 @@ StrainSizes<D> strains(const Nodes<D>& nodes, const Model<D>& model, const std::
 template <int D>
 void refuse_folded(const Nodes<D>& coarsest, const Model<D>& model, const StrainSizes<D>& strains) {
   if (model.obstacles.empty() || strains.folded <= much) return;
-  const std::vector<std::string> reasons = start_warnings(coarsest, model);  // an obstacle may be on the wrong side
+  const Warnings reasons = start_warnings(coarsest, model);  // an obstacle may be on the wrong side
   input_error(model.origin,
               fmt::format("{:.3g} % of the body would be pressed through itself, with strains of up to {}: linear "
                           "elasticity, which is meant for small ones, says nothing of that; expected smaller "
@@ -39,11 +40,9 @@ void refuse_folded(const Nodes<D>& coarsest, const Model<D>& model, const Strain
 }
 
 template <int D>
-std::vector<std::string> strain_warnings(const Model<D>& model, const StrainSizes<D>& strains) {
+Warnings strain_warnings(const Model<D>& model, const StrainSizes<D>& strains) {
   if (strains.large <= much) return {};
-  return {fmt::format(
-      "{}: strains are up to {}, and beyond {:g} in {:.3g} % of the body: linear elasticity and contact "
-      "take strains for small ones{}",
+  return {warning<"large-strain">(
       model.origin, where(strains), large_strain, 100 * strains.large,
       strains.folded > 0 ? fmt::format("; {:.3g} % of it is pressed through itself", 100 * strains.folded) : "")};
 }
@@ -52,7 +51,7 @@ template StrainSizes<2> strains(const Nodes<2>&, const Model<2>&, const std::vec
 template StrainSizes<3> strains(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 template void refuse_folded(const Nodes<2>&, const Model<2>&, const StrainSizes<2>&);
 template void refuse_folded(const Nodes<3>&, const Model<3>&, const StrainSizes<3>&);
-template std::vector<std::string> strain_warnings(const Model<2>&, const StrainSizes<2>&);
-template std::vector<std::string> strain_warnings(const Model<3>&, const StrainSizes<3>&);
+template Warnings strain_warnings(const Model<2>&, const StrainSizes<2>&);
+template Warnings strain_warnings(const Model<3>&, const StrainSizes<3>&);
 
 }  // namespace signorini

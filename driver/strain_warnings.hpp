@@ -5,6 +5,7 @@
 #include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
 #include "core/fem/strain.hpp"
+#include "core/io/warning.hpp"
 
 namespace signorini {
 
@@ -19,6 +20,6 @@ void refuse_folded(const Nodes<D>& coarsest, const Model<D>& model, const Strain
 
 /// Strains that are large in a noticeable part of a body.
 template <int D>
-std::vector<std::string> strain_warnings(const Model<D>& model, const StrainSizes<D>& strains);
+Warnings strain_warnings(const Model<D>& model, const StrainSizes<D>& strains);
 
 }  // namespace signorini

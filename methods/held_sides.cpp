@@ -5,13 +5,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/rounding.hpp"
 #include "core/fem/force_split.hpp"
 
 namespace signorini {
 
 namespace {
 
-constexpr double touching = 1e-12;  // of the terms of a distance: what rounding makes of it
+constexpr double touching = rounding_of_differences;  // of the terms of a distance: what rounding makes of it
 
 template <int B>
 using ReadSide = typename Polyhedron<B>::Side;

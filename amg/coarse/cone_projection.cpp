@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "core/base/dense.hpp"
+#include "core/base/rounding.hpp"
 
 namespace signorini {
 
 namespace {
 
-constexpr double tolerance = 1e-12;  // part of |c| by which a condition may be missed
-constexpr double nothing = 1e-15;    // part of |g| that is rounding
+constexpr double tolerance = rounding_of_differences;  // part of |c| by which a condition may be missed
+constexpr double nothing = 1e-15;                      // part of |g| that is rounding
 
 /// Columns G_j' of the conditions that hold as equalities.
 Eigen::MatrixXd columns(const Eigen::MatrixXd& G, const std::vector<Eigen::Index>& active) {

@@ -1,11 +1,13 @@
 #include "amg/coarsening/tentative.hpp"
 
+#include "core/base/rounding.hpp"
+
 #include <cmath>
 
 namespace signorini {
 namespace {
 
-constexpr double dependent = 1e-10;  // part of a mode that others leave of it
+constexpr double dependent = rounding_of_bases;  // part of a mode that others leave of it
 
 /// The nodes of each aggregate, in compressed rows.
 struct Members {

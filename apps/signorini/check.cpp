@@ -180,7 +180,7 @@ Model<B> check_steps(const Scene& scene, const Registry& registry, std::size_t b
 
 template <int D, int B>
 void check(Scene& scene, const Registry& registry, std::size_t body) {
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const Console console(false);
   const MeshHierarchy<D> hierarchy =
       with_fitting_order(scene, body, warnings, [&] { return build_hierarchy<D>(scene, B, &warnings, console, body); });

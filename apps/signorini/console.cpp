@@ -17,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "core/base/proc.hpp"
 #include "core/io/convergence.hpp"
+#include "core/io/warning_kinds.hpp"
 
 namespace signorini {
 
@@ -166,16 +167,15 @@ void print_of_written(const std::function<void()>& print) {
   }
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
   if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
-  print_warnings(
-      {"standard output: cannot be written: is the disk full, or its reader gone? The results are in their files."});
+  print_warnings({warning<"no-output">()});
 }
 
 void fail_unless_solved(bool solved, const std::string& reason) {
   if (!solved) throw Error(Exit::not_converged, not_solved + reason);
 }
 
-void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning);
+void print_warnings(const Warnings& warnings) {
+  for (const Warning& warning : warnings) fmt::print(stderr, "signorini: warning: {}\n", warning.text);
 }
 
 double peak_memory_mb() {

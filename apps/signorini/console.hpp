@@ -6,6 +6,7 @@
 
 #include "apps/signorini/heartbeat.hpp"
 #include "apps/signorini/run_status.hpp"
+#include "core/io/warning.hpp"
 #include "driver/progress.hpp"
 
 namespace signorini {
@@ -67,7 +68,7 @@ void print_of_written(const std::function<void()>& print);
 void fail_unless_solved(bool solved, const std::string& reason);
 
 /// On standard error, a line each.
-void print_warnings(const std::vector<std::string>& warnings);
+void print_warnings(const Warnings& warnings);
 
 /// Largest memory the program has had so far, in 2^20 bytes.
 double peak_memory_mb();

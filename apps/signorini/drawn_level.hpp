@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/signorini/show.hpp"
+#include "core/io/warning_kinds.hpp"
 
 namespace signorini {
 
@@ -51,14 +52,15 @@ inline std::size_t triangle_count(const Mesh<3>& mesh) { return mesh.boundary.si
 /// one if they are few enough to be drawn in a moment.
 /// @param all whether they are all triangles of the level, so that they need not be made to be counted
 template <int D, class Patches>
-std::vector<Patch> few_patches(const Shown<D>& shown, std::vector<std::string>& notes, bool all, Patches patches) {
+std::vector<Patch> few_patches(const Shown<D>& shown, Warnings& notes, bool all, Patches patches) {
   Drawn<D> drawn = finest(shown.hierarchy);
   while (all && triangle_count(*drawn.mesh) > enough_patches && coarsen(shown.hierarchy, drawn)) {
   }
   std::vector<Patch> result = patches(drawn);
   while (result.size() > enough_patches && coarsen(shown.hierarchy, drawn)) result = patches(drawn);
   if (!is_too_many(result)) return result;
-  notes.push_back(fmt::format("result.png was left out: more than {} triangles are too many to draw", most_patches));
+  notes.push_back(
+      warning<"missing-picture">(fmt::format("result.png: more than {} triangles are too many to draw", most_patches)));
   return {};
 }
 

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/io/convergence.hpp"
 #include "core/io/steps_table.hpp"
+#include "core/io/warning_kinds.hpp"
 
 namespace signorini {
 namespace {
@@ -106,7 +107,7 @@ Shown<D> shown(const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes, const R
 }
 
 template <int D, int B>
-std::vector<Panel> result_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
+std::vector<Panel> result_panels(const Shown<D>& shown, Warnings& notes) {
   std::vector<Panel> panels = B == 1 ? scalar_panels(shown, notes) : elastic_panels(shown, notes);
   std::erase_if(panels, [](const Panel& panel) { return panel.patches.empty() && panel.lines.empty(); });
   return panels;
@@ -186,8 +187,9 @@ bool is_result_file(const std::string& name) {
 
 namespace {
 
-void warn_once(Report& report, const std::string& warning) {
-  if (std::ranges::find(report.warnings, warning) == report.warnings.end()) report.warnings.push_back(warning);
+void warn_once(Report& report, Warning warning) {
+  if (std::ranges::find(report.warnings, warning) == report.warnings.end())
+    report.warnings.push_back(std::move(warning));
 }
 
 /// Calls draw(painter, file) for a picture of that name, or says why there is none: the other results do without.
@@ -200,10 +202,9 @@ void paint(AtomicFiles& files, const std::string& name, Report& report, const Dr
     std::string reason = error.what();
     if (reason.starts_with(file.string())) reason.replace(0, file.string().size(), name);
     warn_once(report,
-              fmt::format("{}: {}", error.status() == Exit::plugin ? "no pictures were drawn" : "a picture is missing",
-                          reason));
+              error.status() == Exit::plugin ? warning<"no-pictures">(reason) : warning<"missing-picture">(reason));
   } catch (const std::bad_alloc&) {
-    warn_once(report, fmt::format("a picture is missing: {}: there is not enough memory", name));
+    warn_once(report, warning<"missing-picture">(name + ": there is not enough memory"));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/io/picture.hpp"
+#include "core/io/warning.hpp"
 #include "core/mesh/mesh.hpp"
 
 namespace signorini {
@@ -34,9 +35,9 @@ struct Shown {
 /// sticks, in 2D with the tangential traction. Profiles are lines for each obstacle. They begin to count in the middle
 /// of its contact, the mean place weighted by pressure.
 template <int D>
-std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes);
+std::vector<Panel> elastic_panels(const Shown<D>& shown, Warnings& notes);
 /// The graph of u (2D) or a section (3D), and the coincidence set likewise.
 template <int D>
-std::vector<Panel> scalar_panels(const Shown<D>& shown, std::vector<std::string>& notes);
+std::vector<Panel> scalar_panels(const Shown<D>& shown, Warnings& notes);
 
 }  // namespace signorini

@@ -121,7 +121,7 @@ std::vector<Contact<D>> contacts_of(const Shown<D>& shown) {
 }
 
 template <int D>
-Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zone, std::vector<std::string>& notes) {
+Panel body_panel(const Shown<D>& shown, const std::optional<ContactZone<D>>& zone, Warnings& notes) {
   const double factor = zone ? 1 : exaggeration(shown);  // exaggerated, a contact zone would not fit the obstacle
   Panel panel;
   panel.title = factor == 1 ? "deformed body" : fmt::format("deformed body (displacements x {:g})", factor);
@@ -161,7 +161,7 @@ Point<3> nearest_to_middle(const Shown<3>& shown, const ContactZone<3>& zone) {
 }
 
 /// Bodies cut open through the contact zone, so that its normal lies in the section, as upright as may be.
-Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes) {
+Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, Warnings& notes) {
   Section section{nearest_to_middle(shown, zone), tangents(zone.normal)[0], zone.normal};
   const auto widest = std::ranges::max_element(section.up, {}, [](double c) { return std::abs(c); });
   if (*widest < 0)
@@ -184,8 +184,7 @@ Panel cut_panel(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<s
 /// The faces around the contact zone that may touch, seen along its normal.
 /// @param add called as add(corners, vertices of the finest mesh, patches)
 template <class Add>
-std::vector<Patch> zone_patches(const Shown<3>& shown, const ContactZone<3>& zone, std::vector<std::string>& notes,
-                                const Add& add) {
+std::vector<Patch> zone_patches(const Shown<3>& shown, const ContactZone<3>& zone, Warnings& notes, const Add& add) {
   const auto axes = tangents(zone.normal);
   return few_patches(shown, notes, false, [&](const Drawn<3>& drawn) {
     std::vector<Patch> patches;
@@ -213,7 +212,7 @@ std::string with_name(const char* title, const std::string& name) {
   return name.empty() ? title : fmt::format("{}, {}", title, name);
 }
 
-Panel pressure_panel(const Shown<3>& shown, const Contact<3>& contact, std::vector<std::string>& notes) {
+Panel pressure_panel(const Shown<3>& shown, const Contact<3>& contact, Warnings& notes) {
   const ContactZone<3>& zone = contact.zone;
   Panel panel;
   panel.label = "contact pressure";
@@ -228,7 +227,7 @@ Panel pressure_panel(const Shown<3>& shown, const Contact<3>& contact, std::vect
 Point<2> middle(const Point<2>& a, const Point<2>& b) { return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; }
 
 /// Where it slips and sticks: the third of a face next to a vertex has that one's colour.
-Panel friction_panel(const Shown<3>& shown, const Contact<3>& contact, std::vector<std::string>& notes) {
+Panel friction_panel(const Shown<3>& shown, const Contact<3>& contact, Warnings& notes) {
   const ContactZone<3>& zone = contact.zone;
   Panel panel;
   panel.title = with_name("slip and stick", contact.name);
@@ -339,7 +338,7 @@ void add_contact(const Shown<2>& shown, const std::optional<ContactZone<2>>&, st
 }
 
 /// Of several contacts the one that presses most.
-void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>&, std::vector<std::string>& notes,
+void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>&, Warnings& notes,
                  std::vector<Panel>& panels) {
   const std::vector<Contact<3>> contacts = contacts_of(shown);
   if (contacts.empty()) return;
@@ -352,7 +351,7 @@ void add_contact(const Shown<3>& shown, const std::optional<ContactZone<3>>&, st
 }  // namespace
 
 template <int D>
-std::vector<Panel> elastic_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
+std::vector<Panel> elastic_panels(const Shown<D>& shown, Warnings& notes) {
   const auto zone = contact_zone(shown, std::span(shown.reached));
   std::vector<Panel> panels{body_panel(shown, zone, notes)};
   add_contact(shown, zone, notes, panels);

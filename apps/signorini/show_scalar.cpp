@@ -12,8 +12,7 @@ std::vector<double> contact_indicator(const std::vector<Flags>& contact) {
   return result;
 }
 
-Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View view,
-                   std::vector<std::string>& notes) {
+Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View view, Warnings& notes) {
   Panel panel;
   panel.view = view;
   panel.patches = few_patches(shown, notes, true, [&](const Drawn<2>& drawn) {
@@ -32,7 +31,7 @@ Panel scalar_panel(const Shown<2>& shown, const std::vector<double>& value, View
 }
 
 /// A section through the middle; not exactly there, where vertices of regular meshes lie.
-Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View, std::vector<std::string>& notes) {
+Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View, Warnings& notes) {
   const auto& points = shown.hierarchy.finest().points;
   const auto [low, high] =
       std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
@@ -49,7 +48,7 @@ Panel scalar_panel(const Shown<3>& shown, const std::vector<double>& value, View
 }  // namespace
 
 template <int D>
-std::vector<Panel> scalar_panels(const Shown<D>& shown, std::vector<std::string>& notes) {
+std::vector<Panel> scalar_panels(const Shown<D>& shown, Warnings& notes) {
   std::vector<Panel> panels{scalar_panel(shown, shown.value, View::graph, notes)};
   panels[0].title = panels[0].label = shown.label;
   if (std::none_of(shown.contact.begin(), shown.contact.end(), [](Flags flags) { return flags != 0; })) return panels;

@@ -9,15 +9,16 @@
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "core/solver/functional.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double far = 1e3;              // of bounds and of the body
-constexpr double of_distance = 1e-14;    // what rounding makes of what is far away
-constexpr double of_coordinates = 1e-9;  // the same of what is near
+constexpr double far = 1e3;                       // of bounds and of the body
+constexpr double of_distance = rounding_of_sums;  // what rounding makes of what is far away
+constexpr double of_coordinates = 1e-9;           // the same of what is near
 
 template <int B>
 bool may_be_no_box(const Obstacle<B>& obstacle) {

@@ -6,6 +6,7 @@
 
 #include "core/algebra/local_basis.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/component/failure.hpp"
 #include "core/component/settings.hpp"
 #include "core/fem/element.hpp"
@@ -17,8 +18,9 @@ namespace signorini {
 namespace {
 
 constexpr double independent = 0.02;  // separation() from which local coordinates are well conditioned
-constexpr double parallel = 1e-10;    // distance of unit vectors that are one direction, far below any tolerance
-constexpr Index batch = 4096;         // vertices per call of a plugin
+constexpr double parallel =
+    rounding_of_bases;         // distance of unit vectors that are one direction, far below any tolerance
+constexpr Index batch = 4096;  // vertices per call of a plugin
 
 template <int D>
 std::string position(const Nodes<D>& nodes, Index p) {
@@ -453,7 +455,7 @@ double BoundCombiner<D, B>::rounding(Index obstacle) {
     std::nth_element(sizes.begin(), middle, sizes.end());
     median = *middle;
   }
-  return rounding = 1e-12 * (median + size_);
+  return rounding = rounding_of_differences * (median + size_);
 }
 
 template <int D, int B>

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/algebra/products.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/force_split.hpp"
 #include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
@@ -14,9 +15,9 @@
 namespace signorini {
 namespace {
 
-constexpr double positive_force = 1e-8;  // of the largest force
-constexpr double on_bound = 1e-12;       // of the numbers compared
-constexpr double at_rest = 1e-9;         // of the largest displacement: what solvers leave of no motion
+constexpr double positive_force = 1e-8;               // of the largest force
+constexpr double on_bound = rounding_of_differences;  // of the numbers compared
+constexpr double at_rest = 1e-9;                      // of the largest displacement: what solvers leave of no motion
 
 template <int B>
 class NodeReader {

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/select.hpp"
 #include "core/mesh/mirror.hpp"
@@ -17,7 +18,7 @@
 namespace signorini {
 namespace {
 
-constexpr double axis_rounding = 1e-12;
+constexpr double axis_rounding = rounding_of_differences;
 constexpr double same_value = 1e-9;  // difference below which two values are one, relative to the largest prescribed
 
 // Replaces a unit vector within rounding of a coordinate axis by that axis.

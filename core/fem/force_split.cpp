@@ -3,13 +3,14 @@
 #include <Eigen/Core>
 
 #include "core/base/dense.hpp"
+#include "core/base/rounding.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double dependent = 1e-12;
-constexpr double zero = 1e-12;   // parts, relative to the force
-constexpr double equal = 1e-10;  // residuals, relative to the force
+constexpr double dependent = rounding_of_differences;
+constexpr double zero = rounding_of_differences;  // parts, relative to the force
+constexpr double equal = rounding_of_bases;       // residuals, relative to the force
 
 /// One way to divide a force.
 struct Way {

@@ -5,6 +5,7 @@
 
 #include "core/algebra/energy_along.hpp"
 #include "core/algebra/random_vector.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/weights.hpp"
@@ -26,7 +27,7 @@ void clear_fixed(const DiscreteProblem<B>& problem, std::vector<double>& x) {
 // Whether each coarse vector has the frame of its twin, which is the one that a solver gives it.
 template <int B>
 bool same_frames(const DiscreteProblem<B>& coarse, const Prolongation& prolongation, const DiscreteProblem<B>& fine) {
-  constexpr double equal = 1e-12;
+  constexpr double equal = rounding_of_differences;
   const std::vector<Index> twins = prolongation.twins();
   for (Index q = 0; q < prolongation.coarse; ++q) {
     const double *Q = coarse.frames.at(q), *twin = fine.frames.at(twins[q]);

@@ -1,6 +1,7 @@
 #include "core/fem/obstacle_motion.hpp"
 
 #include "core/base/dot.hpp"
+#include "core/base/rounding.hpp"
 
 namespace signorini {
 namespace {
@@ -10,7 +11,7 @@ using Vector = std::array<double, 3>;
 /// v turned as the unit vector a is turned to b, the shortest way (Rodrigues); opposite ones stay.
 Vector turned(const Vector& v, const Vector& a, const Vector& b) {
   const double cosine = dot(a, b);
-  if (!(1 + cosine > 1e-12)) return v;
+  if (!(1 + cosine > rounding_of_differences)) return v;
   const Vector axis = cross(a, b), across = cross(axis, v);
   const double along = dot(axis, v) / (1 + cosine);
   Vector out;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/nearest_on_face.hpp"
 #include "core/fem/paired_sides.hpp"
 #include "core/mesh/point_tree.hpp"
@@ -23,7 +24,7 @@ constexpr double beside = 1.8;
 // A direction that leads out of a face by less than this part of itself leads along it.
 constexpr double along = 1e-9;
 // Lengths of less than this part of the coordinates are rounding.
-constexpr double no_length = 1e-12;
+constexpr double rounding = rounding_of_differences;
 // So far from its corners, beside its size, points are inside a piece, whatever surfaces meet at these.
 constexpr double pulled_in = 1e-6;
 
@@ -260,7 +261,7 @@ template <int D>
 double rounding_in(const Box<D>& box) {
   double most = 0;
   for (int k = 0; k < D; ++k) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
-  return no_length * most;
+  return rounding * most;
 }
 
 }  // namespace

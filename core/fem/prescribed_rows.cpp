@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double cancelled = 1e-12;  // of terms that cancel
+constexpr double rounding = rounding_of_differences;  // of terms that cancel
 
 }  // namespace
 
@@ -55,7 +56,7 @@ double PrescribedRows<B>::force(Index k, const double* along, const std::vector<
     block::transposed_product<B>(value.data() + at * B * B, along, entry);
     for (int i = 0; i < B; ++i) add(entry[i] * x[Offset{column[at]} * B + i]);
   }
-  return std::fabs(sum) > cancelled * size ? sum : 0;
+  return std::fabs(sum) > rounding * size ? sum : 0;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/dot.hpp"
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/jumps.hpp"
 #include "core/solver/local_coordinates.hpp"
@@ -13,9 +14,9 @@
 namespace signorini {
 namespace {
 
-constexpr int chebyshev_steps = 6;       // which leave a hundredth of the error
-constexpr double least_response = 1e-2;  // part of what an unknown has that nothing is prescribed near
-constexpr double nothing = 1e-10;        // part of a load that is rounding
+constexpr int chebyshev_steps = 6;             // which leave a hundredth of the error
+constexpr double least_response = 1e-2;        // part of what an unknown has that nothing is prescribed near
+constexpr double nothing = rounding_of_bases;  // part of a load that is rounding
 
 /// Row k of a mass matrix times v.
 template <int D>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/nearest_on_face.hpp"
 #include "core/mesh/curve.hpp"
@@ -17,7 +18,7 @@
 namespace signorini {
 namespace {
 
-constexpr double off_element = 1e-12;
+constexpr double rounding = rounding_of_differences;
 constexpr double boundary_rounding = 1e-6;  // of the vertices of mesh files in single precision
 
 template <int D>
@@ -28,7 +29,7 @@ bool in_bounding_box(const Mesh<D>& mesh, const Simplex<D>& vertices, const Poin
       low = std::min(low, mesh.points[p][i]);
       high = std::max(high, mesh.points[p][i]);
     }
-    const double slack = off_element * (high - low);
+    const double slack = rounding * (high - low);
     if (x[i] < low - slack || x[i] > high + slack) return false;
   }
   return true;
@@ -48,7 +49,7 @@ std::optional<Place<D>> containing(const Mesh<D>& mesh, const Point<D>& x) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (!in_bounding_box<D>(mesh, mesh.elements[e], x)) continue;
     const auto lambda = barycentric<D>(mesh, mesh.elements[e], x);
-    if (*std::min_element(lambda.begin(), lambda.end()) >= -off_element) return Place<D>{static_cast<Index>(e), lambda};
+    if (*std::min_element(lambda.begin(), lambda.end()) >= -rounding) return Place<D>{static_cast<Index>(e), lambda};
   }
   return std::nullopt;
 }
@@ -150,7 +151,7 @@ void move_to(const Point<D>& x, const ElementMap<D, D, 2>& map, std::array<doubl
       barycentric[a] += by;
       moved = std::max(moved, std::abs(by));
     }
-    if (moved <= off_element) return;
+    if (moved <= rounding) return;
   }
 }
 

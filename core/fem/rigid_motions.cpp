@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/dense.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/mesh/join.hpp"
 #include "core/sdk/block.hpp"
@@ -15,7 +16,7 @@
 namespace signorini {
 namespace {
 
-constexpr double zero_part = 1e-10;  // part of the largest one below which a singular value is zero
+constexpr double rounding = rounding_of_bases;  // part of the largest one below which a singular value is zero
 
 /// Rows, of which only what decides their null space is kept.
 class Rows {
@@ -30,7 +31,7 @@ class Rows {
   /// Whether they surely are linearly independent in all columns.
   bool complete() const { return complete_; }
 
-  Eigen::MatrixXd null_space() const { return signorini::null_space(rows_.topRows(used_), zero_part); }
+  Eigen::MatrixXd null_space() const { return signorini::null_space(rows_.topRows(used_), rounding); }
 
  private:
   static constexpr int capacity = 64;
@@ -273,8 +274,8 @@ template <int D, int B>
 auto RigidMotions<D, B>::simple_basis(const Eigen::MatrixXd& space) const -> std::vector<Motion> {
   std::vector<Motion> out;
   const int shifting = translations * static_cast<int>(bodies_.size()), rotations = count() - shifting;
-  const Eigen::MatrixXd none = null_space(space.bottomRows(rotations), zero_part);
-  Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), zero_part);
+  const Eigen::MatrixXd none = null_space(space.bottomRows(rotations), rounding);
+  Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), rounding);
   if (shifts.cols() > 0) {
     const Eigen::MatrixXd along = orthonormal_columns(shifts.topRows(shifting));
     if (turns.cols() > 0) turns.topRows(shifting) -= along * (along.transpose() * turns.topRows(shifting)).eval();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/revolution.hpp"
 #include "core/mesh/boundary.hpp"
@@ -113,7 +114,7 @@ std::vector<Point<D>> node_normals(const Nodes<D>& nodes, const Surface<D>& surf
       measure += std::sqrt(dot(n, n));
     }
     keep_within<D>(mesh.mirrors, nodes.at(surface.nodes[v]), sum);
-    if (normalise(sum) > 1e-12 * measure) normals[v] = sum;
+    if (normalise(sum) > rounding_of_differences * measure) normals[v] = sum;
   }
   return normals;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/warning.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/solver/summary.hpp"
 
@@ -140,7 +141,7 @@ struct Report {
   int planned_steps = 1;             ///< by the scene
   std::vector<StepReport> steps;     ///< at least one; the top-level keys are those of the last
   std::vector<FailedStep> failed;    ///< what was then solved in parts
-  std::vector<std::string> warnings;
+  Warnings warnings;
   std::vector<PluginReport> plugins;
   std::vector<GeometryReport> geometry;  ///< of bodies from mesh files
   Times time;

@@ -10,6 +10,12 @@
 namespace signorini::report {
 namespace {
 
+Json warnings(const Report& report, const auto& of) {
+  Json list = Json::array();
+  for (const Warning& warning : report.warnings) list.push_back(of(warning));
+  return list;
+}
+
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Index unknowns(const Summary& summary) { return summary.level_unknowns.empty() ? 0 : summary.level_unknowns.back(); }
@@ -505,7 +511,10 @@ struct Table<Report> {
   static std::vector<Row<Report>> rows() {
     std::vector<Row<Report>> all = head();
     add(all, of_last(results()));
-    add(all, {member("warnings", &Report::warnings, "what was printed as warnings")});
+    add(all, {{{"warnings", Kind::texts, "what was printed as warnings"},
+               [](const Report& r) { return warnings(r, [](const Warning& w) { return Json(w.text); }); }},
+              {{"warning_ids", Kind::texts, "what kinds these are, one by one: ids of warnings.md"},
+               [](const Report& r) { return warnings(r, [](const Warning& w) { return Json(w.id); }); }}});
     add(all, of_last(of_summary(figures())));
     add(all, middle());
     add(all, of_last(of_summary({levels()})));

@@ -9,6 +9,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/attainable.hpp"
 #include "core/solver/following_load.hpp"
@@ -169,7 +170,7 @@ void Iteration<B>::measure(double error) {
   Summary& s = summary_;
   const double of_load = problem_.following ? problem_.following->squared() : 0;
   double squared = energy_norm_squared(problem_, x_, sums_.products) + of_load;
-  const double rounding = squared <= trace_ * sums_.largest * sums_.largest * 1e-14 ? rounding_energy() : 0;
+  const double rounding = squared <= trace_ * sums_.largest * sums_.largest * rounding_of_sums ? rounding_energy() : 0;
   moves_rigidly_ = squared < rounding;
   // Of what only moves such a load is rounding, which changes by all that it is.
   s.residual = moves_rigidly_ ? relative_residual() : std::max(relative_residual(), residual_of_load_);

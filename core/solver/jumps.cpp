@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -204,7 +205,7 @@ class WeightRow {
 
   /// Appends it without what is zero but for rounding, and is empty again.
   void take(Prolongation& out) {
-    constexpr double rounding = 1e-12;
+    constexpr double rounding = rounding_of_differences;
     std::ranges::sort(entries_, {}, &Entry::first);
     for (const auto& [column, weight] : entries_) {
       place_[column] = -1;

@@ -177,9 +177,10 @@ TEST(FrictionAtFixesOfBodies, IsAllOfIt) {
           expect_opposite(contact, 1e-9);
           expect_balance(step, 1e-7 * pressed);
         }
-        EXPECT_EQ(std::ranges::count_if(report.warnings,
-                                        [](const auto& w) { return w.find("no friction acts") != std::string::npos; }),
-                  0);
+        EXPECT_EQ(
+            std::ranges::count_if(report.warnings,
+                                  [](const auto& w) { return w.text.find("no friction acts") != std::string::npos; }),
+            0);
       }
     }
 }

@@ -1,5 +1,5 @@
-"""Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #. The
-program gives every warning of docs/warnings.md in these words. Every scene has a row in apps/scenes/README.md.
+"""Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #.
+Every scene has a row in apps/scenes/README.md.
 
     links.py SOURCE   (the source tree)
 """
@@ -50,12 +50,6 @@ for file in files("*.cpp", "*.hpp", "*.h", "*.py", "*.sh", "*.cmake", "*CMakeLis
     for name in re.findall(r"\bdocs/(?:\w+/)*\w+(?:\.\w+)+\b", file.read_text(errors="replace")):
         if file.name not in writers and not (source / name).exists():
             wrong.append(f"{file.relative_to(source)}: there is no {name}")
-
-texts = "".join(re.sub(r'"\s*"', "", file.read_text()) for file in files("*.cpp") if "tests" not in file.parts)
-for row in re.findall(r"^\| (?!warning|---)([^|]*?) \|", (source / "docs/warnings.md").read_text(), re.M):
-    for words in row.split("…"):
-        if words.strip() not in texts:
-            wrong.append(f"docs/warnings.md: no message has '{words.strip()}'")
 
 scenes = (source / "apps/scenes/README.md").read_text()
 wrong += [f"apps/scenes/README.md: no row for {file.name}" for file in files("*.toml")

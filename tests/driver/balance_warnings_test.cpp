@@ -12,7 +12,7 @@ const std::string square = tables::block("block", "[0, 0]", "[1, 1]", "[7, 7]") 
                            tables::fix("block", "bottom", "[0, 0]") +
                            tables::plane("block", "right", "[1.01, 0]", "[-1, 0]");
 
-std::vector<std::string> told(const std::string& text) { return warnings(text + refined); }
+Warnings told(const std::string& text) { return warnings(text + refined); }
 
 auto warns_of(const std::string& body) {
   return Contains(AllOf(HasSubstr("body '" + body + "': forces balance up to"), HasSubstr("too small")));

@@ -44,7 +44,7 @@ constexpr double between = 2e8;
 
 TEST(FittingOrder, IsOneWhereTwoDoesNotFit) {
   Scene scene = block("");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const auto build = [&] { return build_hierarchy<3>(scene, 3, &warnings); };
   {
     const Limit limit(between);
@@ -59,7 +59,7 @@ TEST(FittingOrder, IsOneWhereTwoDoesNotFit) {
 
 TEST(FittingOrder, IsTwoWhereItFits) {
   Scene scene = block("");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const auto meshes = with_fitting_order(scene, 0, warnings, [&] { return build_hierarchy<3>(scene, 3, &warnings); });
   EXPECT_EQ(meshes.finest().points.size(), 61u * 61 * 61);
   EXPECT_EQ(scene.bodies[0].order, 2);
@@ -68,7 +68,7 @@ TEST(FittingOrder, IsTwoWhereItFits) {
 
 TEST(FittingOrder, IsThatOfTheSceneWhereItSaysOne) {
   Scene scene = block("order = 2\n");
-  std::vector<std::string> warnings;
+  Warnings warnings;
   const Limit limit(between);
   EXPECT_THROW(with_fitting_order(scene, 0, warnings, [&] { return build_hierarchy<3>(scene, 3, &warnings); }),
                TooLarge);

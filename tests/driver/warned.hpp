@@ -19,7 +19,7 @@ using testing::Not;
 
 inline Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml", "."); }
 
-inline std::vector<std::string> warnings(const std::string& text) {
+inline Warnings warnings(const std::string& text) {
   Driver driver(scene_of(text));
   EXPECT_TRUE(driver.solve().converged());
   return driver.report().warnings;

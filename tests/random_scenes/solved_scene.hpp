@@ -14,19 +14,29 @@ struct Outcome {
   std::string message;  ///< of an error, or why it did not converge
   Report report;
   Scene scene;
+  std::vector<double> u;  ///< of all bodies
 };
 
-inline Outcome solve_text(const std::string& text) {
+/// @param read gives the scene
+inline Outcome solve_scene(const auto& read) {
   Outcome out;
   try {
-    out.scene = parse_scene(text, "random.toml", ".", {});
+    out.scene = read();
     Driver driver(out.scene);
     out.report = driver.solve();
+    for (std::size_t body = 0; body < driver.bodies(); ++body) {
+      const std::vector<double> u = driver.solution(body);
+      out.u.insert(out.u.end(), u.begin(), u.end());
+    }
     if (!out.report.converged()) out.exit = Exit::not_converged, out.message = out.report.reason();
   } catch (const Error& error) {
     out.exit = error.status(), out.message = error.what();
   }
   return out;
+}
+
+inline Outcome solve_text(const std::string& text) {
+  return solve_scene([&] { return parse_scene(text, "random.toml", ".", {}); });
 }
 
 /// The forces of a step in the scene's own system, by the bodies' names.

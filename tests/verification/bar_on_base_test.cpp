@@ -69,7 +69,7 @@ class Bar {
       : driver_(parse_scene(bar(cells, path, steps), "bar.toml", ".")) {
     driver_.solve([&] { fronts_.push_back(slipping()); });
     EXPECT_TRUE(report().converged()) << report().reason();
-    EXPECT_TRUE(report().failed.empty()) << report().warnings.front();
+    EXPECT_TRUE(report().failed.empty()) << report().warnings.front().text;
   }
 
   const Report& report() const { return driver_.report(); }

@@ -82,7 +82,7 @@ TEST(Robustness, SaysThatLinearElementsLock) {
     return scene_warnings(scene, build_hierarchy<3>(scene, 3).levels.front());
   };
   ASSERT_EQ(warnings(0.499).size(), 1u);
-  EXPECT_NE(warnings(0.499)[0].find("too stiff"), std::string::npos);
+  EXPECT_NE(warnings(0.499)[0].text.find("too stiff"), std::string::npos);
   EXPECT_TRUE(warnings(0.3).empty());
 }
 

@@ -65,7 +65,7 @@ TEST(Warned, LargeTurnsAreSaid) {
       const double x = from == "[0, 0]" ? 0 : 1000, y = from == "[0, 0]" ? 0 : -500;
       const Report r = solved(tables::block("b", from, fmt::format("[{}, {}]", x + 2, y + 1), "[4, 2]") +
                               tables::fix("b", "bottom", fmt::format("['-{0}*(y-{1})', '{0}*(x-{2})']", angle, y, x)));
-      EXPECT_EQ(std::ranges::count_if(r.warnings, [](const auto& w) { return w.find("turns by") != w.npos; }),
+      EXPECT_EQ(std::ranges::count_if(r.warnings, [](const auto& w) { return w.text.find("turns by") != w.text.npos; }),
                 angle > 0.1)
           << angle << from;
     }
