@@ -21,14 +21,13 @@
 namespace signorini {
 namespace {
 
-constexpr double negligible = 1e-10;  // part of the most that is possible: work of loads, components of motions
-constexpr double rounding = rounding_of_sums;  // of a motion: what is left out bends the body by that much
-constexpr double projected = 1e-13;            // of what is projected: rounding
-constexpr double weak = 1e-6;                  // part of the largest force from which one surely is one
-constexpr double force_rounding = 2e-14;       // part of the terms of a residual that is no force
-constexpr double near = 0.1;                   // of prescribed values: a motion that takes most of them away
-constexpr double decided = 1e-8;               // singular values of what forces forbid, relative to the largest
-constexpr double stays = 1e-6;                 // of a motion: a bound that is left by less is not left
+constexpr double negligible = 1e-10;      // part of the most that is possible: work of loads, components of motions
+constexpr double projected = 1e-13;       // of what is projected: rounding
+constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
+constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
+constexpr double near = 0.1;              // of prescribed values: a motion that takes most of them away
+constexpr double decided = 1e-8;          // singular values of what forces forbid, relative to the largest
+constexpr double stays = 1e-6;            // of a motion: a bound that is left by less is not left
 
 Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd>& rows, Eigen::Index columns) {
   Eigen::MatrixXd out(static_cast<Eigen::Index>(rows.size()), columns);
@@ -540,7 +539,7 @@ void LooseBody<D, B>::add(const Eigen::VectorXd& motion, std::vector<double>& x)
     for (int k = 0; k < B; ++k) {
       if (problem.fixed[p] >> k & 1u) continue;
       const double by = motions_.along(problem, p, k) * motion;
-      if (std::abs(by) > rounding * size) x[Offset{p} * B + k] += by;
+      if (std::abs(by) > rounding_of_sums * size) x[Offset{p} * B + k] += by;
     }
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 constexpr const char* place = "matrix";
 // Of an entry, relative to the diagonal entries of its row and column.
-constexpr double rounding = rounding_of_differences;
 
 [[noreturn]] void fail(const std::string& message) { input_error(place, message); }
 
@@ -173,10 +172,10 @@ class SymmetryCheck {
         "; where one triangle is given, say so (signorini qp: --one-triangle, or 'symmetric' in the first line of the "
         "file; C++: from_triangle(A); C: one_triangle = 1)";
     const double size = root_[i] * root_[j];
-    if (std::abs(here - there) > rounding * size)
+    if (std::abs(here - there) > rounding_of_differences * size)
       fail(fmt::format("not symmetric: the entry in row {}, column {} is {}, the one in row {}, column {} is {}{}",
                        i + 1, j + 1, here, j + 1, i + 1, there, here == 0 || there == 0 ? one_triangle : ""));
-    if (i != j && std::abs(here) > (1 + rounding) * size)
+    if (i != j && std::abs(here) > (1 + rounding_of_differences) * size)
       fail(fmt::format(
           "not positive semidefinite: the entry {} in row {}, column {} is larger than the diagonal entries "
           "{} and {} of these rows allow",

@@ -9,8 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = rounding_of_sums;  // of d'Ad, relative to d'Dd with the diagonal D of A
-constexpr double slight = 1e-8;            // components of d and work along it, relative to the largest possible
+constexpr double slight = 1e-8;  // components of d and work along it, relative to the largest possible
 
 template <int B>
 bool meets_a_bound(const Constraints<B>& c, const std::vector<double>& d, double small) {
@@ -35,7 +34,8 @@ bool falls_forever(const DiscreteProblem<B>& problem, const std::vector<double>&
   }
   if (!(work > slight * terms) || meets_a_bound(problem.constraints, d, slight * largest)) return false;
   const EnergyAlong energy = energy_along(problem.A, d);
-  return energy.of_matrix <= rounding * energy.of_diagonal;
+  // of d'Ad, relative to d'Dd with the diagonal D of A
+  return energy.of_matrix <= rounding_of_sums * energy.of_diagonal;
 }
 
 template bool falls_forever(const DiscreteProblem<1>&, const std::vector<double>&);

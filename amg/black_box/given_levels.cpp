@@ -17,7 +17,6 @@ namespace signorini {
 namespace {
 
 // Of a component of the product with a random vector, relative to the sum of the moduli that it is made of.
-constexpr double rounding = rounding_of_bases;
 
 std::string name(const char* what, std::size_t k, std::size_t count) {
   return fmt::format("{} {} of {}, coarsest first", what, k + 1, count);
@@ -89,7 +88,7 @@ void require_galerkin(const Given<B>& A, const Prolongation& P, const Given<B>& 
   const std::vector<double> found = coarse.times(z), expected = galerkin_product(A, P, z),
                             size = product_of_moduli(A, P, z);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (!(std::abs(found[i] - expected[i]) <= rounding * size[i]))
+    if (!(std::abs(found[i] - expected[i]) <= rounding_of_bases * size[i]))
       input_error(place,
                   fmt::format("is not the Galerkin product P'AP of the next finer matrix, see row {}; leave coarse "
                               "matrices out, and the products are computed",

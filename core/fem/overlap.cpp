@@ -23,8 +23,6 @@ constexpr double beside = 1.8;
 
 // A direction that leads out of a face by less than this part of itself leads along it.
 constexpr double along = 1e-9;
-// Lengths of less than this part of the coordinates are rounding.
-constexpr double rounding = rounding_of_differences;
 // So far from its corners, beside its size, points are inside a piece, whatever surfaces meet at these.
 constexpr double pulled_in = 1e-6;
 
@@ -258,10 +256,11 @@ std::vector<Point<D>> points_of_faces(const Mesh<D>& mesh, std::span<const Point
 
 /// What positions in a box are known up to.
 template <int D>
+/// Lengths of less than this are rounding.
 double rounding_in(const Box<D>& box) {
   double most = 0;
   for (int k = 0; k < D; ++k) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
-  return rounding * most;
+  return rounding_of_differences * most;
 }
 
 }  // namespace

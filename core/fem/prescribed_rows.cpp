@@ -8,11 +8,6 @@
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
-namespace {
-
-constexpr double rounding = rounding_of_differences;  // of terms that cancel
-
-}  // namespace
 
 template <int B>
 void PrescribedRows<B>::add(const BlockMatrix<B>& A, Index p) {
@@ -56,7 +51,7 @@ double PrescribedRows<B>::force(Index k, const double* along, const std::vector<
     block::transposed_product<B>(value.data() + at * B * B, along, entry);
     for (int i = 0; i < B; ++i) add(entry[i] * x[Offset{column[at]} * B + i]);
   }
-  return std::fabs(sum) > rounding * size ? sum : 0;
+  return std::fabs(sum) > rounding_of_differences * size ? sum : 0;
 }
 
 namespace {

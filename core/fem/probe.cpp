@@ -18,7 +18,6 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = rounding_of_differences;
 constexpr double boundary_rounding = 1e-6;  // of the vertices of mesh files in single precision
 
 template <int D>
@@ -29,7 +28,7 @@ bool in_bounding_box(const Mesh<D>& mesh, const Simplex<D>& vertices, const Poin
       low = std::min(low, mesh.points[p][i]);
       high = std::max(high, mesh.points[p][i]);
     }
-    const double slack = rounding * (high - low);
+    const double slack = rounding_of_differences * (high - low);
     if (x[i] < low - slack || x[i] > high + slack) return false;
   }
   return true;
@@ -49,7 +48,8 @@ std::optional<Place<D>> containing(const Mesh<D>& mesh, const Point<D>& x) {
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     if (!in_bounding_box<D>(mesh, mesh.elements[e], x)) continue;
     const auto lambda = barycentric<D>(mesh, mesh.elements[e], x);
-    if (*std::min_element(lambda.begin(), lambda.end()) >= -rounding) return Place<D>{static_cast<Index>(e), lambda};
+    if (*std::min_element(lambda.begin(), lambda.end()) >= -rounding_of_differences)
+      return Place<D>{static_cast<Index>(e), lambda};
   }
   return std::nullopt;
 }
@@ -151,7 +151,7 @@ void move_to(const Point<D>& x, const ElementMap<D, D, 2>& map, std::array<doubl
       barycentric[a] += by;
       moved = std::max(moved, std::abs(by));
     }
-    if (moved <= rounding) return;
+    if (moved <= rounding_of_differences) return;
   }
 }
 

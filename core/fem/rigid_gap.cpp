@@ -15,7 +15,6 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = rounding_of_differences;  // of the body's extent
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.
@@ -214,7 +213,8 @@ std::optional<StartDepth> start_depth(const Nodes<D>& nodes, const Model<D>& mod
   const auto asked = everywhere ? all : gaps(nodes, faces_of(nodes, model, obstacle, false), term);
   if (all.empty() || asked.empty()) return {};
   const auto [lowest, highest] = std::ranges::minmax_element(all, less);
-  const double least = rounding * extent(nodes, boundary.nodes, lowest->normal);
+  // of the body's extent
+  const double least = rounding_of_differences * extent(nodes, boundary.nodes, lowest->normal);
   const bool completely = highest->distance <= least && lowest->distance < -least;
   const Gap<D> deepest = completely ? *lowest : *std::ranges::min_element(asked, less);
   return StartDepth{-deepest.distance, extent(nodes, boundary.nodes, deepest.normal), completely};

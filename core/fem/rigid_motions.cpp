@@ -16,8 +16,6 @@
 namespace signorini {
 namespace {
 
-constexpr double rounding = rounding_of_bases;  // part of the largest one below which a singular value is zero
-
 /// Rows, of which only what decides their null space is kept.
 class Rows {
  public:
@@ -31,7 +29,8 @@ class Rows {
   /// Whether they surely are linearly independent in all columns.
   bool complete() const { return complete_; }
 
-  Eigen::MatrixXd null_space() const { return signorini::null_space(rows_.topRows(used_), rounding); }
+  // part of the largest one below which a singular value is zero
+  Eigen::MatrixXd null_space() const { return signorini::null_space(rows_.topRows(used_), rounding_of_bases); }
 
  private:
   static constexpr int capacity = 64;
@@ -274,8 +273,8 @@ template <int D, int B>
 auto RigidMotions<D, B>::simple_basis(const Eigen::MatrixXd& space) const -> std::vector<Motion> {
   std::vector<Motion> out;
   const int shifting = translations * static_cast<int>(bodies_.size()), rotations = count() - shifting;
-  const Eigen::MatrixXd none = null_space(space.bottomRows(rotations), rounding);
-  Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), rounding);
+  const Eigen::MatrixXd none = null_space(space.bottomRows(rotations), rounding_of_bases);
+  Eigen::MatrixXd shifts = space * none, turns = space * null_space(none.transpose(), rounding_of_bases);
   if (shifts.cols() > 0) {
     const Eigen::MatrixXd along = orthonormal_columns(shifts.topRows(shifting));
     if (turns.cols() > 0) turns.topRows(shifting) -= along * (along.transpose() * turns.topRows(shifting)).eval();
