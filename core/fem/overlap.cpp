@@ -255,8 +255,8 @@ std::vector<Point<D>> points_of_faces(const Mesh<D>& mesh, std::span<const Point
 }
 
 /// What positions in a box are known up to.
-template <int D>
 /// Lengths of less than this are rounding.
+template <int D>
 double rounding_in(const Box<D>& box) {
   double most = 0;
   for (int k = 0; k < D; ++k) most = std::max({most, std::abs(box.low[k]), std::abs(box.high[k])});
