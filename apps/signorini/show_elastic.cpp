@@ -329,8 +329,7 @@ bool has_friction(const std::vector<Flags>& contact) {
   return std::any_of(contact.begin(), contact.end(), [](Flags state) { return state > 1; });
 }
 
-void add_contact(const Shown<2>& shown, const std::optional<ContactZone<2>>&, std::vector<std::string>&,
-                 std::vector<Panel>& panels) {
+void add_contact(const Shown<2>& shown, const std::optional<ContactZone<2>>&, Warnings&, std::vector<Panel>& panels) {
   const std::vector<Profile> contacts = profiles(shown);
   if (contacts.empty()) return;
   panels.push_back(pressure_panel(shown, contacts));
@@ -358,7 +357,7 @@ std::vector<Panel> elastic_panels(const Shown<D>& shown, Warnings& notes) {
   return panels;
 }
 
-template std::vector<Panel> elastic_panels(const Shown<2>&, std::vector<std::string>&);
-template std::vector<Panel> elastic_panels(const Shown<3>&, std::vector<std::string>&);
+template std::vector<Panel> elastic_panels(const Shown<2>&, Warnings&);
+template std::vector<Panel> elastic_panels(const Shown<3>&, Warnings&);
 
 }  // namespace signorini

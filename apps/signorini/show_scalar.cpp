@@ -58,7 +58,7 @@ std::vector<Panel> scalar_panels(const Shown<D>& shown, Warnings& notes) {
   return panels;
 }
 
-template std::vector<Panel> scalar_panels(const Shown<2>&, std::vector<std::string>&);
-template std::vector<Panel> scalar_panels(const Shown<3>&, std::vector<std::string>&);
+template std::vector<Panel> scalar_panels(const Shown<2>&, Warnings&);
+template std::vector<Panel> scalar_panels(const Shown<3>&, Warnings&);
 
 }  // namespace signorini

@@ -38,7 +38,7 @@ TEST(Picture, CutsBodiesOpenThatTouchEachOther) {
     shown.pressure.push_back(touches ? 1 : 0);                // on both sides
     if (touches && v >= 36) shown.reached.push_back({v, 0});  // those of the upper block
   }
-  std::vector<std::string> notes;
+  Warnings notes;
   const std::vector<Panel> panels = elastic_panels(shown, notes);
   EXPECT_TRUE(notes.empty());
   const auto cut = std::ranges::find(panels, "deformed bodies, cut open", &Panel::title);
@@ -82,7 +82,7 @@ class Profiles : public testing::Test {
   }
 
   std::vector<Panel> panels() {
-    std::vector<std::string> notes;
+    Warnings notes;
     return elastic_panels(shown_, notes);
   }
 
