@@ -143,7 +143,7 @@ Difference difference(const Line& was, const Line& now, bool compare_bits) {
 
 class Baselines : public Folder {
  protected:
-  /// Prints what differs. The number of cases that differ by more than rounding does.
+  /// Prints what differs; fails where it is more than what rounding does.
   void compare(bool all) const {
     const Baseline baseline = read();
     const bool same_machine = baseline.made_on == made_on();
@@ -156,6 +156,7 @@ class Baselines : public Folder {
       const Difference d = difference(was, now, same_machine);
       ++count[d];
       if (d == more) ADD_FAILURE() << "was " << text(was) << "\nnow " << text(now);
+      if (d == bits_only && all) fmt::print("bits only: {}\n", now.name);
       if (d == rounding && all) fmt::print("within rounding, was {}\n                  now {}\n", text(was), text(now));
     }
     fmt::print("{} cases as they were{}, {} differ by bits only, {} by rounding or an iteration, {} by more\n",
