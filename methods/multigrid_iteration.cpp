@@ -246,15 +246,15 @@ void MultigridIteration<B>::renew_forces() {
 // If it is admissible and has the lower energy, by more than what rounding may make of extrapolated residuals.
 template <int B>
 bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
-  x_trial_.resize(this->x_.size());
-  r_trial_.resize(this->x_.size());
+  auto [x_trial, r_trial] = multigrid_.spare();
+  x_trial.resize(this->x_.size());
+  r_trial.resize(this->x_.size());
   Sums sums;
   bool admissible = true;
   data_trial_ = this->data_;
-  in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
-    admissible =
-        admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
-    if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
+  in_pieces<B>(0, multigrid_.finest().vectors, [&, &x_trial = x_trial, &r_trial = r_trial](Index first, Index last) {
+    admissible = admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial, r_trial);
+    if (admissible) this->add_sums(x_trial, r_trial, first, last, sums);
   });
   data_trial_.swap(this->data_);
   if (!admissible) return false;
@@ -263,8 +263,8 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));
   const bool falls_far = sums.gain > noise * std::abs(sums.products.bx);  // perhaps for ever, which is to be found out
   if (!falls_far && !(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
-  this->x_.swap(x_trial_);
-  this->r_.swap(r_trial_);
+  this->x_.swap(x_trial);
+  this->r_.swap(r_trial);
   this->data_.swap(data_trial_);
   this->sums_ = sums;
   return true;

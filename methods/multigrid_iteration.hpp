@@ -62,8 +62,8 @@ class MultigridIteration final : public Iteration<B> {
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
   RenewalControl renewal_;
-  std::vector<double> x_trial_, r_trial_, data_trial_;  // empty without acceleration
-  std::vector<double> forces_, forces_before_;          // empty without functionals
+  std::vector<double> data_trial_;              // empty without acceleration
+  std::vector<double> forces_, forces_before_;  // empty without functionals
 };
 
 }  // namespace signorini

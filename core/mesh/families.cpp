@@ -1,6 +1,10 @@
 #include "core/mesh/families.hpp"
 
-#include "core/mesh/simplex.hpp"
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/release.hpp"
+#include "core/mesh/red_refinement.hpp"
 
 namespace signorini {
 namespace {
@@ -72,7 +76,46 @@ Index straighten_families(Mesh<D>& mesh) {
   return count;
 }
 
-template Index straighten_families(Mesh<2>&);
-template Index straighten_families(Mesh<3>&);
+template <int D>
+std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh) {
+  constexpr auto& children = RedRefinement<D>::children;
+  const auto lowest_layer = [&](const Family<D>& family, const auto& child) {
+    Index lowest = mesh.layer[family[child[0]]];
+    for (const int i : child) lowest = std::min(lowest, mesh.layer[family[i]]);
+    return static_cast<std::size_t>(lowest);
+  };
+  if (mesh.families.empty()) return {};
+  std::vector<std::size_t> next(static_cast<std::size_t>(*std::ranges::max_element(mesh.layer)) + 2, 0);
+  for (const Family<D>& family : mesh.families)
+    for (const auto& child : children) ++next[lowest_layer(family, child) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Simplex<D>> out(mesh.families.size() * children.size());
+  for (const Family<D>& family : mesh.families)
+    for (const auto& child : children) {
+      Simplex<D>& element = out[next[lowest_layer(family, child)]++];
+      for (int a = 0; a <= D; ++a) element[a] = family[child[a]];
+    }
+  return out;
+}
+
+template <int D>
+ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
+  for (Mesh<D>& mesh : meshes_.levels)
+    if (!mesh.families.empty()) release(mesh.elements);
+}
+
+template <int D>
+ElementsAside<D>::~ElementsAside() {
+  for (Mesh<D>& mesh : meshes_.levels)
+    if (!mesh.families.empty()) mesh.elements = elements_of_families(mesh);
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                         \
+  template Index straighten_families(Mesh<D>&);                          \
+  template std::vector<Simplex<D>> elements_of_families(const Mesh<D>&); \
+  template class ElementsAside<D>
+SIGNORINI_INSTANTIATE(2);
+SIGNORINI_INSTANTIATE(3);
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

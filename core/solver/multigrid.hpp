@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/solver/components.hpp"
 #include "core/solver/summary.hpp"
@@ -77,6 +79,9 @@ class MonotoneMultigrid {
 
   /// Subtracts the gradient of the functionals at x, where these are smooth.
   void subtract_gradient(const double* x, double* r);
+
+  /// Two vectors that it needs in cycles and not between them.
+  std::pair<std::vector<double>&, std::vector<double>&> spare() { return {start_, step_}; }
 
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }
