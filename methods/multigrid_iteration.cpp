@@ -17,6 +17,9 @@ namespace {
 constexpr double noise = 0.1;
 // How much of that bound there mostly is, times the square root of the number of forces: their errors add up at random.
 constexpr double typical = 0.01;
+// Residual of a start whose phases are mostly those of the solution; interpolated from a coarser mesh it is mostly
+// larger.
+constexpr double near = 0.01;
 
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
@@ -77,6 +80,7 @@ std::vector<Index> MultigridIteration<B>::unknowns() const {
 template <int B>
 typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   Sums& sums = this->sums_;
+  if (cycles_ == 0) begin_where_it_rests();
   multigrid_.cut_below(this->options_.cut * sums.moved);
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
@@ -137,6 +141,16 @@ double MultigridIteration<B>::remaining_error() const {
 template <int B>
 std::optional<double> MultigridIteration<B>::response(const std::vector<double>& forces, double enough) {
   return multigrid_.response(this->x_, forces, enough);
+}
+
+// Phases of a start that is near are not news: without them the first cycle is nearly a linear one, and goes without
+// bounds. (Blocks come to that by what bounds gain.)
+template <int B>
+void MultigridIteration<B>::begin_where_it_rests() {
+  const double residual = this->relative_residual();
+  if (B > 1 || nonlinear_ || load_ || !(residual > 0 && residual <= near)) return;
+  multigrid_.begin_at(this->x_.data());
+  rests_ = true;
 }
 
 // By the rate of the last cycles, which may change: asked again from time to time.

@@ -54,6 +54,9 @@ class MonotoneMultigrid {
   /// vectors that cover all: before the cycle touches them, and when they and all that they are coupled to are final.
   CycleReport cycle(double* x, const Passes::Run& before = {}, const Passes::Run& after = {});
 
+  /// Takes the phases of x for those that the cycle before the next one has left.
+  void begin_at(double* x);
+
   /// From now on the correction from the coarser levels has no bounds there, but goes as far along the projected
   /// direction as lowers the energy most (Graeser and Kornhuber 2009, section 5); or no longer so. Needs truncation.
   void search_lines(bool on) { line_search_ = on; }
