@@ -426,6 +426,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
+  if (spared_) restore_elements(*spared_);
   check_functionals(nodes_[level], model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
@@ -502,6 +503,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
+  if (spared_) restore_elements(*spared_);  // memory may have run out in the last solve
   for (LevelSolution<B>& of_level : now_) of_level = {};
   pair_levels(model);
   std::optional<Solution<B>> begun;

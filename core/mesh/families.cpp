@@ -1,6 +1,7 @@
 #include "core/mesh/families.hpp"
 
 #include <algorithm>
+#include <new>
 #include <numeric>
 
 #include "core/base/release.hpp"
@@ -99,6 +100,12 @@ std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh) {
 }
 
 template <int D>
+void restore_elements(MeshHierarchy<D>& meshes) {
+  for (Mesh<D>& mesh : meshes.levels)
+    if (mesh.elements.empty()) mesh.elements = elements_of_families(mesh);
+}
+
+template <int D>
 ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
   for (Mesh<D>& mesh : meshes_.levels)
     if (!mesh.families.empty()) release(mesh.elements);
@@ -106,12 +113,15 @@ ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
 
 template <int D>
 ElementsAside<D>::~ElementsAside() {
-  for (Mesh<D>& mesh : meshes_.levels)
-    if (!mesh.families.empty()) mesh.elements = elements_of_families(mesh);
+  try {
+    restore_elements(meshes_);
+  } catch (const std::bad_alloc&) {
+  }
 }
 
 #define SIGNORINI_INSTANTIATE(D)                                         \
   template Index straighten_families(Mesh<D>&);                          \
+  template void restore_elements(MeshHierarchy<D>&);                     \
   template std::vector<Simplex<D>> elements_of_families(const Mesh<D>&); \
   template class ElementsAside<D>
 SIGNORINI_INSTANTIATE(2);

@@ -15,8 +15,12 @@ Index straighten_families(Mesh<D>& mesh);
 template <int D>
 std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh);
 
+/// Gives refined meshes that are without elements theirs back.
+template <int D>
+void restore_elements(MeshHierarchy<D>& meshes);
+
 /// Refined meshes know their elements twice. While this lives they know them once, for whoever needs the memory and no
-/// elements.
+/// elements. Where there is no memory for them at the end of it they are left out: restore_elements() tries again.
 template <int D>
 class ElementsAside {
  public:
