@@ -19,7 +19,7 @@ constexpr double noise = 0.1;
 constexpr double typical = 0.01;
 // Residual of a start whose phases are mostly those of the solution; interpolated from a coarser mesh it is mostly
 // larger.
-constexpr double near = 0.01;
+constexpr double near_start = 0.01;
 
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
@@ -148,7 +148,7 @@ std::optional<double> MultigridIteration<B>::response(const std::vector<double>&
 template <int B>
 void MultigridIteration<B>::begin_where_it_rests() {
   const double residual = this->relative_residual();
-  if (B > 1 || nonlinear_ || load_ || !(residual > 0 && residual <= near)) return;
+  if (B > 1 || nonlinear_ || load_ || !(residual > 0 && residual <= near_start)) return;
   multigrid_.begin_at(this->x_.data());
   rests_ = true;
 }

@@ -77,25 +77,35 @@ Index straighten_families(Mesh<D>& mesh) {
   return count;
 }
 
+namespace {
+
+/// Calls visit(family, child, lowest layer) for the children of all families.
+template <int D, class Visit>
+void for_each_child(const Mesh<D>& mesh, const Visit& visit) {
+  for (const Family<D>& family : mesh.families) {
+    Family<D> layer;
+    for (std::size_t i = 0; i < family.size(); ++i) layer[i] = mesh.layer[family[i]];
+    for (const auto& child : RedRefinement<D>::children) {
+      Index lowest = layer[child[0]];
+      for (const int i : child) lowest = std::min(lowest, layer[i]);
+      visit(family, child, static_cast<std::size_t>(lowest));
+    }
+  }
+}
+
+}  // namespace
+
 template <int D>
 std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh) {
-  constexpr auto& children = RedRefinement<D>::children;
-  const auto lowest_layer = [&](const Family<D>& family, const auto& child) {
-    Index lowest = mesh.layer[family[child[0]]];
-    for (const int i : child) lowest = std::min(lowest, mesh.layer[family[i]]);
-    return static_cast<std::size_t>(lowest);
-  };
   if (mesh.families.empty()) return {};
   std::vector<std::size_t> next(static_cast<std::size_t>(*std::ranges::max_element(mesh.layer)) + 2, 0);
-  for (const Family<D>& family : mesh.families)
-    for (const auto& child : children) ++next[lowest_layer(family, child) + 1];
+  for_each_child(mesh, [&](const auto&, const auto&, std::size_t lowest) { ++next[lowest + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<Simplex<D>> out(mesh.families.size() * children.size());
-  for (const Family<D>& family : mesh.families)
-    for (const auto& child : children) {
-      Simplex<D>& element = out[next[lowest_layer(family, child)]++];
-      for (int a = 0; a <= D; ++a) element[a] = family[child[a]];
-    }
+  std::vector<Simplex<D>> out(mesh.families.size() * RedRefinement<D>::children.size());
+  for_each_child(mesh, [&](const Family<D>& family, const auto& child, std::size_t lowest) {
+    Simplex<D>& element = out[next[lowest]++];
+    for (int a = 0; a <= D; ++a) element[a] = family[child[a]];
+  });
   return out;
 }
 
