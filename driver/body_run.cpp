@@ -46,6 +46,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
       }()),
       solver_(hierarchy_, solver_options(scene, scene.bodies[body]), registry, progress, times,
               nodes_of(hierarchy_, scene.bodies[body].order)) {
+  solver_.may_set_elements_aside(hierarchy_);
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
 }
 

@@ -39,6 +39,7 @@ bool NestedSolver<D, B>::newton_may_do(const Solution<B>& solution) const {
 template <int D, int B>
 std::unique_ptr<NestedSolver<D, B>> NestedSolver<D, B>::other_way(const Scene::Solver& options) const {
   auto other = std::make_unique<NestedSolver>(hierarchy_, options, registry_, progress_, times_, nodes_);
+  other->spared_ = spared_;
   if (pairs_.given()) other->take_contact(pairs_.all(), forces_);
   other->before_ = before_;
   other->pairs_.come_after(pairs_);

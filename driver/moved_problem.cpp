@@ -33,11 +33,12 @@ class Rest {
   double rounding_;
 };
 
-template <int B>
-void subtract_prescribed(const std::vector<double>& way, const Rest& rest, DiscreteProblem<B>& problem) {
+/// Calls visit(i) for each component i that is prescribed.
+template <int B, class Visit>
+void for_each_prescribed(const DiscreteProblem<B>& problem, Visit&& visit) {
   for (std::size_t p = 0; p < problem.fixed.size(); ++p)
     for (std::size_t k = 0; k < B; ++k)
-      if (problem.fixed[p] >> k & 1u) problem.start[p * B + k] = rest(problem.start[p * B + k], way[p * B + k]);
+      if (problem.fixed[p] >> k & 1u) visit(p * B + k);
 }
 
 /// A load that follows the solution is withdrawn: of what hardly deforms it is rounding, and no load to compare with.
@@ -82,11 +83,11 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
     : discretization_(discretization), way_(std::move(way)), x_(x) {
   if (way_.empty()) return;
   DiscreteProblem<B>& problem = discretization.problem;
-  start_ = problem.start;
+  for_each_prescribed(problem, [&](std::size_t i) { prescribed_.push_back(problem.start[i]); });
   lower_ = problem.constraints.lower;
   upper_ = problem.constraints.upper;
   const Rest rest(way_);
-  subtract_prescribed(way_, rest, problem);
+  for_each_prescribed(problem, [&](std::size_t i) { problem.start[i] = rest(problem.start[i], way_[i]); });
   facet_ = problem.constraints.facet;
   problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
@@ -104,16 +105,15 @@ double MovedProblem<B>::back() {
   const double acting = stiff ? forces(problem, x_).acting : 0;
   if (problem.following) problem.following->withdraw();
   Constraints<B>& c = problem.constraints;
-  std::swap(problem.start, start_);
+  for_each_prescribed(problem,
+                      [&, value = prescribed_.begin()](std::size_t i) mutable { problem.start[i] = *value++; });
   std::swap(c.lower, lower_);
   std::swap(c.upper, upper_);
   std::swap(c.facet, facet_);
   prescribe_anew(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];
-  for (std::size_t p = 0; p < problem.fixed.size(); ++p)
-    for (std::size_t k = 0; k < B; ++k)
-      if (problem.fixed[p] >> k & 1u) x_[p * B + k] = problem.start[p * B + k];
+  for_each_prescribed(problem, [&](std::size_t i) { x_[i] = problem.start[i]; });
   for (Index slot = 0; slot < c.size(); ++slot) {
     for (int k = 0; k < B; ++k) {
       const Offset at = Offset{slot} * B + k, i = Offset{c.vector[slot]} * B + k;

@@ -25,7 +25,7 @@ class MovedProblem {
   Discretization<B>& discretization_;
   std::vector<double> way_;
   std::vector<double>& x_;
-  std::vector<double> start_, lower_, upper_;  // of the problem as it was
+  std::vector<double> prescribed_, lower_, upper_;  // of the problem as it was
   std::vector<Facet<B>> facet_;
 };
 

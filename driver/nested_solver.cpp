@@ -9,11 +9,13 @@
 #include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "core/base/error.hpp"
+#include "core/base/release.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/admissible_sets.hpp"
 #include "core/fem/check_functionals.hpp"
 #include "core/fem/nested.hpp"
 #include "core/fem/pressure_load.hpp"
+#include "core/mesh/families.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
@@ -268,7 +270,7 @@ template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
   if (coarse.x.empty()) return;
   DiscreteProblem<B>& problem = coarse.discretization.problem;
-  problem.b = problem.start = {};  // which are new in every solve
+  for (auto* values : {&problem.b, &problem.start}) release(*values);  // which are new in every solve
   problem.constraints = {};
   kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
 }
@@ -412,6 +414,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   const bool result = level + 1 == hierarchy_.levels.size() && options.tolerance <= options_.tolerance;
   progress_.solving({result, options.tolerance, 1 << hierarchy_.finest().mirrors.size()});
   try {
+    std::optional<ElementsAside<D>> aside;
+    if (spared_ && level + 1 == hierarchy_.levels.size()) aside.emplace(*spared_);
     solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
@@ -422,6 +426,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
+  if (spared_) restore_elements(*spared_);
   check_functionals(nodes_[level], model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
@@ -498,6 +503,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = hierarchy_.levels.size() - 1;
+  if (spared_) restore_elements(*spared_);  // memory may have run out in the last solve
   for (LevelSolution<B>& of_level : now_) of_level = {};
   pair_levels(model);
   std::optional<Solution<B>> begun;

@@ -72,6 +72,9 @@ class NestedSolver {
   /// each mesh, B per node, beside the model's loads.
   void take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs, std::vector<std::vector<double>> forces);
 
+  /// While cycles on the finest mesh run, these meshes, which it was made for, may be without their elements.
+  void may_set_elements_aside(MeshHierarchy<D>& meshes) { spared_ = &meshes; }
+
   /// Of all methods together, in one solve from now on.
   void limit_iterations(int most) { options_.max_iterations = most; }
 
@@ -132,7 +135,8 @@ class NestedSolver {
   Solution<B> solve_coarser_meshes(const Model<B>& model);
 
   const MeshHierarchy<D>& hierarchy_;
-  const std::vector<Nodes<D>> nodes_;  // per mesh
+  MeshHierarchy<D>* spared_ = nullptr;  // the same, where its elements may be set aside
+  const std::vector<Nodes<D>> nodes_;   // per mesh
   Scene::Solver options_;
   const std::size_t first_;  // the coarsest mesh that gives a level, or a start
   LevelPairs<D, B> pairs_;

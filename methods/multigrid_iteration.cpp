@@ -17,6 +17,9 @@ namespace {
 constexpr double noise = 0.1;
 // How much of that bound there mostly is, times the square root of the number of forces: their errors add up at random.
 constexpr double typical = 0.01;
+// Residual of a start whose phases are mostly those of the solution; interpolated from a coarser mesh it is mostly
+// larger.
+constexpr double near_start = 0.01;
 
 bool has_blocks(std::span<const Prolongation> prolongations) {
   return std::ranges::any_of(prolongations, [](const Prolongation& P) { return !P.block.empty(); });
@@ -77,6 +80,7 @@ std::vector<Index> MultigridIteration<B>::unknowns() const {
 template <int B>
 typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   Sums& sums = this->sums_;
+  if (cycles_ == 0) begin_where_it_rests();
   multigrid_.cut_below(this->options_.cut * sums.moved);
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
@@ -137,6 +141,16 @@ double MultigridIteration<B>::remaining_error() const {
 template <int B>
 std::optional<double> MultigridIteration<B>::response(const std::vector<double>& forces, double enough) {
   return multigrid_.response(this->x_, forces, enough);
+}
+
+// Phases of a start that is near are not news: without them the first cycle is nearly a linear one, and goes without
+// bounds. (Blocks come to that by what bounds gain.)
+template <int B>
+void MultigridIteration<B>::begin_where_it_rests() {
+  const double residual = this->relative_residual();
+  if (B > 1 || nonlinear_ || load_ || !(residual > 0 && residual <= near_start)) return;
+  multigrid_.begin_at(this->x_.data());
+  rests_ = true;
 }
 
 // By the rate of the last cycles, which may change: asked again from time to time.
@@ -246,15 +260,15 @@ void MultigridIteration<B>::renew_forces() {
 // If it is admissible and has the lower energy, by more than what rounding may make of extrapolated residuals.
 template <int B>
 bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
-  x_trial_.resize(this->x_.size());
-  r_trial_.resize(this->x_.size());
+  auto [x_trial, r_trial] = multigrid_.spare();
+  x_trial.resize(this->x_.size());
+  r_trial.resize(this->x_.size());
   Sums sums;
   bool admissible = true;
   data_trial_ = this->data_;
-  in_pieces<B>(0, multigrid_.finest().vectors, [&](Index first, Index last) {
-    admissible =
-        admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial_, r_trial_);
-    if (admissible) this->add_sums(x_trial_, r_trial_, first, last, sums);
+  in_pieces<B>(0, multigrid_.finest().vectors, [&, &x_trial = x_trial, &r_trial = r_trial](Index first, Index last) {
+    admissible = admissible && recombination_.combine(this->x_before_, this->r_before_, first, last, x_trial, r_trial);
+    if (admissible) this->add_sums(x_trial, r_trial, first, last, sums);
   });
   data_trial_.swap(this->data_);
   if (!admissible) return false;
@@ -263,8 +277,8 @@ bool MultigridIteration<B>::take_combination(const CycleReport& cycle) {
   const double rounding = typical * bound / std::sqrt(static_cast<double>(this->x_.size()));
   const bool falls_far = sums.gain > noise * std::abs(sums.products.bx);  // perhaps for ever, which is to be found out
   if (!falls_far && !(sums.gain > sums.moved * rounding * recombination_.amplification())) return false;
-  this->x_.swap(x_trial_);
-  this->r_.swap(r_trial_);
+  this->x_.swap(x_trial);
+  this->r_.swap(r_trial);
   this->data_.swap(data_trial_);
   this->sums_ = sums;
   return true;

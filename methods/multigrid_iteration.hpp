@@ -32,6 +32,7 @@ class MultigridIteration final : public Iteration<B> {
   std::string method() const override;
   Step advance() override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
+  void begin_where_it_rests();
   bool goes_without_bounds() const;
   void compare_gains(bool free, bool cut_off);
   bool loses_patience() const;
@@ -62,8 +63,8 @@ class MultigridIteration final : public Iteration<B> {
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;
   RenewalControl renewal_;
-  std::vector<double> x_trial_, r_trial_, data_trial_;  // empty without acceleration
-  std::vector<double> forces_, forces_before_;          // empty without functionals
+  std::vector<double> data_trial_;              // empty without acceleration
+  std::vector<double> forces_, forces_before_;  // empty without functionals
 };
 
 }  // namespace signorini

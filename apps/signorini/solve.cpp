@@ -11,6 +11,7 @@
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/output.hpp"
 #include "core/base/error.hpp"
+#include "core/base/heap.hpp"
 #include "core/base/stopwatch.hpp"
 #include "driver/driver.hpp"
 #include "driver/numbers.hpp"
@@ -44,6 +45,7 @@ class ResultFiles {
   void finish() {
     const Stopwatch watch;
     driver_.forget_matrices();
+    give_freed_memory_back();
     Report& report = driver_.report();
     const bool unwritten = vtu_.steps() < report.steps.size();
     if (scene().output.pictures || unwritten) read_fields();

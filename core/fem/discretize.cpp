@@ -11,6 +11,7 @@
 #include "core/algebra/local_basis.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
+#include "core/base/release.hpp"
 #include "core/fem/admissible_sets.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/bound_coefficients.hpp"
@@ -95,7 +96,7 @@ class Discretizer {
     out_.fixes = std::move(fixes_);
     if (B > 1)
       for (const Bound<B>& bound : held_) hold(bound);
-    bounds_ = {};  // of scalar bodies as much as their matrix, which is to come
+    release(bounds_);  // of scalar bodies as much as their matrix, which is to come
   }
 
   Discretization<B> discretize() {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/dot.hpp"
+#include "core/base/release.hpp"
 #include "core/geometry/interfaces.hpp"
 #include "core/geometry/recognise.hpp"
 #include "core/mesh/bends.hpp"
@@ -120,7 +121,7 @@ class Chooser {
   /// @param moves whether vertices go onto shapes, and elements with several faces on one are divided
   void run(bool moves) {
     if (!mesh_.bends.empty() && surfaces_ == Surfaces::automatic) return keep_elements();
-    mesh_.bends = {};
+    release(mesh_.bends);
     mesh_.curves.clear();
     for (Face<D>& face : mesh_.boundary) face.curve = -1;
     smooth_ = smooth({});
@@ -170,7 +171,7 @@ class Chooser {
     if (std::ranges::any_of(curved_, [](std::uint8_t c) { return c != 0; }) ||
         !std::ranges::all_of(mesh_.bends, is_straight))
       return;
-    mesh_.bends = {};
+    release(mesh_.bends);
     mesh_.curves.clear();
   }
 

@@ -1,6 +1,11 @@
 #include "core/mesh/families.hpp"
 
-#include "core/mesh/simplex.hpp"
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+#include "core/base/release.hpp"
+#include "core/mesh/red_refinement.hpp"
 
 namespace signorini {
 namespace {
@@ -72,7 +77,65 @@ Index straighten_families(Mesh<D>& mesh) {
   return count;
 }
 
-template Index straighten_families(Mesh<2>&);
-template Index straighten_families(Mesh<3>&);
+namespace {
+
+/// Calls visit(family, child, lowest layer) for the children of all families.
+template <int D, class Visit>
+void for_each_child(const Mesh<D>& mesh, const Visit& visit) {
+  for (const Family<D>& family : mesh.families) {
+    Family<D> layer;
+    for (std::size_t i = 0; i < family.size(); ++i) layer[i] = mesh.layer[family[i]];
+    for (const auto& child : RedRefinement<D>::children) {
+      Index lowest = layer[child[0]];
+      for (const int i : child) lowest = std::min(lowest, layer[i]);
+      visit(family, child, static_cast<std::size_t>(lowest));
+    }
+  }
+}
+
+}  // namespace
+
+template <int D>
+std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh) {
+  if (mesh.families.empty()) return {};
+  std::vector<std::size_t> next(static_cast<std::size_t>(*std::ranges::max_element(mesh.layer)) + 2, 0);
+  for_each_child(mesh, [&](const auto&, const auto&, std::size_t lowest) { ++next[lowest + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Simplex<D>> out(mesh.families.size() * RedRefinement<D>::children.size());
+  for_each_child(mesh, [&](const Family<D>& family, const auto& child, std::size_t lowest) {
+    Simplex<D>& element = out[next[lowest]++];
+    for (int a = 0; a <= D; ++a) element[a] = family[child[a]];
+  });
+  return out;
+}
+
+template <int D>
+void restore_elements(MeshHierarchy<D>& meshes) {
+  for (Mesh<D>& mesh : meshes.levels)
+    if (mesh.elements.empty()) mesh.elements = elements_of_families(mesh);
+}
+
+template <int D>
+ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
+  for (Mesh<D>& mesh : meshes_.levels)
+    if (!mesh.families.empty()) release(mesh.elements);
+}
+
+template <int D>
+ElementsAside<D>::~ElementsAside() {
+  try {
+    restore_elements(meshes_);
+  } catch (const std::bad_alloc&) {
+  }
+}
+
+#define SIGNORINI_INSTANTIATE(D)                                         \
+  template Index straighten_families(Mesh<D>&);                          \
+  template void restore_elements(MeshHierarchy<D>&);                     \
+  template std::vector<Simplex<D>> elements_of_families(const Mesh<D>&); \
+  template class ElementsAside<D>
+SIGNORINI_INSTANTIATE(2);
+SIGNORINI_INSTANTIATE(3);
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

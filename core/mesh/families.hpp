@@ -1,5 +1,6 @@
 #pragma once
 #include "core/mesh/mesh.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini {
 
@@ -9,5 +10,27 @@ namespace signorini {
 /// @return how many
 template <int D>
 Index straighten_families(Mesh<D>& mesh);
+
+/// The elements of a refined mesh, in their order, as its families and the layers of its vertices tell them.
+template <int D>
+std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh);
+
+/// Gives refined meshes that are without elements theirs back.
+template <int D>
+void restore_elements(MeshHierarchy<D>& meshes);
+
+/// Refined meshes know their elements twice. While this lives they know them once, for whoever needs the memory and no
+/// elements. Where there is no memory for them at the end of it they are left out: restore_elements() tries again.
+template <int D>
+class ElementsAside {
+ public:
+  explicit ElementsAside(MeshHierarchy<D>& meshes);
+  ~ElementsAside();
+  ElementsAside(const ElementsAside&) = delete;
+  ElementsAside& operator=(const ElementsAside&) = delete;
+
+ private:
+  MeshHierarchy<D>& meshes_;
+};
 
 }  // namespace signorini

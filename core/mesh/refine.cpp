@@ -8,6 +8,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/base/release.hpp"
 #include "core/mesh/bends.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
@@ -360,8 +361,8 @@ MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
     Mesh<D> fine;
     result.refinements.push_back(refine_uniformly(result.levels.back(), fine));
     result.straightened += result.refinements.back().straightened;
-    result.refinements.back().father = {};
-    if (k + 1 == uniform) fine.bends = {};
+    release(result.refinements.back().father);
+    if (k + 1 == uniform) release(fine.bends);
     result.levels.push_back(std::move(fine));
   }
   return result;

@@ -42,7 +42,8 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   if (problem_.following) problem_.following->apply();
   make_admissible(problem_, x_);
   x_before_ = x_;
-  refuse_nan(evaluate(x_, r_).natural_residual);
+  sums_ = evaluate(x_, r_);
+  refuse_nan(sums_.natural_residual);
   while (!step(monitor)) {
   }
   summary_.find_linear_phase();

@@ -162,6 +162,14 @@ CycleReport MonotoneMultigrid<B>::cycle(double* x, const Passes::Run& before, co
   return report_;
 }
 
+template <int B>
+void MonotoneMultigrid<B>::begin_at(double* x) {
+  report_ = {};
+  report_.levels.resize(levels_.size());
+  levels_.back().x = x;
+  update_phases(levels_.back(), 0, levels_.back().vectors);
+}
+
 // From zero on, with bounds that hold what is held and no others. What the cycles find grows up to what is sought.
 template <int B>
 std::optional<double> MonotoneMultigrid<B>::response(const std::vector<double>& x, const std::vector<double>& forces,

@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "core/solver/components.hpp"
 #include "core/solver/summary.hpp"
@@ -52,6 +54,9 @@ class MonotoneMultigrid {
   /// vectors that cover all: before the cycle touches them, and when they and all that they are coupled to are final.
   CycleReport cycle(double* x, const Passes::Run& before = {}, const Passes::Run& after = {});
 
+  /// Takes the phases of x for those that the cycle before the next one has left.
+  void begin_at(double* x);
+
   /// From now on the correction from the coarser levels has no bounds there, but goes as far along the projected
   /// direction as lowers the energy most (Graeser and Kornhuber 2009, section 5); or no longer so. Needs truncation.
   void search_lines(bool on) { line_search_ = on; }
@@ -77,6 +82,9 @@ class MonotoneMultigrid {
 
   /// Subtracts the gradient of the functionals at x, where these are smooth.
   void subtract_gradient(const double* x, double* r);
+
+  /// Two vectors that it needs in cycles and not between them.
+  std::pair<std::vector<double>&, std::vector<double>&> spare() { return {start_, step_}; }
 
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }

@@ -74,6 +74,22 @@ TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAMembrane) {
   expect_few_cycles_after_changes(solver, {b, lower}, 0.04);
 }
 
+TEST(WarmStart, KnowsTheContactOfTheStart) {
+  const Matrix A = laplacian(100);
+  Change problem{std::vector<double>(static_cast<std::size_t>(A.rows()), -1e-4), {}};
+  problem.lower.assign(problem.b.size(), -0.04);
+  BlackBox solver(A);
+  const std::vector<double> x = solver.solve(problem.b, problem.lower).x;
+  const auto again = solver.solve(problem.b, problem.lower, {}, x).summary.history;
+  EXPECT_GT(again.front().levels.back().critical, 1000);
+  EXPECT_EQ(again.front().levels.back().changed, 0) << "where nothing has changed";
+  scale(problem.b, 1.01);
+  int all_warm = 0, all_cold = 0;
+  cycles(solver, problem, x, &all_warm);
+  cycles(solver, problem, {}, &all_cold);
+  EXPECT_LE(2 * all_warm, all_cold);
+}
+
 TEST(WarmStart, TakesFewCyclesAfterAnyChangeOfAnElasticBody) {
   const Mesh<2> mesh = cube<2>(0, 1, 48);
   Matrix A = sparse(stiffness<2, 2>(mesh, Model<2>{}));

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/mesh/curve.hpp"
+#include "core/mesh/families.hpp"
 #include "core/mesh/red_refinement.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/mesh/subsimplices.hpp"
@@ -174,7 +175,8 @@ void refine_and_check_flat(const Mesh<D>& coarsest) {
     Mesh<D> again;
     const Refinement refinement = refine_uniformly(coarse, again);
     expect_children(coarse, again, refinement);
-    EXPECT_TRUE(h.refinements[k].father.empty()) << "nobody asks for them any more";
+    EXPECT_EQ(h.refinements[k].father.capacity(), 0u) << "nobody asks for them any more";
+    EXPECT_EQ(elements_of_families(fine), fine.elements);
     expect_families(coarse, fine, h.refinements[k]);
     expect_parents(coarse, fine, h.refinements[k]);
     expect_first_touch_numbering(fine);
@@ -390,6 +392,18 @@ TEST(Refine, NoChildIsLostWhereElementsSpanManyLayers) {
   const Refinement refinement = refine_uniformly(coarse, fine);
   expect_children(coarse, fine, refinement);
   expect_families(coarse, fine, refinement);
+  EXPECT_EQ(elements_of_families(fine), fine.elements);
+}
+
+TEST(Refine, RefinedMeshesGetElementsBackThatWereSetAside) {
+  MeshHierarchy<3> meshes = hierarchy(octahedron(true), 2);
+  const std::vector<Mesh<3>> before = meshes.levels;
+  {
+    const ElementsAside<3> aside(meshes);
+    EXPECT_EQ(meshes.levels[0].elements, before[0].elements) << "which nothing else knows";
+    for (int k : {1, 2}) EXPECT_EQ(meshes.levels[k].elements.capacity(), 0u);
+  }
+  for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].elements, before[k].elements);
 }
 
 TEST(Refine, StarsOfManyElementsTakeLinearTime) {
