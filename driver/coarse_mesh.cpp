@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -10,11 +11,14 @@
 #include "core/base/error.hpp"
 #include "core/fem/element.hpp"
 #include "core/geometry/body_geometry.hpp"
+#include "core/geometry/enclosed_volume.hpp"
 #include "core/io/mesh_file.hpp"
+#include "core/io/warning_kinds.hpp"
 #include "core/mesh/join.hpp"
 #include "core/mesh/meridian.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/separate.hpp"
+#include "core/mesh/simplex.hpp"
 #include "core/mesh/structured.hpp"
 #include "driver/halved_shape.hpp"
 #include "driver/materials.hpp"
@@ -30,6 +34,8 @@ namespace {
                                                   "bodies of different dimensions need a scene each",
                                                   found, expected));
 }
+
+constexpr double noticeable = 1e-3;  // of the volume: stresses are off by some times that
 
 template <int D>
 geometry::Size<D> target_size(const Scene::Body& body, const Progress& progress) {
@@ -75,6 +81,7 @@ struct Mesher {
   Mesh<D> operator()(const Shape& shape) const {
     if constexpr (is_free_shape<D, Shape>) {
       Mesh<D> mesh = free_mesh(shape);
+      if constexpr (std::is_same_v<Shape, geometry::Solid>) compare_with_file(shape.file, mesh);
       separate_curved_faces(mesh);
       return mesh;
     }
@@ -82,6 +89,17 @@ struct Mesher {
   }
 
  private:
+  /// Faces are flat between vertices on the surface.
+  void compare_with_file(const std::string& file, const Mesh<D>& mesh) const {
+    if (!warnings) return;
+    double volume = 0;
+    for (const Simplex<D>& element : mesh.elements) volume += signed_volume<D>(corners<D>(mesh.points, element));
+    const double whole = geometry::enclosed_volume(read_surface(file)), off = volume - whole;
+    if (!(std::abs(off) > noticeable * whole)) return;
+    warnings->push_back(
+        warning<"chord-volume">(body.source.of("size"), 100 * std::abs(off) / whole, off < 0 ? "less" : "more"));
+  }
+
   template <class Shape>
   Mesh<D> free_mesh(const Shape& shape) const {
     try {

@@ -219,7 +219,7 @@ void check_command(const std::filesystem::path& file, const std::vector<std::str
   Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
-  say("{}: {}\ndimension: {}\n", file.string(), scene.title, dimension_of(scene));
+  say("{}{}\ndimension: {}\n", file.string(), scene.title.empty() ? "" : ": " + scene.title, dimension_of(scene));
   for (const auto& plugin : plugins) say("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
   scene.dimension = dimension_of(scene);
   scene = with_touching_bodies(scene);

@@ -40,13 +40,30 @@ struct PluginKey {
   std::string path() const { return fmt::format("obstacle.{}.{}", plugin, option.name); }
 };
 
-std::vector<PluginKey> plugin_keys() {
+std::vector<Entry> obstacle_types() {
   Registry registry = solver_components();
   PluginLoader loader(registry);
+  return catalogue(registry, loader, "obstacle").entries;
+}
+
+std::vector<PluginKey> plugin_keys(const std::vector<Entry>& types) {
   std::vector<PluginKey> all;
-  for (const Entry& entry : catalogue(registry, loader, "obstacle").entries)
+  for (const Entry& entry : types)
     for (const OptionSpec& option : entry.options) all.push_back({entry.id, option});
   return all;
+}
+
+/// As --set and messages count tables and entries, and pages do not: obstacle.0.friction.
+std::string without_numbers(const std::string& name) {
+  std::string out;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('.', begin), name.size());
+    const std::string part = name.substr(begin, end - begin);
+    const bool number = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
+    if (!number || begin == 0) out += (out.empty() ? "" : ".") + part;
+    begin = end + 1;
+  }
+  return out;
 }
 
 std::vector<PluginKey> plugin_keys_named(const std::vector<PluginKey>& all, const std::string& name) {
@@ -57,14 +74,33 @@ std::vector<PluginKey> plugin_keys_named(const std::vector<PluginKey>& all, cons
   return found;
 }
 
+/// Another value than the default, where that says nothing.
+std::string sample(const OptionSpec& option) {
+  const std::string_view fallback = option.fallback;
+  if (option.type == OptionType::text) return fmt::format("\"{}\"", fallback);
+  if (std::string_view(option.name) == "gap") return "-0.01   # the bodies overlap by that much: an interference fit";
+  if (!fallback.empty() && fallback != "0") return std::string(fallback);
+  return option.type == OptionType::vector ? "[0, 0, 1]" : "0.3";
+}
+
 std::string page(const PluginKey& key) {
   const OptionSpec& option = key.option;
-  std::string value = *option.fallback ? option.fallback : option.type == OptionType::vector ? "[0, 0, 1]" : "0.3";
-  if (option.type == OptionType::text) value = '"' + value + '"';
-  const std::string example =
-      table_example(*find_table("obstacle"), fmt::format("type = \"{}\"\n{} = {}", key.plugin, option.name, value));
+  const std::string example = table_example(
+      *find_table("obstacle"), fmt::format("type = \"{}\"\n{} = {}", key.plugin, option.name, sample(option)));
   return fmt::format("{}: a key of [[obstacle]] where type = \"{}\"\n\n  {}\n\n  {}\n\nExample:\n{}", key.path(),
                      key.plugin, option.help, option_kind(option), indented(example));
+}
+
+/// Of a type of obstacles, with its own keys.
+std::string page(const Entry& type) {
+  std::string text = fmt::format("{}: a type of [[obstacle]]\n\n  {}\n", type.id, type.help), lines;
+  for (const OptionSpec& option : type.options) {
+    text += fmt::format("\n  {:<14}  {} ({})", option.name, option.help, option_kind(option));
+    if (!*option.fallback) lines += fmt::format("\n{} = {}", option.name, sample(option));
+  }
+  const std::string example = table_example(*find_table("obstacle"), fmt::format("type = \"{}\"{}", type.id, lines));
+  return fmt::format("{}\n\nExample, beside the keys of every obstacle ('signorini help obstacle'):\n{}", text,
+                     indented(example));
 }
 
 /// The page of the first key that is meant, and where else a key of the name is.
@@ -81,8 +117,10 @@ std::string pages(const std::string& name, const std::vector<PluginKey>& of_plug
   return others.empty() ? text : text + "\nKeys of the same name:\n" + others;
 }
 
-[[noreturn]] void refuse(const CLI::App& program, const std::string& name, const std::vector<PluginKey>& of_plugins) {
+[[noreturn]] void refuse(const CLI::App& program, const std::string& name, const std::vector<Entry>& types,
+                         const std::vector<PluginKey>& of_plugins) {
   std::vector<std::string> known;
+  for (const Entry& type : types) known.push_back(type.id);
   for (const CLI::App* command : shown_commands(program)) known.push_back(command->get_name());
   for (const TableSpec& table : table_specs()) known.emplace_back(table.name);
   for (const KeyPlace& place : key_places()) known.emplace_back(place.key->name), known.push_back(place.path());
@@ -99,14 +137,17 @@ void print(const std::vector<std::string>& words) {
 }  // namespace
 
 void help_command(const CLI::App& program, const HelpArguments& arguments) {
-  const std::string& name = arguments.name;
+  const std::string name = without_numbers(arguments.name);
   if (arguments.manual) return fmt::print("{}", manual_page(program));
   if (name.empty()) return print_fitted(help_of(program));
   if (const CLI::App* command = find_command(program, name)) return print_fitted(help_of(*command));
   if (const TableSpec* table = find_table(name)) return print_fitted(table_page(*table));
-  const std::vector<PluginKey> of_plugins = plugin_keys();
+  const std::vector<Entry> types = obstacle_types();
+  const std::vector<PluginKey> of_plugins = plugin_keys(types);
+  if (const auto type = std::ranges::find(types, name, &Entry::id); type != types.end())
+    return print_fitted(page(*type));
   const std::string text = pages(name, of_plugins);
-  if (text.empty()) refuse(program, name, of_plugins);
+  if (text.empty()) refuse(program, name, types, of_plugins);
   print_fitted(text);
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
+#include <set>
 #include <string_view>
 
 #include "amg/registration.hpp"
@@ -52,10 +54,14 @@ constexpr std::string_view first_keys[] = {"tolerance", "max_iterations", "metho
 
 std::string told(const std::string& licence) { return licence.empty() ? "the library does not say" : licence; }
 
+/// Whose paths are long, and differ in the last name: their folders are told once.
+bool is_plugin(const Entry& entry) { return entry.kind == "obstacle"; }
+
 void print_entry(const Entry& entry) {
   say("  {:<16}  {}\n", entry.id, entry.help);
   for (const OptionSpec& option : entry.options) print_option(option);
-  say("      from {}{}{}\n", entry.file, entry.version.empty() ? "" : ", version ", entry.version);
+  say("      from {}{}{}\n", is_plugin(entry) ? std::filesystem::path(entry.file).filename().string() : entry.file,
+      entry.version.empty() ? "" : ", version ", entry.version);
   if (entry.kind == "obstacle") say("      licence: {}\n", told(licence_of(entry.file)));
   if (!entry.optimised) say("      compiled without optimisation: solves take several times as long\n");
 }
@@ -76,13 +82,16 @@ constexpr Kind kinds_table[] = {{"obstacles", "obstacle"},
 
 void print_kind(const Kind& kind, const Catalogue& all) {
   say("{}\n", kind.plural);
+  std::set<std::string> folders;
   bool none = true;
   for (const Entry& entry : all.entries)
     if (entry.kind == kind.kind) {
       print_entry(entry);
+      if (is_plugin(entry)) folders.insert(std::filesystem::path(entry.file).parent_path().string());
       none = false;
     }
   if (none) say("  none in this version\n");
+  for (const std::string& folder : folders) say("  in {}\n", folder);
 }
 constexpr const char* solver = "solver";  // no component: what puts the components together
 constexpr const char* libraries = "libraries";

@@ -173,8 +173,8 @@ bool take(std::string_view& text, std::string_view start) {
 }  // namespace
 
 bool is_result_file(const std::string& name) {
-  constexpr std::array<std::string_view, 7> fixed = {"report.json", "solution.pvd",    "convergence.csv", "phases.csv",
-                                                     "steps.csv",   "convergence.png", "steps.png"};
+  constexpr std::array<std::string_view, 8> fixed = {"report.json", old_report,  "solution.pvd",    "convergence.csv",
+                                                     "phases.csv",  "steps.csv", "convergence.png", "steps.png"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
   std::string_view rest = name;
   const bool solution = take(rest, "solution");

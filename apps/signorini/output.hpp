@@ -53,6 +53,8 @@ class SolutionFiles {
 
 /// Whether a run may write a file of this name; one that another run left is out of date.
 bool is_result_file(const std::string& name);
+/// What the report of an earlier run is called until a run has a report.
+inline constexpr const char* old_report = "report.old.json";
 
 /// Draw the convergence history and the result. What could not be drawn goes to `report.warnings`.
 void draw_convergence(AtomicFiles& files, Report& report);

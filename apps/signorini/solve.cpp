@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/heap.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/io/output_place.hpp"
 #include "driver/driver.hpp"
 #include "driver/numbers.hpp"
 #include "driver/touching_bodies.hpp"
@@ -202,15 +203,28 @@ Live live(const Scene& scene) {
   const bool one = with_touching_bodies(scene).bodies.size() == 1 && scene.solver.bodies != "dirichlet-neumann";
   return one || scene.steps.count() > 1 ? Live::tables : Live::nothing;
 }
+/// The report of an earlier run in the folder is set aside, so that where this one ends without a report nobody takes
+/// that for its own. What is no regular file, or may not be written, is refused later.
+void set_aside(const std::filesystem::path& folder, const std::filesystem::path& scene) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path report = folder / "report.json";
+  if (!fs::is_regular_file(fs::symlink_status(report, none)) || is_read_only(report) || is_read_only(folder) ||
+      fs::equivalent(report, scene, none))
+    return;
+  fs::rename(report, folder / old_report, none);
+}
+
 }  // namespace
 
 void solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
+  const std::filesystem::path folder = arguments.out.empty() ? arguments.scene.stem() : arguments.out;
+  set_aside(folder, arguments.scene);
   const Scene scene = read_scene(arguments.scene, arguments.overrides);
   const Console progress(arguments.quiet, live(scene), scene.title);
   Driver driver(scene, progress);
-  AtomicFiles files(arguments.out.empty() ? std::filesystem::path(scene.name) : arguments.out, is_result_file,
-                    inputs(scene));
+  AtomicFiles files(folder, is_result_file, inputs(scene));
   ResultFiles results(driver, files);
   const std::optional<Error> ended = solve_steps(driver, StepsTable(progress), results);
   progress.phase("writing");

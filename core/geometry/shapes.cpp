@@ -6,16 +6,23 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <optional>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
+#include "core/geometry/zero_set.hpp"
 
 namespace signorini::geometry {
 
 namespace {
 
 using Components = std::vector<Field>;
+
+constexpr double word = 1e-6;      // of one: how far slopes that are meant to be one or zero may be off
+constexpr double settled = 1e-12;  // of a distance: the last step towards it
+constexpr int most_steps = 60;
 
 double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
 Point<3> scaled(double s, const Point<3>& a) { return {s * a[0], s * a[1], s * a[2]}; }
@@ -117,15 +124,72 @@ Point<3> orthogonal(const Point<3>& a) {
   return scaled(1 / norm(v), v);
 }
 
-Point<3> gradient(const Field& distance, const Site& site, int dimension, double step) {
-  Point<3> g{};
-  for (int k = 0; k < dimension; ++k) {
-    Site left = site, right = site;
-    left.x[k] -= step;
-    right.x[k] += step;
-    g[static_cast<std::size_t>(k)] = (distance(right) - distance(left)) / (right.x[k] - left.x[k]);
+/// A function that the user wrote, around a point; what it has no value at is no error.
+ImplicitFunction around(const Field& distance, const Site& site, int dimension, double scale) {
+  return {[&distance, site](const Point<3>& x) {
+            Site there = site;
+            std::copy_n(x.data(), 3, there.x);
+            try {
+              return distance(there);
+            } catch (const Error&) {
+              return std::numeric_limits<double>::quiet_NaN();
+            }
+          },
+          dimension, scale};
+}
+
+/// How far to look: the larger of the point's coordinates and its distance, which is a length once it is divided by the
+/// gradient.
+ImplicitFunction around(const Field& distance, const Site& site, int dimension) {
+  const double value = std::abs(distance(site)), far = norm({site.x[0], site.x[1], site.x[2]});
+  const double first = std::max(far, value) > 0 ? std::max(far, value) : 1;
+  const double slope = norm(around(distance, site, dimension, first).gradient({site.x[0], site.x[1], site.x[2]}));
+  const double better = std::max(far, value / slope);
+  return around(distance, site, dimension, std::isfinite(better) && better > 0 ? better : first);
+}
+
+[[noreturn]] void no_distance(const Field& distance, const Site& site, const Point<3>& gradient,
+                              const std::string& origin) {
+  const std::string where = fmt::format("'{}' at [{:g}, {:g}, {:g}]", distance.text(), site.x[0], site.x[1], site.x[2]);
+  if (norm(gradient) == 0)
+    input_error(origin,
+                fmt::format("distance: the gradient of {} is zero, expected a distance that grows away from the "
+                            "obstacle, or a 'normal'",
+                            where));
+  input_error(origin,
+              fmt::format("distance: {} is no distance: it is {:g}, its gradient has length {:g}, and no nearest "
+                          "point where it is zero was found; expected a distance, or a function that is zero "
+                          "on the surface of the obstacle alone",
+                          where, distance(site), norm(gradient)));
+}
+
+/// How far a point is from where the function is zero on the line along n.
+double along_normal(const ImplicitFunction& f, const Point<3>& x, const Point<3>& n) {
+  const auto at = [&](double s) { return f({x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]}); };
+  double s = 0;
+  for (int k = 0; k < most_steps; ++k) {
+    const Point<3> here{x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]};
+    const double step = at(s) / dot(f.gradient(here), n);
+    if (!std::isfinite(step)) break;
+    s += step;
+    if (std::abs(step) <= settled * std::abs(s)) return s;
   }
-  return g;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// With a normal that the user wrote: the value is believed where it grows by one per length along it, or not at all,
+/// as one that is given over the body's surface, or where it is the distance to the nearest point.
+std::optional<double> distance_along(const ImplicitFunction& f, const Point<3>& x, const Point<3>& n) {
+  const Point<3> g = f.gradient(x);
+  const double value = f(x), slope = dot(g, n), steepest = norm(g);
+  const bool grows = std::abs(slope) > word * steepest, by_one = std::abs(slope - 1) <= word;
+  if (!std::isfinite(steepest) || !grows || by_one) return value;
+  const double step = value / steepest;
+  if (std::abs(f({x[0] - step * g[0], x[1] - step * g[1], x[2] - step * g[2]})) <= word * std::abs(value) &&
+      std::abs(steepest - 1) <= word)
+    return value;
+  const double s = along_normal(f, x, n);
+  return std::isfinite(s) ? std::optional(s) : std::nullopt;
 }
 
 }  // namespace
@@ -166,28 +230,20 @@ std::unique_ptr<DistanceFunction> cylinder(const Components& center, const Compo
       t, [=](const Site& site) { return placement(value(center, site), direction(axis, site, "axis", origin)); });
 }
 
-std::unique_ptr<DistanceFunction> expression(const Field& distance, const Components& normal, int dimension,
-                                             double length, double t, const std::string& origin) {
+std::unique_ptr<DistanceFunction> expression(const Field& distance, const Components& normal, int dimension, double t,
+                                             const std::string& origin) {
   if (!normal.empty() && constant(normal)) direction(normal, {}, "normal", origin);
-  const double relative_step = std::cbrt(std::numeric_limits<double>::epsilon());  // balances truncation and rounding
   return std::make_unique<Shape>(
       [=](const Site& site) -> Distance {
-        const double d = distance(site);
-        Point<3> n;
+        const Point<3> x{site.x[0], site.x[1], site.x[2]};
+        const ImplicitFunction f = around(distance, site, dimension);
         if (normal.empty()) {
-          double scale = length;
-          if (scale == 0)
-            scale = std::max({std::abs(site.x[0]), std::abs(site.x[1]), std::abs(site.x[2]), std::abs(d)});
-          const Point<3> g = gradient(distance, site, dimension, relative_step * (scale > 0 ? scale : 1));
-          if (norm(g) == 0)
-            input_error(origin, fmt::format("distance: the gradient of '{}' at [{:g}, {:g}, {:g}] is zero, expected a "
-                                            "distance that grows away from the obstacle, or a 'normal'",
-                                            distance.text(), site.x[0], site.x[1], site.x[2]));
-          n = scaled(1 / norm(g), g);
+          if (const std::optional<Distance> found = distance_to_zeros(f, x)) return *found;
         } else {
-          n = direction(normal, site, "normal", origin);
+          const Point<3> n = direction(normal, site, "normal", origin);
+          if (const std::optional<double> d = distance_along(f, x, n)) return {*d, {n[0], n[1], n[2]}};
         }
-        return {d, {n[0], n[1], n[2]}};
+        no_distance(distance, site, f.gradient(x), origin);
       },
       t);
 }

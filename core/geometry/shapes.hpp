@@ -24,10 +24,9 @@ std::unique_ptr<DistanceFunction> sphere(const std::vector<Field>& center, const
 std::unique_ptr<DistanceFunction> cylinder(const std::vector<Field>& center, const std::vector<Field>& axis,
                                            const Field& radius, bool inside, double t, const std::string& origin);
 
-/// A signed distance given by an expression; without `normal` the normal is its gradient, by central differences with
-/// the step 6e-6 `length`, about the diameter of the body (error: 4e-11 relative where the distance is smooth on that
-/// length). Where `length` is 0, the larger of the point's coordinates and its distance takes its place.
+/// Where an expression is negative. It need be no distance: the nearest point where it is zero is found, see
+/// distance_to_zeros(), and the normal points away from there. With `normal` it is the distance along that.
 std::unique_ptr<DistanceFunction> expression(const Field& distance, const std::vector<Field>& normal, int dimension,
-                                             double length, double t, const std::string& origin);
+                                             double t, const std::string& origin);
 
 }  // namespace signorini::geometry

@@ -55,6 +55,10 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: {} of the {} {} of the physical group '{}' are not on the boundary: they are left out of the part of that "
      "name",
      "the part is smaller than the group", "mostly harmless"},
+    {WarningKind::About::mesh, "chord-volume",
+     "{}: the mesh has {:.2g} % {} volume than the surface in the file: its faces are flat between vertices on that "
+     "surface, which curves there, and stay so however often they are refined; expected a smaller 'size'",
+     "a `solid` has flat faces where the surface curves: refinement does not bring that back", "a smaller `size`"},
     {WarningKind::About::mesh, "straight-edges",
      "{}: {} midpoints of edges stay off the curved surface they belong to, or elements would be turned inside out "
      "there; a finer mesh follows it",

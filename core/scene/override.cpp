@@ -22,7 +22,11 @@ class Override {
     if (equals == std::string::npos) fail("expected KEY=VALUE");
     split(assignment.substr(0, equals));
     const std::string text = assignment.substr(equals + 1);
-    value_ = parse_toml_value(text, place_).value_or(RawValue{text, place_});
+    const std::optional<RawValue> value = parse_toml_value(text, place_);
+    if (!value && text.starts_with('['))
+      fail(fmt::format("found {}, expected a list as [0, -0.05]: values between brackets, with commas between them",
+                       in_quotes(text)));
+    value_ = value.value_or(RawValue{text, place_});
   }
 
   void apply() {

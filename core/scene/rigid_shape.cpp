@@ -30,7 +30,7 @@ struct Converter {
     }
   }
   Result operator()(const Scene::ExpressionShape& s) const {
-    return geometry::expression(s.distance, s.normal, dimension, 0, t, origin);
+    return geometry::expression(s.distance, s.normal, dimension, t, origin);
   }
 };
 

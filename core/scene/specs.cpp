@@ -142,9 +142,10 @@ constexpr KeySpec surface_obstacle[] = {
      "triangles that meet at more degrees meet at an edge of the obstacle in any case"},
 };
 constexpr KeySpec expression_obstacle[] = {
-    {"distance", field, nullptr, "", "", "signed distance, positive outside the obstacle"},
+    {"distance", field, nullptr, "", "", "positive outside the obstacle, zero on its surface; need be no distance"},
     {"normal", fields, "", "", "",
-     "points from the obstacle towards the body; by default the gradient of the distance"},
+     "points from the obstacle towards the body, and is what distances are measured along; by default towards the "
+     "nearest point"},
 };
 
 constexpr ShapeSpec rigid_shapes[] = {
@@ -152,7 +153,7 @@ constexpr ShapeSpec rigid_shapes[] = {
     {"sphere", 0, "in 2D a disk", sphere_obstacle},
     {"cylinder", 3, "infinitely long", cylinder_obstacle},
     {"surface", 3, "a triangle mesh", surface_obstacle},
-    {"expression", 0, "given by its distance function", expression_obstacle},
+    {"expression", 0, "given by a function", expression_obstacle},
 };
 
 constexpr KeySpec refine[] = {

@@ -126,7 +126,9 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   EXPECT_THAT(libraries.out, AllOf(HasSubstr("libsignorini_core.so"), HasSubstr("licence: BSD-3-Clause\n"),
                                    HasSubstr("libsignorini_geometry.so"), HasSubstr("licence: GPL-3.0-or-later"),
                                    HasSubstr("licence: GPL-2.0-or-later"), HasSubstr("LGPL-2.1-only OR MPL-1.1")));
-  EXPECT_THAT(signorini({"list", "obstacles"}).out, HasSubstr("licence: BSD-3-Clause"));
+  EXPECT_THAT(signorini({"list", "obstacles"}).out,
+              AllOf(HasSubstr("licence: BSD-3-Clause"), HasSubstr("from libsignorini_obstacle_coulomb.so"),
+                    HasSubstr("\n  in " SIGNORINI_BINARY_DIR "/lib/signorini/plugins\n")));
   EXPECT_THAT(signorini({"list", "aggregates"}).out, AllOf(HasSubstr("greedy "), HasSubstr("metis ")));
   EXPECT_THAT(amg.out, HasSubstr("from " SIGNORINI_BINARY_DIR "/bin/signorini"));
 }
@@ -176,6 +178,12 @@ TEST_F(CommandLine, HelpHasAPageOnEachKey) {
   EXPECT_THAT(signorini({"help", "obstacle.friction"}).out,
               AllOf(HasSubstr("obstacle.coulomb.friction"), HasSubstr("coefficient of friction"),
                     HasSubstr("type = \"coulomb\"\n  friction = 0.3")));
+  EXPECT_EQ(signorini({"help", "obstacle.0.friction"}).out, signorini({"help", "obstacle.friction"}).out);
+  EXPECT_EQ(signorini({"help", "fix.1.value.0"}).out, signorini({"help", "fix.value"}).out);
+  EXPECT_THAT(signorini({"help", "coulomb"}).out,
+              AllOf(StartsWith("coulomb: a type of [[obstacle]]"), HasSubstr("coefficient of friction"),
+                    HasSubstr("type = \"coulomb\"\n  friction = 0.3")));
+  EXPECT_THAT(signorini({"help", "gap"}).out, HasSubstr("gap = -0.01 "));
   EXPECT_THAT(signorini({"help", "body"}).out,
               AllOf(StartsWith("[[body]]"), HasSubstr("poisson"), HasSubstr("half_ball")));
   EXPECT_EQ(signorini({"help", "qp"}).out, signorini({"qp", "--help"}).out);

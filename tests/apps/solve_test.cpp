@@ -445,5 +445,23 @@ at = [0, 1.2, -1.6]
   EXPECT_THAT(ended.err, HasSubstr("point (0, 1.5, -2) lies outside the body"));
 }
 
+// A report that is there after a run is that of the run.
+TEST_F(Solve, TheReportOfAnEarlierRunIsSetAside) {
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o", "--set", "refine.uniforn=1"}).status, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "o/report.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "o/report.old.json"));
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "o/report.json"));
+  EXPECT_FALSE(fs::exists(folder_ / "o/report.old.json"));
+}
+
+TEST_F(Solve, AListThatIsNoneIsRefusedAsOne) {
+  write("membrane.toml", membrane);
+  EXPECT_THAT(signorini({"check", "membrane.toml", "--set", "fix.0.value=[1,"}).err,
+              HasSubstr("found '[1,', expected a list as [0, -0.05]"));
+}
+
 }  // namespace
 }  // namespace signorini::test

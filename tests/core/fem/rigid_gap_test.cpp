@@ -92,7 +92,7 @@ TEST(StartDepth, TellsABodyInsideAndAReversedNormal) {
     EXPECT_FALSE(depth(0, 1, everywhere).completely);
   }
   EXPECT_DOUBLE_EQ(depth(0, -1, false).depth, 1);
-  model.obstacles = {rigid<3>(geometry::expression(0.0, {0.0, 0.0, 1.0}, 3, 1, 1, "touching"), "bottom")};
+  model.obstacles = {rigid<3>(geometry::expression(0.0, {0.0, 0.0, 1.0}, 3, 1, "touching"), "bottom")};
   EXPECT_FALSE(start_depth(mesh, model, 0, true)->completely);
   model.obstacles[0].shape = nullptr;
   EXPECT_FALSE(start_depth(mesh, model, 0, true));

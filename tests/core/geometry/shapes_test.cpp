@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -128,36 +129,110 @@ TEST(Cylinder, NeedsAnAxisAndAPositiveRadius) {
 
 TEST(Expression, HasTheGradientForANormal) {
   const Field distance = expression([](const Site& s) { return std::hypot(s.x[0], s.x[1], s.x[2]) - 1; });
-  for (const double length : {0.0, 2.0}) {
-    const auto shape = geometry::expression(distance, {}, 3, length, 1, origin);
-    const Distance d = at(*shape, {0.6, 0, -1.2});
-    EXPECT_NEAR(d.value, 0.6 * std::sqrt(5) - 1, 1e-15);
-    EXPECT_NEAR(d.normal[0], 1 / std::sqrt(5), 1e-10);
-    EXPECT_NEAR(d.normal[1], 0, 1e-10);
-    EXPECT_NEAR(d.normal[2], -2 / std::sqrt(5), 1e-10);
-  }
+  const Distance d = at(*geometry::expression(distance, {}, 3, 1, origin), {0.6, 0, -1.2});
+  EXPECT_NEAR(d.value, 0.6 * std::sqrt(5) - 1, 1e-15);
+  EXPECT_NEAR(d.normal[0], 1 / std::sqrt(5), 1e-10);
+  EXPECT_NEAR(d.normal[1], 0, 1e-10);
+  EXPECT_NEAR(d.normal[2], -2 / std::sqrt(5), 1e-10);
 }
 
 TEST(Expression, HasNoThirdDirectionInThePlane) {
   const Field distance = expression([](const Site& s) { return s.x[1] + 100 * s.x[2]; });
-  EXPECT_THAT(at(*geometry::expression(distance, {}, 2, 1, 1, origin), {1, 2, 0}).normal,
+  EXPECT_THAT(at(*geometry::expression(distance, {}, 2, 1, origin), {1, 2, 0}).normal,
               ElementsAre(0, testing::DoubleNear(1, 1e-15), 0));
 }
 
 TEST(Expression, TakesAGivenNormalThatSeesPositionAndBody) {
   const Field distance = expression([](const Site& s) { return s.x[0]; });
   const Field other = expression([](const Site& s) { return -2 * s.n[1]; });
-  EXPECT_THAT(at(*geometry::expression(distance, {0, other}, 2, 1, 1, origin), {1, 2, 0}, {0, 1, 0}).normal,
+  EXPECT_THAT(at(*geometry::expression(distance, {0, other}, 2, 1, origin), {1, 2, 0}, {0, 1, 0}).normal,
               ElementsAre(0, -1, 0));
 }
 
 TEST(Expression, FailsWhereItHasNoValueOrNoGradient) {
   const Field root = expression([](const Site& s) { return std::sqrt(s.x[0]); }, "sqrt(x)");
-  const auto shape = geometry::expression(root, {}, 3, 1, 1, origin);
+  const auto shape = geometry::expression(root, {}, 3, 1, origin);
   EXPECT_THAT(failure(*shape, {-1, 0, 0}), testing::AllOf(HasSubstr("sqrt(x)"), HasSubstr("scene.toml:14")));
-  const auto flat = geometry::expression(Field(1.0), {}, 3, 1, 1, origin);
+  const auto flat = geometry::expression(Field(1.0), {}, 3, 1, origin);
   EXPECT_THAT(failure(*flat, {-1, 0, 0}), HasSubstr("gradient"));
-  EXPECT_THAT(error_of([] { geometry::expression(Field(1.0), {0, 0, 0}, 3, 1, 1, origin); }), HasSubstr("normal"));
+  EXPECT_THAT(error_of([] { geometry::expression(Field(1.0), {0, 0, 0}, 3, 1, origin); }), HasSubstr("normal"));
+}
+
+Distance expressed(double (*function)(const Site&), const Point<3>& p, int dimension) {
+  return at(*geometry::expression(expression(function), {}, dimension, 1, origin), p);
+}
+
+void expect_distance(const Distance& found, double value, const Point<3>& normal, double relative = 1e-9) {
+  EXPECT_NEAR(found.value, value, relative * std::abs(value));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found.normal[k], normal[k], 1e-7);
+}
+
+TEST(Expression, NeedBeNoDistance) {
+  expect_distance(expressed([](const Site& s) { return 2 * (s.x[1] + 0.01); }, {0.3, 0, 0}, 2), 0.01, {0, 1, 0});
+  const auto circle = [](const Site& s) { return s.x[0] * s.x[0] + s.x[1] * s.x[1] - 1; };
+  expect_distance(expressed(circle, {3, 4, 0}, 2), 4, {0.6, 0.8, 0});
+  expect_distance(expressed(circle, {0.06, 0.08, 0}, 2), -0.9, {0.6, 0.8, 0});
+  const auto around = [](const Site& s) { return 1 - s.x[0] * s.x[0] - s.x[1] * s.x[1]; };
+  expect_distance(expressed(around, {0.06, 0.08, 0}, 2), 0.9, {-0.6, -0.8, 0});
+  // 1/2 (1 + 3 / 2) is where the normal of x^2 at (1/2, 1/4) goes through y = 1.25 at x = -1/2
+  expect_distance(expressed([](const Site& s) { return s.x[0] * s.x[0] - s.x[1]; }, {1, -0.25, 0}, 2), std::sqrt(0.5),
+                  {std::sqrt(0.5), -std::sqrt(0.5), 0});
+  const auto ellipsoid = [](const Site& s) {
+    return std::pow(s.x[0] / 3, 2) + std::pow(s.x[1] / 2, 2) + std::pow(s.x[2], 2) - 1;
+  };
+  const Point<3> foot{3 * 0.48, 2 * 0.64, 0.6};
+  Point<3> n{foot[0] / 9, foot[1] / 4, foot[2]};
+  const double length = std::hypot(n[0], n[1], n[2]);
+  for (const double d : {-0.1, 0.0, 1e-6, 0.01, 1.0, 100.0}) {
+    for (double& c : n) c /= d == -0.1 ? length : 1;
+    expect_distance(expressed(ellipsoid, {foot[0] + d * n[0], foot[1] + d * n[1], foot[2] + d * n[2]}, 3), d, n, 1e-8);
+  }
+}
+
+TEST(Expression, OfAnyUnitIsZeroAtTheSamePlace) {
+  for (const double unit : {1e-6, 1.0, 1e6}) {
+    const Field body([unit](const Site& s) { return unit * (s.x[1] * s.x[1] + s.x[2] * s.x[2] - 0.25); }, "cylinder",
+                     "scene.toml:14");
+    expect_distance(at(*geometry::expression(body, {}, 3, 1, origin), {7, 0.4, 0.3}), 0, {0, 0.8, 0.6});
+    expect_distance(at(*geometry::expression(body, {}, 3, 1, origin), {7, 0.8, 0.6}), 0.5, {0, 0.8, 0.6});
+  }
+}
+
+TEST(Expression, MayHaveEdges) {
+  const auto wedge = [](const Site& s) { return 3 * std::max(s.x[1] + s.x[0], s.x[1] - s.x[0]); };  // its tip is up
+  expect_distance(expressed(wedge, {0, 2, 0}, 2), 2, {0, 1, 0});
+  expect_distance(expressed(wedge, {0.6, 0.8, 0}, 2), 1, {0.6, 0.8, 0});
+  expect_distance(expressed(wedge, {2, 0, 0}, 2), std::sqrt(2), {std::sqrt(0.5), std::sqrt(0.5), 0});
+  expect_distance(expressed(wedge, {0, -1, 0}, 2), -std::sqrt(0.5), {std::sqrt(0.5), std::sqrt(0.5), 0});
+  const auto cube = [](const Site& s) {
+    return 2 * std::max({std::abs(s.x[0]), std::abs(s.x[1]), std::abs(s.x[2])}) - 2;
+  };
+  expect_distance(expressed(cube, {1.48, 1.64, 1.6}, 3), 1, {0.48, 0.64, 0.6});
+  expect_distance(expressed(cube, {1.6, 1.8, 0.4}, 3), 1, {0.6, 0.8, 0});
+  const auto lens = [](const Site& s) {
+    return std::max(std::pow(s.x[0] - 0.6, 2), std::pow(s.x[0] + 0.6, 2)) + s.x[1] * s.x[1] - 1;
+  };
+  expect_distance(expressed(lens, {0.05, 1.8, 0}, 2), std::hypot(0.05, 1),
+                  {0.05 / std::hypot(0.05, 1), 1 / std::hypot(0.05, 1), 0});
+  const auto groove = [](const Site& s) { return std::min(s.x[1] + 2 * s.x[0], s.x[1] - 2 * s.x[0]); };
+  EXPECT_NEAR(expressed(groove, {0, 2, 0}, 2).value, 2 / std::sqrt(5), 1e-9);
+}
+
+TEST(Expression, FailsWhereItIsNowhereZero) {
+  const Field bowl = expression([](const Site& s) { return s.x[0] * s.x[0] + 1; }, "x^2 + 1");
+  EXPECT_THAT(failure(*geometry::expression(bowl, {}, 2, 1, origin), {2, 3, 0}),
+              testing::AllOf(HasSubstr("'x^2 + 1' at [2, 3, 0] is no distance"), HasSubstr("gradient has length 4,")));
+}
+
+TEST(Expression, IsMeasuredAlongTheNormalThatGoesWithIt) {
+  const auto along = [](double (*function)(const Site&), const Vector& normal) {
+    return at(*geometry::expression(expression(function), normal, 2, 1, origin), {0.5, 1, 0}).value;
+  };
+  EXPECT_EQ(along([](const Site& s) { return s.x[1] + 0.2 * s.x[0] * s.x[0]; }, {0, 1}), 1.05);
+  EXPECT_EQ(along([](const Site& s) { return 0.2 * s.x[0] * s.x[0]; }, {0, 1}), 0.05);
+  EXPECT_EQ(along([](const Site& s) { return s.x[0] < 0.501 ? s.x[1] : s.x[1] + 1; }, {0, 1}), 1);
+  EXPECT_NEAR(along([](const Site& s) { return 7 * s.x[1]; }, {0, 2}), 1, 1e-14);
+  EXPECT_NEAR(along([](const Site& s) { return s.x[0] * s.x[0] + s.x[1] * s.x[1] - 0.5; }, {0, 1}), 0.5, 1e-11);
 }
 
 TEST(Shapes, RejectPointsThatAreNotFinite) {
