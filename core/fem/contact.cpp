@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -123,6 +124,14 @@ class NodeReader {
       local[k] = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
     }
     return force_in_space(p, local);
+  }
+
+  /// What was between the two before anything moved; NaN where nothing is bounded.
+  double start(const ContactNode<B>& node) const {
+    const std::array<double, B> u = global(node.vertex);
+    double moved = 0, square = 0;
+    for (int i = 0; i < B; ++i) moved += u[i] * node.direction[i], square += node.direction[i] * node.direction[i];
+    return square > 0 ? node.gap - moved : std::numeric_limits<double>::quiet_NaN();
   }
 
   /// A vertex where a functional acts and nothing is bounded.
@@ -437,7 +446,7 @@ class Covered {
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
 void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairs, Index obstacle,
-             double least_force, ContactState<B>& state) {
+             double least_force, const std::vector<double>& start, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
   ContactTotals<B> totals(summary);
@@ -454,7 +463,7 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     totals.add(node);
   }
   if (!in_body) {
-    const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
+    const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, start, state.nodes);
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
     summary.peaks_at_edge = recovered.peaks_at_edge;
@@ -501,9 +510,11 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
+  std::vector<double> start;
+  for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
     measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],
-            state);
+            start, state);
   return state;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,10 +23,14 @@ inline constexpr Index unreachable = -1;  ///< number of a node that the obstacl
 template <int D, int B>
 class PressedFaces {
  public:
+  /// @param start see recover_pressure()
   PressedFaces(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
-               std::vector<ContactNode<B>>& contact) {
-    for (ContactNode<B>& node : contact)
-      if (node.obstacle == obstacle) node_.push_back(&node);
+               const std::vector<double>& start, std::vector<ContactNode<B>>& contact) {
+    for (std::size_t k = 0; k < contact.size(); ++k) {
+      if (contact[k].obstacle != obstacle) continue;
+      node_.push_back(&contact[k]);
+      start_.push_back(start.empty() ? unknown : start[k]);
+    }
     for (const ContactNode<B>* node : node_) {
       pressed_.push_back(node->contact && node->pressure * node->area > least_force);
       if (!pressed_.back()) continue;
@@ -36,6 +42,7 @@ class PressedFaces {
     add_strangers(nodes, obstacle);
     connect(nodes);
     find_mirrors(nodes, surface);
+    find_bends(nodes);
   }
 
   Index size() const { return static_cast<Index>(node_.size()); }
@@ -56,6 +63,21 @@ class PressedFaces {
     each_mirror(on_[k], [&](const Flat<D>& mirror) { goes_on = goes_on || B != D || is_smooth_across(k, mirror); });
     return at_rim_[k] && !goes_on;
   }
+  /// Whether an edge or a tip of either side lies at a node or beside it: what was between the two at the start bends
+  /// there as nowhere else in the contact, over the way between faces.
+  bool at_kink(Index k) const {
+    std::vector<double> all;
+    for (Index other = 0; other < size(); ++other)
+      if (pressed(other) && other != k && !std::ranges::binary_search(around_[k], other))
+        all.push_back(bend_around(other));
+    if (all.empty()) return false;
+    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::ranges::nth_element(all, middle);
+    return bend_around(k) > kinked * *middle;
+  }
+  /// How far contact reaches from pressed nodes towards one that is not, as part of the way: up to an edge, as what is
+  /// left between the two and how steeply they part beyond that edge tell; half way where they do not.
+  double reach(Index k) const { return reach_[k]; }
   /// One of the faces at a node that has neighbours.
   Index face_at(Index k) const { return face_at_[k]; }
   /// How far to go from a node in search of samples: so many rings of neighbours, more where they are few.
@@ -159,6 +181,7 @@ class PressedFaces {
       node.vertex = v, node.obstacle = obstacle;
       const auto at = std::ranges::upper_bound(node_, v, {}, [](const auto* other) { return other->vertex; });
       pressed_.insert(pressed_.begin() + (at - node_.begin()), false);
+      start_.insert(start_.begin() + (at - node_.begin()), unknown);
       node_.insert(at, &node);
     }
   }
@@ -272,7 +295,155 @@ class PressedFaces {
     }
   }
 
+  /// The slope of what is linear over a face: of what was between the two sides at the start. NaN where that is not
+  /// known.
+  Point<D> slope(const Nodes<D>& nodes, std::size_t face) const {
+    const Index first = corners_[face][0];
+    Point<D> out{};
+    std::array<Point<D>, D - 1> way;
+    std::array<double, D - 1> more;
+    for (int i = 1; i < D; ++i) {
+      const Index other = corners_[face][i];
+      if (first == unreachable || other == unreachable) return not_known();
+      way[i - 1] = difference<D>(nodes.at(node_[other]->vertex), nodes.at(node_[first]->vertex));
+      more[i - 1] = start_[other] - start_[first];
+    }
+    if constexpr (D == 2) {
+      for (int i = 0; i < D; ++i) out[i] = way[0][i] * more[0] / dot(way[0], way[0]);
+    } else {
+      const double aa = dot(way[0], way[0]), ab = dot(way[0], way[1]), bb = dot(way[1], way[1]);
+      const double a = (bb * more[0] - ab * more[1]) / (aa * bb - ab * ab);
+      const double b = (aa * more[1] - ab * more[0]) / (aa * bb - ab * ab);
+      for (int i = 0; i < D; ++i) out[i] = a * way[0][i] + b * way[1][i];
+    }
+    return out;
+  }
+  static Point<D> not_known() {
+    Point<D> out;
+    out.fill(unknown);
+    return out;
+  }
+
+  void find_bends(const Nodes<D>& nodes) {
+    bend_.assign(node_.size(), 0);
+    reach_.assign(node_.size(), half_way);
+    if (B != D) return;
+    std::vector<std::vector<std::size_t>> at(node_.size());
+    std::vector<Point<D>> slopes, middles, normals;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const Face<D>& face = nodes.mesh().boundary[faces_[f]];
+      slopes.push_back(slope(nodes, f));
+      middles.push_back(centroid<D>(nodes.mesh(), face.vertices));
+      normals.push_back(area_normal(nodes.mesh(), face));
+      normalise(normals.back());
+      for (const Index k : corners_[f])
+        if (k != unreachable) at[k].push_back(f);
+    }
+    for (Index k = 0; k < size(); ++k) {
+      for (const std::size_t f : at[k])
+        for (const std::size_t g : at[k])
+          if (f < g) {
+            add_bend(k, length<D>(difference<D>(slopes[f], slopes[g])),
+                     length<D>(difference<D>(middles[f], middles[g])));
+          }
+      each_mirror(on_[k], [&](const Flat<D>& mirror) {  // and to the images of faces
+        for (const std::size_t f : at[k])
+          add_bend(k, 2 * std::abs(dot(slopes[f], mirror.normal)),
+                   2 * std::abs(dot(difference<D>(middles[f], mirror.point), mirror.normal)));
+      });
+    }
+    find_reach(nodes, at, normals);
+  }
+
+  /// What is not known, or rounding, bends nothing.
+  void add_bend(Index k, double turn, double way) {
+    if (turn > rounding) bend_[k] = std::max(bend_[k], turn / way);
+  }
+
+  double bend_around(Index k) const {
+    double out = bend_[k];
+    for (const Index other : around_[k]) out = std::max(out, bend_[other]);
+    return out;
+  }
+
+  /// Beyond an edge the surface falls back from the pressed faces before it, or what it was pressed on does.
+  void find_reach(const Nodes<D>& nodes, const std::vector<std::vector<std::size_t>>& at,
+                  const std::vector<Point<D>>& normals) {
+    for (Index k = 0; k < size(); ++k) {
+      if (pressed(k)) continue;
+      double falls = 0;
+      bool edge = false;
+      for (const std::size_t f : at[k])
+        for (const Index from : corners_[f])
+          if (pressed(from)) {
+            falls = std::max(falls, fall(nodes, k, from, at, normals));
+            edge = edge || turns_beyond(f, from, at, normals) || presses_otherwise(k, from);
+          }
+      if (!edge) continue;
+      const double gap = node_[k]->gap;
+      if (std::isnan(start_[k]))
+        reach_[k] = 0;  // far off
+      else if (gap <= steepest * falls)
+        reach_[k] = std::clamp(1 - gap / falls, 0.0, 1.0);
+    }
+  }
+
+  bool all_pressed(std::size_t face) const {
+    return std::ranges::all_of(corners_[face], [&](Index k) { return pressed(k); });
+  }
+
+  /// Of a node, from the pressed faces around another one, or of the obstacle's own surface.
+  double fall(const Nodes<D>& nodes, Index k, Index from, const std::vector<std::vector<std::size_t>>& at,
+              const std::vector<Point<D>>& normals) const {
+    const Point<D> way = difference<D>(nodes.at(node_[k]->vertex), nodes.at(node_[from]->vertex));
+    double out = 0;
+    bool inside = false;
+    for (const std::size_t g : at[from]) {
+      if (!all_pressed(g)) continue;
+      inside = true;
+      out = std::max(out, -dot(way, normals[g]));
+    }
+    if constexpr (B == D)
+      if (inside) out = std::max(out, std::abs(dot(way, node_[k]->direction)));
+    return out;
+  }
+
+  /// Whether what would press on a node does so along another direction than on one that it presses, as these do not
+  /// differ among each other.
+  bool presses_otherwise(Index k, Index from) const {
+    if constexpr (B == D) {
+      const auto turn = [&](Index a, Index b) {
+        return length<D>(difference<D>(node_[a]->direction, node_[b]->direction));
+      };
+      double within = -1;
+      for (const Index other : around_[from])
+        if (pressed(other)) within = std::max(within, turn(from, other));
+      return within >= 0 && !std::isnan(start_[k]) && turn(k, from) > kinked * within + rounding;
+    }
+    return false;
+  }
+
+  /// Whether a face turns away from the pressed ones beside it as none of these do from each other.
+  bool turns_beyond(std::size_t face, Index from, const std::vector<std::vector<std::size_t>>& at,
+                    const std::vector<Point<D>>& normals) const {
+    const auto turn = [&](std::size_t f, std::size_t g) { return length<D>(difference<D>(normals[f], normals[g])); };
+    for (const std::size_t g : at[from]) {
+      if (!all_pressed(g)) continue;
+      double within = -1;
+      for (const Index corner : corners_[g])
+        for (const std::size_t other : at[corner])
+          if (other != g && all_pressed(other)) within = std::max(within, turn(g, other));
+      if (within >= 0 && turn(face, g) > kinked * within + rounding) return true;
+    }
+    return false;
+  }
+
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::size_t most_mirrors = 32;
+  static constexpr double kinked = 3;       // times the bends elsewhere: smooth surfaces differ by less
+  static constexpr double rounding = 1e-6;  // of slopes
+  static constexpr double half_way = 0.5;
+  static constexpr double steepest = 2;  // of the fall: what is farther off than that jumps
   static constexpr double smooth = 1e-6;
   std::vector<Flat<D>> mirrors_;
   unsigned axis_ = 0;         // the bit of that of a body of revolution
@@ -283,6 +454,7 @@ class PressedFaces {
   std::vector<Index> faces_, face_at_;
   std::vector<std::array<Index, D>> corners_;
   std::vector<std::vector<Index>> around_;
+  std::vector<double> start_, bend_, reach_;
 };
 
 /// Coordinates in a plane that touches the surface.

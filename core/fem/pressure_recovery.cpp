@@ -20,6 +20,7 @@ constexpr double at_edge =
     0.3;  // of the next pressure inside is what a mean at the edge may have without any of its own
 constexpr double steep = 1.05;       // from a node near the end of the other body to the next: pressures peak there
 constexpr double falls = 0.5;        // from a node in contact to the next one: more is left under a punch
+constexpr double sharp = 1e12;       // over the square at an edge, beyond it: contact ends there
 constexpr double least_width = 0.4;  // of samples, over the way to the next node: two rows of them have 0.5
 // Samples that a fit looks for, and without which it does not go on to the edge.
 template <int D>
@@ -59,15 +60,22 @@ class Recovery {
   bool resolved() const {
     const Index k = top();
     if (all_inside()) return !ends() || pressed_nodes() >= enough<D>;
+    if (k != unreachable && faces_.at_kink(k) && !many_beside(k)) return false;
     const auto some = samples(k);
     return some.size() >= enough<D> && width(some) >= least_width * way_to_neighbours(k);
+  }
+
+  /// Whether there are nodes enough for a fit on either side of an edge or a tip within the contact, away from it.
+  bool many_beside(Index k) const {
+    const auto inside = static_cast<std::size_t>(std::ranges::count(inside_, true));
+    return inside >= 1 + faces_.around(k).size() + 2 * enough<D>;
   }
 
   bool peaks_at_edge() const {
     const Index k = top();
     if (k == unreachable) return false;
     if (!inside_[k] || bears_more_at_end(faces_.node(k).recovered)) return true;
-    bool near_end = faces_.at_end(k) || faces_.at_rim(k), drops = false;
+    bool near_end = faces_.at_end(k) || faces_.at_rim(k) || faces_.at_kink(k), drops = false;
     for (const Index other : faces_.around(k)) {
       if (!faces_.pressed(other)) continue;
       near_end = near_end || faces_.at_end(other) || faces_.node(other).hardly_covered();
@@ -265,7 +273,9 @@ class Recovery {
       if (faces_.pressed(other)) sum += square_[other], ++count, punched = punched || rises(other);
     if (count == 0) return -hardly_covered_beside(k);
     const auto value = fitted(k);
-    return value && !punched && *value <= falls * sum / count ? *value : -sum / count;
+    if (value && !punched && *value <= falls * sum / count) return *value;
+    const double reach = faces_.reach(k);
+    return -sum / count * std::min((1 - reach) / reach, sharp);
   }
 
   double hardly_covered_beside(Index k) const {
@@ -336,8 +346,9 @@ class Recovery {
 
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
-                                   double least_force, std::vector<ContactNode<B>>& contact) {
-  const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, contact);
+                                   double least_force, const std::vector<double>& start,
+                                   std::vector<ContactNode<B>>& contact) {
+  const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, start, contact);
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
   recover_traction(nodes, surface, faces);
@@ -346,7 +357,7 @@ RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                        \
   template RecoveredPressure recover_pressure(const Nodes<D>&, const ContactSurface<D, B>&, Index, double, \
-                                              std::vector<ContactNode<B>>&);
+                                              const std::vector<double>&, std::vector<ContactNode<B>>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -19,17 +19,20 @@ namespace signorini {
 /// coarse contacts not below what of a node's mean the pressure farther inside does not explain. Where too few nodes
 /// are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
+/// @param start per node of `contact`, what was between the two before anything moved; NaN, or an empty list: unknown
 /// @return `area`, the measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where
-/// it does not fall towards the edge, as under a punch, contact goes on half way to the next node. `resolved`: where
-/// the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no node
-/// is at its edge. `peaks_at_edge`: the largest pressure is at its edge, as where an edge or a corner of a body
-/// touches: smaller elements find larger ones.
+/// it does not fall towards the edge, as under a punch, contact goes on as far as PressedFaces::reach(). `resolved`:
+/// where the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no
+/// node is at its edge. Where an edge or a tip lies there, nodes enough on either side. `peaks_at_edge`: the largest
+/// pressure is at its edge, or at an edge or a tip within, as where an edge or a corner of a body touches: smaller
+/// elements find larger ones.
 struct RecoveredPressure {
   double area;
   bool resolved, peaks_at_edge;
 };
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
-                                   double least_force, std::vector<ContactNode<B>>& contact);
+                                   double least_force, const std::vector<double>& start,
+                                   std::vector<ContactNode<B>>& contact);
 
 }  // namespace signorini

@@ -1,0 +1,122 @@
+// Where contact ends at an edge of one side, and where pressures peak at an edge or a tip of one.
+#include <cmath>
+#include <numbers>
+
+#include "tests/driver/warned.hpp"
+
+namespace signorini::test {
+namespace {
+
+ContactReport contact(const std::string& text) {
+  Driver driver(scene_of(text));
+  EXPECT_TRUE(driver.solve().converged());
+  return driver.report().last().contact.at(0);
+}
+
+/// Lengths, stresses and a turn of a plane scene.
+struct Units {
+  double length = 1, stress = 1, turn = 0;
+  std::string at(double x, double y) const {
+    return fmt::format("[{:.17g}, {:.17g}]", length * (std::cos(turn) * x - std::sin(turn) * y) + 7 * length,
+                       length * (std::sin(turn) * x + std::cos(turn) * y));
+  }
+  std::string along(double x, double y) const {
+    return fmt::format("[{:.17g}, {:.17g}]", std::cos(turn) * x - std::sin(turn) * y,
+                       std::sin(turn) * x + std::cos(turn) * y);
+  }
+};
+
+/// A foot with chamfers, on what follows.
+std::string foot(double size, const Units& u, double push = 0.001) {
+  return fmt::format(
+      "[[body]]\nname = 'foot'\nshape = 'polygon'\npoints = [{}, {}, {}, {}, {}, {}]\nsize = {}\nyoung = {}\npoisson = "
+      "0.3\n[[fix]]\nbody = 'foot'\non = 'edge4'\nframe = 'normal'\nvalue = [{}, 0]\n",
+      u.at(-0.75, 0.1), u.at(-0.5, 0), u.at(0.5, 0), u.at(0.75, 0.1), u.at(0.75, 1), u.at(-0.75, 1), size * u.length,
+      u.stress, -push * u.length);
+}
+
+std::string floor_below(const Units& u) {
+  return fmt::format(
+      "[[obstacle]]\ntype = 'contact'\nbody = 'foot'\non = 'boundary'\nshape = 'plane'\npoint = {}\n"
+      "normal = {}\n",
+      u.at(0, 0), u.along(0, 1));
+}
+
+TEST(ContactArea, EndsAtTheChamferOfAFoot) {
+  for (const double size : {0.13, 0.07})
+    for (const Units& u : {Units{}, Units{1000, 2e5, 0.5}, Units{1e-3, 1, -2}})
+      EXPECT_NEAR(contact(foot(size, u) + floor_below(u)).area, u.length, 0.006 * u.length) << size;
+}
+
+TEST(ContactArea, EndsAtTheChamferOfARoundFoot) {
+  for (const double size : {0.13, 0.07})
+    EXPECT_NEAR(contact(fmt::format("[[body]]\nname = 'foot'\nshape = 'polygon'\npoints = [[0, 0], [0.5, 0], [0.75, "
+                                    "0.1], [0.75, 1], [0, 1]]\nsize = {}\nyoung = 1\npoisson = 0.3\nplane = "
+                                    "'axisymmetric'\n[[fix]]\nbody = 'foot'\non = 'edge3'\nvalue = [0, -0.001]\n",
+                                    size) +
+                        floor_below({}))
+                    .area,
+                std::numbers::pi / 4, 0.006)
+        << size;
+}
+
+TEST(ContactArea, EndsAtTheChamferOfAFootOnABlock) {
+  for (const double size : {0.13, 0.07})
+    EXPECT_NEAR(contact(foot(size, {}) +
+                        "[[body]]\nname = 'block'\nshape = 'rectangle'\nfrom = [5, -1]\nto = [9, 0]\ncells = [50, "
+                        "12]\nyoung = 1\npoisson = 0.3\n[[fix]]\nbody = 'block'\non = 'bottom'\nvalue = [0, 0]\n"
+                        "[[obstacle]]\ntype = 'elastic'\nbody = 'foot'\non = 'boundary'\nother = 'block'\nother_on = "
+                        "'top'\nslave = 'body'\n")
+                    .area,
+                1, 0.01)
+        << size;
+}
+
+TEST(ContactArea, EndsAtTheChamferOfADieInSpace) {
+  for (const int cells : {10, 14})
+    EXPECT_NEAR(contact(fmt::format("[[body]]\nname = 'b'\nshape = 'box'\nfrom = [-1, 0, 0]\nto = [1, 0.5, 0.5]\ncells "
+                                    "= [{0}, 3, 3]\nyoung = 1\npoisson = 0.3\norder = 1\n[[fix]]\nbody = 'b'\non = "
+                                    "'top'\nvalue = [0, 0, -0.001]\n[[obstacle]]\ntype = 'contact'\nbody = 'b'\non = "
+                                    "'bottom'\nshape = 'expression'\ndistance = 'max(z, z + 0.5 * (abs(x) - 0.55))'\n",
+                                    cells))
+                    .area,
+                0.55, 0.006)
+        << cells;
+}
+
+/// The mesh resolves it, or not.
+const auto tipped = testing::Contains(testing::AnyOf(
+    HasSubstr("the largest pressure is where an edge or a corner touches"), HasSubstr("too few inside it")));
+
+std::string pressed(const std::string& distance, double length = 1, double stress = 1) {
+  return fmt::format(
+      "[[body]]\nname = 'b'\nshape = 'rectangle'\nfrom = [{0}, 0]\nto = [{1}, {1}]\ncells = [60, 30]\nyoung = {2}\n"
+      "poisson = 0.3\n[[fix]]\nbody = 'b'\non = 'top'\nvalue = [0, {3}]\n[[obstacle]]\ntype = 'contact'\nbody = 'b'\n"
+      "on = 'bottom'\nshape = 'expression'\ndistance = '{4}'\n",
+      -length, length, stress, -0.01 * length, distance);
+}
+
+TEST(ContactWarnings, OfKinksInWhatIsTouched) {
+  EXPECT_THAT(warnings(pressed("y + 0.05 * abs(x)")), tipped);
+  EXPECT_THAT(warnings(pressed("y + 0.05 * abs(x - 0.013)")), tipped);
+  EXPECT_THAT(warnings(pressed("y + 0.05 * abs(x - 13)", 1000, 2e11)), tipped);
+  for (const char* smooth : {"y + 0.1 * x^2", "y + 0.02 * (1 - cos(5 * x))", "sqrt(x^2 + (y + 5)^2) - 5"})
+    EXPECT_THAT(warnings(pressed(smooth)), Not(tipped)) << smooth;
+}
+
+TEST(ContactWarnings, OfTheTipOfABodyThatPressesAnother) {
+  const auto two = [](const char* points, const char* slave) {
+    return warnings(std::string("[[body]]\nname = 'tip'\nshape = 'polygon'\npoints = ") + points +
+                    "\nsize = 0.06\nyoung = 1\npoisson = 0.3\n[[fix]]\nbody = 'tip'\nwhere = 'y > 1 - 1e-9'\nvalue = "
+                    "[0, -0.02]\n[[body]]\nname = 'block'\nshape = 'rectangle'\nfrom = [-1, -1]\nto = [1, 0]\ncells = "
+                    "[50, 25]\nyoung = 1\npoisson = 0.3\n[[fix]]\nbody = 'block'\non = 'bottom'\nvalue = [0, 0]\n"
+                    "[[obstacle]]\ntype = 'elastic'\nbody = 'tip'\non = 'boundary'\nother = 'block'\nother_on = "
+                    "'top'\nslave = '" +
+                    slave + "'\n");
+  };
+  for (const char* slave : {"body", "other"})
+    EXPECT_THAT(two("[[0.01, 0], [0.8, 0.05], [0.8, 1], [-0.8, 1], [-0.8, 0.05]]", slave), tipped) << slave;
+}
+
+}  // namespace
+}  // namespace signorini::test
