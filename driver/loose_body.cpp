@@ -277,6 +277,15 @@ auto LooseBody<D, B>::ends() const -> Ends {
 }
 
 template <int D, int B>
+bool LooseBody<D, B>::needs_friction() const {
+  if (free_.cols() == 0) return false;
+  AllowedMotions allowed(free_.cols());
+  for (const Room& room : rooms(discretization_.problem.start))
+    if (room.row.norm() > negligible) allowed.bound(room.row, room.lower, room.upper);
+  return allowed.nearest(work_).norm() > negligible * most_work_;
+}
+
+template <int D, int B>
 void LooseBody<D, B>::require_minimum() const {
   const double enough = negligible * most_work_;
   if (free_.cols() == 0 || !(work_.norm() > enough)) return;

@@ -20,6 +20,9 @@ class LooseBody {
   /// Whether the prescribed values leave it no motion.
   bool held() const { return free_.cols() == 0; }
 
+  /// Whether nothing but friction may hold the body: the loads do work along a motion that no bound ends.
+  bool needs_friction() const;
+
   /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends, whatever
   /// friction takes of that work: then no forces within the cones of friction bear the loads, and without friction the
   /// energy has no minimum. Exact but for rounding: a motion counts whose work is more than 1e-10 of what the loads

@@ -124,6 +124,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   }
   solution.x = problem.start;
   const LooseBody<D, B> body(nodes_[level], model, solution.discretization);
+  problem.loose = before_[level].u.empty() && body.needs_friction();
   // Where friction is too weak coarse meshes tell it early. (Without it they may be solved all the same.)
   if (!solution.discretization.functional.empty()) body.require_minimum();
   times_.assemble += watch.elapsed();

@@ -32,6 +32,7 @@ class MultigridIteration final : public Iteration<B> {
   std::string method() const override;
   Step advance() override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
+  void renew();
   bool goes_without_bounds() const;
   void compare_gains(bool free, bool cut_off);
   bool loses_patience() const;
