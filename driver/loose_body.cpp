@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "amg/coarse/allowed_motions.hpp"
 #include "amg/coarse/cone_projection.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/dense.hpp"
@@ -163,8 +162,8 @@ template <int D, int B>
 auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Room> {
   std::vector<Room> out;
   const DiscreteProblem<B>& problem = discretization_.problem;
-  const auto add = [&](Index p, const Eigen::RowVectorXd& row, double lower, double upper) {
-    if (row.norm() > negligible) out.push_back({p, row, lower, upper});
+  const auto add = [&](Index p, const Eigen::RowVectorXd& row, double lower, double upper, double normal) {
+    if (row.norm() > negligible || normal != 0) out.push_back({p, row, lower, upper, normal});
   };
   for (Index slot = 0; slot < problem.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
@@ -173,7 +172,7 @@ auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Ro
       if (lower == -infinity && upper == infinity) continue;
       const Index p = problem.constraints.vector[slot];
       const double value = x[Offset{p} * B + k];
-      add(p, motions_.along(problem, p, k) * free_, lower - value, upper - value);
+      add(p, motions_.along(problem, p, k) * free_, lower - value, upper - value, k == normal_component(slot) ? 1 : 0);
     }
   each_polyhedron([&](Index slot) {
     const Constraints<B>& c = problem.constraints;
@@ -183,7 +182,9 @@ auto LooseBody<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Ro
       double direction[B], value = 0;
       block::product<B>(problem.frames.dual_at(p), face.normal, direction);
       for (int k = 0; k < B; ++k) value += face.normal[k] * x[Offset{p} * B + k];
-      add(p, motions_.along(problem, p, direction) * free_, face.lower - value, face.upper - value);
+      const int k = normal_component(slot);
+      add(p, motions_.along(problem, p, direction) * free_, face.lower - value, face.upper - value,
+          k < 0 ? 0 : face.normal[k]);
     }
   });
   return out;
@@ -198,30 +199,126 @@ void LooseBody<D, B>::each_polyhedron(const Visit& visit) const {
     if (c.has_facets(slot)) visit(slot);
 }
 
+/// A motion has to leave, or to go along, what it is bounded by.
+template <int D, int B>
+void LooseBody<D, B>::Ends::add(const Eigen::RowVectorXd& row) {
+  allowed.bound(row, 0, infinity);
+  rows.push_back(row);
+}
+
+/// By how much, of its length, a motion misses what the cone asks for that it misses most; infinite without cones.
+template <int D, int B>
+double LooseBody<D, B>::Ends::worst(const Eigen::VectorXd& motion, std::size_t& cone) const {
+  double out = infinity;
+  for (std::size_t k = 0; k < cones.size(); ++k)
+    if (const double excess = cones[k].excess(motion) / cones[k].size(); excess < out) out = excess, cone = k;
+  return out / motion.norm();
+}
+
+/// The motion next to `work` of those that nothing ends, at least by what the conditions tell that are added for it:
+/// cutting planes. Zero where it has no more than `enough` of it.
+template <int D, int B>
+Eigen::VectorXd LooseBody<D, B>::Ends::nearest(const Eigen::VectorXd& work, double enough) {
+  constexpr int most_cuts = 200;
+  for (int cuts = 0; cuts < most_cuts; ++cuts) {
+    Eigen::VectorXd found = allowed.nearest(work);
+    if (!(found.norm() > enough)) break;
+    std::size_t cone = 0;
+    if (worst(found, cone) >= -0.1 * negligible - projected * work.norm() / found.norm()) return found;
+    add(cones[cone].cut(found));
+  }
+  return Eigen::VectorXd::Zero(work.size());
+}
+
+/// What a motion is like where it leaves an obstacle only as far as friction asks for it: the way along that.
+template <int D, int B>
+Eigen::VectorXd LooseBody<D, B>::Ends::slide(const Eigen::VectorXd& motion) const {
+  std::vector<Eigen::RowVectorXd> touching;
+  for (const Cone& cone : cones)
+    if (cone.excess(motion) <= decided * cone.size() * motion.norm()) touching.push_back(cone.away);
+  const Eigen::MatrixXd basis = null_space(stacked(touching, motion.size()), decided);
+  return basis * (basis.transpose() * motion);
+}
+
+/// The component across the obstacle at a slot with friction, -1 elsewhere.
+template <int D, int B>
+int LooseBody<D, B>::normal_component(Index slot) const {
+  if (!(coefficient_of_friction(slot) > 0)) return -1;
+  const Flags tangential = discretization_.problem.constraints.tangential[slot];
+  for (int k = 0; k < B; ++k)
+    if (!(tangential >> k & 1u)) return k;
+  return -1;
+}
+
+template <int D, int B>
+void LooseBody<D, B>::add_end(const Room& room, Ends& out) const {
+  const DiscreteProblem<B>& problem = discretization_.problem;
+  const Index slot = problem.constraints.slot[room.vertex];
+  for (const double sign : {1.0, -1.0}) {
+    if (std::abs(sign > 0 ? room.lower : room.upper) == infinity) continue;
+    if (!(sign * room.normal > 0)) {
+      out.add(sign * room.row);
+      continue;
+    }
+    Cone cone{sign * room.row, Eigen::MatrixXd(B - 1, free_.cols()),
+              sign * room.normal * coefficient_of_friction(slot)};
+    for (int k = 0, row = 0; k < B; ++k)
+      if (problem.constraints.tangential[slot] >> k & 1u)
+        cone.along.row(row++) = motions_.along(problem, room.vertex, k) * free_;
+    if (cone.size() > negligible) out.cones.push_back(std::move(cone));
+  }
+}
+
+template <int D, int B>
+auto LooseBody<D, B>::ends() const -> Ends {
+  Ends out{AllowedMotions(free_.cols()), {}, {}};
+  for (const Room& room : rooms(discretization_.problem.start)) add_end(room, out);
+  return out;
+}
+
+template <int D, int B>
+bool LooseBody<D, B>::needs_friction() const {
+  if (free_.cols() == 0) return false;
+  AllowedMotions allowed(free_.cols());
+  for (const Room& room : rooms(discretization_.problem.start))
+    if (room.row.norm() > negligible) allowed.bound(room.row, room.lower, room.upper);
+  return allowed.nearest(work_).norm() > negligible * most_work_;
+}
+
 template <int D, int B>
 void LooseBody<D, B>::require_minimum() const {
   const double enough = negligible * most_work_;
   if (free_.cols() == 0 || !(work_.norm() > enough)) return;
-  AllowedMotions allowed(free_.cols());
-  std::vector<Eigen::RowVectorXd> rows;
-  for (const Room& room : rooms(discretization_.problem.start)) {
-    allowed.bound(room.row, room.lower, room.upper);
-    rows.push_back(room.row);
-  }
+  Ends ends = this->ends();
   // What is left of the loads is a direction only if it is one by itself, too, and not rounding.
-  const Eigen::VectorXd left = allowed.nearest(work_);
+  const Eigen::VectorXd left = ends.nearest(work_, enough);
   if (!(left.norm() > enough)) return;
   const auto falls = [&](const Eigen::VectorXd& motion) {
-    return allowed.least_rate(motion) >= -negligible * motion.norm() &&
+    std::size_t cone = 0;
+    return ends.allowed.least_rate(motion) >= -negligible * motion.norm() && ends.worst(motion, cone) >= -negligible &&
            work_.dot(motion) - resistance(free_ * motion) > enough * motion.norm();
   };
-  Eigen::VectorXd motion = along_bounds(work_, left, rows);
-  if (!falls(motion)) motion = allowed.nearest(left.normalized());
-  if (!falls(motion)) return;
-  throw Error(Exit::no_solution,
-              fmt::format("{}: no solution: the energy is unbounded below: nothing holds the body against the loads, "
-                          "which do work along this motion: {} (contact is linearised about the undeformed body)",
-                          model_.origin, motions_.describe(free_ * motion)));
+  Eigen::VectorXd motion = along_bounds(work_, left, ends.rows);
+  if (!falls(motion)) motion = ends.nearest(left.normalized(), negligible);
+  if (falls(motion))
+    throw Error(Exit::no_solution, fmt::format("{}: no solution: {} (contact is linearised about the undeformed body)",
+                                               model_.origin, describe_fall(ends, motion)));
+}
+
+/// Friction takes what the motion along the obstacles gains over the one that leaves them.
+template <int D, int B>
+std::string LooseBody<D, B>::describe_fall(const Ends& ends, const Eigen::VectorXd& motion) const {
+  const Eigen::VectorXd slide = ends.slide(motion);
+  const double taken = 1 - work_.dot(motion) / work_.dot(slide);
+  if (!ends.cones.empty() && slide.norm() > decided * motion.norm() && taken > decided)
+    return fmt::format(
+        "friction does not hold the body against the loads: of the work that these do along this motion it takes "
+        "{:.6g} "
+        "% at most: {}",
+        100 * taken, motions_.describe(free_ * slide));
+  return fmt::format(
+      "the energy is unbounded below: nothing holds the body against the loads, which do work along this motion: {}",
+      motions_.describe(free_ * motion));
 }
 
 // What functionals, such as friction, take of the work along a motion that goes on.
@@ -233,7 +330,7 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   add(motion, step);
   double size = 0, extent = 0;
   for (const double v : step) size = std::max(size, std::abs(v));
-  if (follows_solution(problem.segments) && slides_along(step, negligible * size)) return infinity;
+  if (slides_along(step, negligible * size)) return infinity;
   for (const double v : problem.constraints.last) extent = std::max(extent, std::abs(v));
   for (const Point<D>& x : nodes_.mesh().points)
     for (const double v : x) extent = std::max(extent, std::abs(v));
@@ -241,14 +338,15 @@ double LooseBody<D, B>::resistance(const Eigen::VectorXd& motion) const {
   return functional::slope(problem, far.data(), step.data());
 }
 
-// Whether a functional that follows the solution may resist a motion as much as loads press: one that goes along its
-// obstacle and does not leave it. Friction also resists a motion that leaves it by less than the coefficient of what it
-// goes along: what presses does less work there than friction takes.
+// Whether a functional that follows the solution, by a law that is not known, may resist a motion as much as loads
+// press: one that goes along its obstacle and does not leave it.
 template <int D, int B>
 bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least) const {
   const Constraints<B>& c = discretization_.problem.constraints;
   for (Index slot = 0; slot < c.size(); ++slot) {
     if (discretization_.functional[slot] < 0) continue;
+    const Obstacle<B>& obstacle = *model_.obstacles[discretization_.functional[slot]].obstacle;
+    if (!obstacle.renewal() || obstacle.friction()) continue;
     double away = 0, along = 0;
     for (int k = 0; k < B; ++k) {
       const double v = step[Offset{c.vector[slot]} * B + k];
@@ -257,13 +355,14 @@ bool LooseBody<D, B>::slides_along(const std::vector<double>& step, double least
       else
         away = std::max(away, v);
     }
-    if (along > least && away <= std::max(least, coefficient_of_friction(slot) * along)) return true;
+    if (along > least && away <= least) return true;
   }
   return false;
 }
 
 template <int D, int B>
 double LooseBody<D, B>::coefficient_of_friction(Index slot) const {
+  if (discretization_.functional.empty() || discretization_.functional[slot] < 0) return 0;
   const Constraints<B>& c = discretization_.problem.constraints;
   const Friction* friction = model_.obstacles[discretization_.functional[slot]].obstacle->friction();
   return friction ? friction->law(c.data.data() + Offset{slot} * c.width).coefficient : 0;
@@ -426,16 +525,6 @@ bool LooseBody<D, B>::is_far_away(const std::vector<double>& x) const {
   const Eigen::Index ways = motion.size() / Motions::modes * Motions::translations;
   const Eigen::VectorXd way = motion.head(ways), turn = motion.tail(motion.size() - ways);
   return way.cwiseAbs().maxCoeff() > far * motions_.size() || turn.cwiseAbs().maxCoeff() > motions_.size();
-}
-
-template <int D, int B>
-std::string LooseBody<D, B>::way(const std::vector<double>& x) const {
-  constexpr double little = 0.1;  // of the largest part
-  Eigen::VectorXd motion = nearest_motion(x);
-  const double largest = motion.cwiseAbs().maxCoeff();
-  for (double& part : motion)
-    if (std::abs(part) < little * largest) part = 0;
-  return motions_.describe(motion);
 }
 
 // A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "amg/coarse/allowed_motions.hpp"
 #include "core/fem/discretize.hpp"
 #include "core/fem/rigid_motions.hpp"
 
@@ -19,10 +20,13 @@ class LooseBody {
   /// Whether the prescribed values leave it no motion.
   bool held() const { return free_.cols() == 0; }
 
-  /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends: then the energy
-  /// has no minimum. Friction takes its part
-  /// of the work; whether it stops all other motions too is not looked at. Exact but for rounding: a motion counts
-  /// whose work is more than 1e-10 of what the loads could do.
+  /// Whether nothing but friction may hold the body: the loads do work along a motion that no bound ends.
+  bool needs_friction() const;
+
+  /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends, whatever
+  /// friction takes of that work: then no forces within the cones of friction bear the loads, and without friction the
+  /// energy has no minimum. Exact but for rounding: a motion counts whose work is more than 1e-10 of what the loads
+  /// could do. (Where such forces are, Coulomb's law may yet have no solution.)
   void require_minimum() const;
 
   /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where
@@ -31,10 +35,8 @@ class LooseBody {
   /// @return the way of the undeformed body there (local coordinates); empty: it stays where it is
   std::vector<double> fall(std::vector<double>& x) const;
 
-  /// Names the motion that takes the undeformed body nearest to x (local coordinates), of those that the prescribed
-  /// values leave.
-  std::string way(const std::vector<double>& x) const;
-  /// Whether that motion is beyond linearised contact: more than a turn by one radian, or than a way of a hundred times
+  /// Whether the motion that takes the undeformed body nearest to x (local coordinates), of those that the prescribed
+  /// values leave, is beyond linearised contact: more than a turn by one radian, or than a way of a hundred times
   /// the size of the body.
   bool is_far_away(const std::vector<double>& x) const;
 
@@ -51,12 +53,44 @@ class LooseBody {
     Index vertex;
     Eigen::RowVectorXd row;
     double lower, upper;
+    double normal;  ///< component of the bounded direction along the one that presses against friction
+  };
+
+  /// What friction leaves to motions c: those that leave an obstacle by at least `coefficient` times their way along
+  /// it. Against all others a force within its cone does work.
+  struct Cone {
+    Eigen::RowVectorXd away;
+    Eigen::MatrixXd along;  ///< one row per tangential direction
+    double coefficient;
+
+    double size() const { return away.norm() + coefficient * along.norm(); }
+    double excess(const Eigen::VectorXd& c) const { return away.dot(c) - coefficient * (along * c).norm(); }
+    /// What a linear condition says of the same where it goes along as c.
+    Eigen::RowVectorXd cut(const Eigen::VectorXd& c) const {
+      return away - coefficient * (along * c).normalized().transpose() * along;
+    }
+  };
+
+  /// What ends motions that go on.
+  struct Ends {
+    AllowedMotions allowed;
+    std::vector<Eigen::RowVectorXd> rows;  ///< of what it knows
+    std::vector<Cone> cones;
+
+    void add(const Eigen::RowVectorXd& row);
+    double worst(const Eigen::VectorXd& motion, std::size_t& cone) const;
+    Eigen::VectorXd nearest(const Eigen::VectorXd& work, double enough);
+    Eigen::VectorXd slide(const Eigen::VectorXd& motion) const;
   };
 
   void add_work();
+  Ends ends() const;
+  void add_end(const Room& room, Ends& out) const;
+  std::string describe_fall(const Ends& ends, const Eigen::VectorXd& motion) const;
   Eigen::VectorXd nearest_motion(const std::vector<double>& x) const;
   double resistance(const Eigen::VectorXd& motion) const;
   double coefficient_of_friction(Index slot) const;
+  int normal_component(Index slot) const;
   bool slides_along(const std::vector<double>& step, double least) const;
   std::vector<double> as_prescribed() const;
   bool is_near(const typename Motions::Motion& motion) const;

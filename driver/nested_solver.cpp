@@ -125,6 +125,10 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     prescribe(problem, discretization.prescribed);
   }
   solution.x = problem.start;
+  const LooseBody<D, B> body(nodes_[level], model, solution.discretization);
+  problem.loose = before_[level].u.empty() && body.needs_friction();
+  // Where friction is too weak coarse meshes tell it early. (Without it they may be solved all the same.)
+  if (!solution.discretization.functional.empty()) body.require_minimum();
   times_.assemble += watch.elapsed();
   return solution;
 }
@@ -451,8 +455,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
   const LooseBody<D, B> body(nodes(), model, solution.discretization);
-  body.require_minimum();
   const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
+  if (moves) body.require_minimum();
   SolverOptions options = options_;
   if (may_fall_back())
     options.max_iterations = std::min(options.max_iterations, moves ? patience_with_matrix : patience_with_friction);
@@ -469,8 +473,6 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
         "friction does not hold the body against the loads, but for places that are so far away that linearised "
         "contact means nothing there";
   }
-  if (!moves && !body.held() && solution.summary.outcome == Outcome::stuck)
-    solution.summary.reason += fmt::format("; the way of the body until then is mostly a {}", body.way(solution.x));
 }
 
 /// The solution on the next coarser mesh than the finest one, as far as that gives a start.

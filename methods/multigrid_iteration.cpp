@@ -6,7 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/solver/functional.hpp"
 #include "core/solver/rounding.hpp"
+#include "core/solver/sticking.hpp"
 #include "methods/automatic.hpp"
 
 namespace signorini {
@@ -64,10 +66,9 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
-      nonlinear_(multigrid_.finest().nonlinear),
-      renewal_(options) {
+      nonlinear_(multigrid_.finest().nonlinear) {
   if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints, options.tolerance);
-  multigrid_.follow_in_sweeps(this->follows() && renewal_.in_sweeps());
+  if (this->follows() && problem.loose) stick_everywhere(problem, x);
 }
 
 template <int B>
@@ -85,7 +86,7 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
   const bool free = goes_without_bounds();
   multigrid_.search_lines(free);
   multigrid_.extend_steps(!free && may_turn_ && rests_);
-  if (this->follows() && renewal_.due()) renewal_.next(this->data_, multigrid_.frozen());
+  if (this->follows()) renew();
   ++cycles_;
   sums = {};
   recombination_.begin();
@@ -136,6 +137,16 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
 template <int B>
 double MultigridIteration<B>::remaining_error() const {
   return this->follows() || load_ ? std::max(estimate_.error(), estimate_.error_of_steps()) : estimate_.error();
+}
+
+// The forces on a start, which may be as rough as zero or an interpolation, bound friction by next to nothing: what
+// that alone holds would slide away in the first cycle, and hardly come back. So nothing slips in that one.
+template <int B>
+void MultigridIteration<B>::renew() {
+  std::vector<double>& frozen = multigrid_.frozen();
+  if (cycles_ > 0 || !this->problem_.loose) return renewal_.next(this->data_, frozen);
+  frozen = this->data_;
+  functional::press_beyond_measure(multigrid_.finest(), this->x_.data(), frozen.data());
 }
 
 template <int B>
@@ -290,8 +301,7 @@ void MultigridIteration<B>::add_gain() {
   this->refuse_nan(sums.size);
 #ifdef SIGNORINI_CHECKS
   // A step between nearly parallel facets is known to rounding over their angle only: there this does not tell.
-  // Sweeps that follow the solution lower no energy.
-  if (this->problem_.constraints.facet.empty() && multigrid_.finest().frozen)
+  if (this->problem_.constraints.facet.empty())
     assert(sums.gain >= -1e-8 * sums.size - rounding_of_gain() && "the energy must never grow");
 #endif
   estimate_.add(sums.gain, std::sqrt(std::max(sums.correction, 0.0)));

@@ -33,6 +33,7 @@ class MultigridIteration final : public Iteration<B> {
   Step advance() override;
   std::optional<double> response(const std::vector<double>& forces, double enough) override;
   void begin_where_it_rests();
+  void renew();
   bool goes_without_bounds() const;
   void compare_gains(bool free, bool cut_off);
   bool loses_patience() const;

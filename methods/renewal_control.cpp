@@ -4,11 +4,7 @@
 
 #include <algorithm>
 
-#include "core/solver/option_table.hpp"
-
 namespace signorini {
-
-RenewalControl::RenewalControl(const SolverOptions& options) : when_(choice<When>(options, &SolverOptions::renew)) {}
 
 void RenewalControl::next(const std::vector<double>& follows, std::vector<double>& frozen) {
   relax(follows, frozen);
@@ -38,7 +34,6 @@ void RenewalControl::relax(const std::vector<double>& follows, const std::vector
 }
 
 void RenewalControl::add(double natural_residual) {
-  ++cycles_;
   if (natural_residual <= enough * least_) {
     least_ = natural_residual;
     idle_ = 0;

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "core/solver/options.hpp"
 
 namespace signorini {
 
@@ -12,15 +11,8 @@ namespace signorini {
 /// there may be no solution, or several.
 class RenewalControl {
  public:
-  enum class When { cycle, sweep, outer };  ///< as option `renew` has them
-
-  explicit RenewalControl(const SolverOptions& options);
-
-  bool in_sweeps() const { return when_ == When::sweep; }
-  /// Whether the next cycle begins with data that are renewed.
-  bool due() const { return when_ != When::outer || cycles_ % cycles_between == 0; }
-  /// Replaces what was frozen in the last cycles by what is to be frozen in the next one.
-  /// @param follows what follows from their iterate
+  /// Replaces what was frozen in the last cycle by what is to be frozen in the next one.
+  /// @param follows what follows from its iterate
   void next(const std::vector<double>& follows, std::vector<double>& frozen);
   /// A cycle has ended with this natural residual.
   void add(double natural_residual);
@@ -30,15 +22,13 @@ class RenewalControl {
  private:
   void relax(const std::vector<double>& follows, const std::vector<double>& frozen);
 
-  static constexpr int cycles_between = 4;  ///< of When::outer
-  static constexpr int patience = 15;       ///< cycles in which the residual has to fall
-  static constexpr double enough = 0.7;     ///< to so much of what it was
+  static constexpr int patience = 15;    ///< cycles in which the residual has to fall
+  static constexpr double enough = 0.7;  ///< to so much of what it was
   static constexpr double least_part = 1.0 / 16, least_relaxation = 1.0 / 8;
 
-  When when_;
   double part_ = 1, relaxation_ = 1, least_ = infinity;
   std::vector<double> difference_;  // of what followed last and what was frozen
-  int cycles_ = 0, idle_ = 0;
+  int idle_ = 0;
 };
 
 }  // namespace signorini

@@ -97,7 +97,7 @@ class Automatic {
     const double begin = seconds();
     SolverOptions own = options_;
     own.method = rule.method;
-    if (rule.kind == automatic::Kind::cycles_again && situation_.following) own.method = "auto", own.krylov = false;
+    if (rule.kind == automatic::Kind::cycles_again) own.krylov = false;
     own.max_iterations = std::min(own.max_iterations, rule.most_steps);
     const bool longer = situation_.following && rule.patience.first < automatic::patience_with_loads.first;
     MultigridIteration<B> loop(problem_, prolongations_, x_, own, components(rule), situation_,

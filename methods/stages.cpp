@@ -19,7 +19,7 @@ constexpr int interior_points = 60;
 // Each step may need a dozen factorisations. (Slender bodies of 40 000 unknowns, of which rounding leaves no solution,
 // took eight minutes.)
 constexpr Offset most_for_newton = 12'000;
-constexpr int newton_steps = 40, friction_steps = 20, bounded_cycles = 120;
+constexpr int newton_steps = 40, friction_steps = 20, plain_cycles = 120;
 // With friction matrices have no symmetry, with pressures they are indefinite, and each step is a factorisation.
 constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'000;
 
@@ -76,17 +76,15 @@ const std::vector<StageRule>& stages() {
        .begins = "at once, otherwise",
        .ends = patience(patience_with_cycles),
        .purpose = "most problems are solved here"},
-      {.name = "cycles with bounds",
+      {.name = "cycles without acceleration",
        .kind = Kind::cycles_again,
-       .method = "monotone",
+       .method = "auto",
        .solver = "",
-       .suits = [](const Situation& s) { return s.functional && s.begun && (s.slow || s.following); },
-       .begins =
-           "with friction, if the cycles before were slow; with nearly incompressible material. From where those began",
-       .ends = fmt::format("if friction does not come to rest, or after {} cycles", bounded_cycles),
-       .purpose = "stacks that only friction holds: corrections without bounds throw them down. Rubber: without "
-                  "acceleration, and also with corrections without bounds",
-       .most_steps = bounded_cycles,
+       .suits = [](const Situation& s) { return s.begun && s.following; },
+       .begins = "with nearly incompressible material, from where the cycles before began",
+       .ends = fmt::format("if friction does not come to rest, or after {} cycles", plain_cycles),
+       .purpose = "rubber that the accelerated ones do not solve",
+       .most_steps = plain_cycles,
        .patience = endless},
       {.name = "cycles from zero",
        .kind = Kind::cycles_from_zero,

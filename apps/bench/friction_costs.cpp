@@ -125,25 +125,6 @@ void print_without_friction(bool quick) {
   if (!quick) compare(space_steps(4, 1), 9);
 }
 
-/// A scene with each of the ways to renew: cycles and time over that of the first.
-void ways(const FrictionScene& scene, double friction, int count) {
-  std::string cells;
-  std::vector<std::vector<double>> seconds(3);
-  const char* const values[] = {"cycle", "sweep", "outer"};
-  Steps last[3];
-  for (int k = 0; k < count; ++k)
-    for (int way = 0; way < 3; ++way) {
-      last[way] = solve(scene.with(friction, {fmt::format("solver.renew={}", values[way])}));
-      seconds[way].push_back(last[way].whole());
-    }
-  for (int way = 0; way < 3; ++way) {
-    std::vector<double> ratios(seconds[way]);
-    for (int k = 0; k < count; ++k) ratios[k] /= seconds[0][k];
-    cells += last[way].solved ? fmt::format(" {} ({:.2f}) |", list(last[way].cycles), median(ratios)) : " none |";
-  }
-  row(fmt::format("| {} | {:.0f} | {} |{}", scene.name, last[0].unknowns, friction, cells));
-}
-
 /// Ends a solve once it has used so many seconds of processor time, and the step of its method is over.
 class TimeLimit final : public Progress {
  public:
@@ -244,23 +225,6 @@ void print_friction_scenes(bool quick) {
   rows(pressed, "block, order 2", {4 - less, 6 - less, 7 - less}, {"body.0.order=2"}, 0.3);
   rows(pressed, "block, Poisson's ratio 0.4999", {4 - less, 6 - less}, {"body.0.poisson=0.4999"}, 0.3);
   rows(ball, "ball", {1 - less, 2 - less}, {}, 0.3);
-}
-
-void print_friction_renewal(bool quick) {
-  const int less = quick ? 1 : 0, count = quick ? 1 : 5;
-  fmt::print(
-      "## When the bounds are renewed\n\n| scene | unknowns | friction | `cycle` | `sweep` | `outer` |\n| --- | --- | "
-      "--- | --- | --- | --- |\n");
-  for (const double friction : {0.1, 0.3, 0.6, 1.0}) {
-    ways(block_2d("block 2D, (0.03, -0.03)", "[0.03, -0.03]", 5 - less), friction, count);
-    ways(block_2d("block 2D, (0.1, -0.01)", "[0.1, -0.01]", 5 - less), friction, count);
-    ways(plane_steps(5 - less, 4), friction, count);
-    ways(wedge(3 - less), friction, count);
-    ways(block_3d("block 3D, (0.03, 0.015, -0.03)", "[0.03, 0.015, -0.03]", 3 - less), friction, count);
-    ways(block_3d("block 3D, (0.1, 0.05, -0.01)", "[0.1, 0.05, -0.01]", 3 - less), friction, count);
-    ways(space_steps(3 - less, 4), friction, count);
-    ways(ball(2 - less), friction, count);
-  }
 }
 
 void print_friction_direct(bool quick) {

@@ -11,9 +11,6 @@ void print_friction_costs(bool quick);
 /// nearly incompressible material, a ball.
 void print_friction_scenes(bool quick);
 
-/// Prints cycles and time with each value of the option `renew`.
-void print_friction_renewal(bool quick);
-
 /// Prints the time of method "newton", with its direct solver, over that of the default. It is stopped where it
 /// takes far longer.
 void print_friction_direct(bool quick);

@@ -199,7 +199,6 @@ const Table tables[] = {
     {"--friction-costs", "only cycles and time of steps with friction beside those without",
      sized<print_friction_costs>},
     {"--friction-scenes", "only the same on scenes of other kinds", sized<print_friction_scenes>},
-    {"--friction-renewal", "only when the bounds of friction are best renewed", sized<print_friction_renewal>},
     {"--friction-direct", "only friction by cycles beside Newton's method with a direct solver",
      sized<print_friction_direct>},
     {"--bodies",

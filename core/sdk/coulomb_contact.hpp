@@ -10,10 +10,11 @@ namespace signorini {
 /// Contact and friction by Coulomb's law: |tau| <= mu times the force that presses, at each vertex.
 /// @tparam Contact RigidContact<B> or ElasticContact<B>: what may not be penetrated
 template <int B, class Contact>
-class CoulombContact final : public FunctionalObstacle<B, GivenFriction<B>, CoulombSolver<B>, GivenFrictionModel<B>>,
-                             public Renewal<B>,
-                             public Scaling,
-                             public Friction {
+class CoulombContact final
+    : public FunctionalObstacle<B, GivenFriction<B>, GivenFrictionSolver<B>, GivenFrictionModel<B>>,
+      public Renewal<B>,
+      public Scaling,
+      public Friction {
  public:
   /// The row of a table of options that goes with it, beside those of Contact.
   static constexpr OptionSpec friction_option = {"friction", OptionType::field, "", "[0, inf)",

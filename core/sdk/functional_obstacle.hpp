@@ -13,7 +13,6 @@ struct Slot {
   const double* data;              ///< as LocalConstraint::data
   const double* last;              ///< its values after the last load step, zero in the first
   Flags tangential;                ///< components orthogonal to the obstacle's direction
-  bool frozen = true;              ///< as LevelView::frozen
   const double* before = nullptr;  ///< data at the end of the last load step, zero in the first
 };
 
@@ -99,13 +98,8 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
 
  protected:
   static Slot<B> slot_of(const LevelView<B>& level, Index slot) {
-    return {level.lower + Offset{slot} * B,
-            level.upper + Offset{slot} * B,
-            level.data + Offset{slot} * level.width,
-            level.last + Offset{slot} * B,
-            level.tangential[slot],
-            level.frozen,
-            level.before + Offset{slot} * level.width};
+    return {level.lower + Offset{slot} * B, level.upper + Offset{slot} * B, level.data + Offset{slot} * level.width,
+            level.last + Offset{slot} * B,  level.tangential[slot],         level.before + Offset{slot} * level.width};
   }
 
  private:
@@ -117,12 +111,11 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
       Solver::minimise(slot_of(level, slot), M, r, x, y);
       return true;
     }
-    Slot<B> convex = slot_of(level, slot);
-    convex.frozen = true;
+    const Slot<B> own = slot_of(level, slot);
     const auto with_force = [&](const double* force, double* out) {
       double sum[B];
       for (int i = 0; i < B; ++i) sum[i] = r[i] + force[i];
-      Solver::minimise(convex, M, sum, x, out);
+      Solver::minimise(own, M, sum, x, out);
     };
     double stiffness[B];
     for (int i = 0; i < B; ++i) stiffness[i] = M[i * (B + 1)];

@@ -37,9 +37,6 @@ struct LevelView {
   const Flags* tangential;  ///< per slot: components orthogonal to the obstacle's direction; null like `data`
   const Offset* facet_row;  ///< slots + 1: where the facets of each begin; null where no slot has any
   const Facet<B>* facet;
-  /// Sweeps leave what Renewal::renew() writes as it is; else they let it follow the vector that they move, where
-  /// the obstacle can do so.
-  bool frozen = true;
   /// `width` per slot: `data` at the end of the last load step, as renew() left them; zero in the first.
   const double* before = nullptr;
 };

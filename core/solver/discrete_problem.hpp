@@ -166,6 +166,8 @@ struct DiscreteProblem {
   std::shared_ptr<const Jumps<B>> jumps;
   FollowingLoad<B>* following = nullptr;  ///< a part of b that follows the solution; null: none. Not owned
   std::vector<Segment<B>> segments;       ///< cover all vectors in ascending order; empty when there is no obstacle
+  /// Whether nothing but friction holds it against its loads, and no load step before tells what presses.
+  bool loose = false;
   /// Whether a factorisation of A costs no more than some cycles, so that A needs no coarser level.
   bool cheap_to_factorise = false;
 };

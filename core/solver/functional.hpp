@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <vector>
 
 #include "core/algebra/products.hpp"
@@ -124,6 +125,30 @@ void renew(const Level<B>& level, const double* x, const double* r, Index first,
   view.x = const_cast<double*>(x);
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     if (const Renewal<B>* renewal = s.obstacle->renewal()) renewal->renew(view, begin, end, r, data);
+  });
+}
+
+/// Lets friction hold all in the next cycle: what is frozen in phi, as it were if obstacles pressed beyond measure.
+/// @param data of what is no friction, too; like Constraints::data
+template <int B>
+void press_beyond_measure(const Level<B>& level, const double* x, double* data) {
+  constexpr double much = 1e6;  // over coefficients of friction
+  double loads = 0;
+  for (Index p = 0; p < level.vectors; ++p)
+    for (int k = 0; k < B; ++k)
+      if (!(level.off[p] >> k & 1u)) loads += std::abs(level.b[Offset{p} * B + k]);
+  const Constraints<B>& c = level.constraints;
+  std::vector<double> r(static_cast<std::size_t>(level.vectors) * B, -much * loads);
+  for (Index slot = 0; slot < c.size(); ++slot)
+    for (int k = 0; k < B; ++k) {
+      const Offset at = Offset{c.vector[slot]} * B + k;
+      const double gap = x[at] - c.lower[Offset{slot} * B + k];
+      if (gap > 0 && gap < infinity) r[at] -= level.A->diagonal(c.vector[slot])[k * (B + 1)] * gap;
+    }
+  LevelView<B> view = level.view();
+  view.x = const_cast<double*>(x);
+  level.for_each_segment(0, level.vectors, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
+    if (s.obstacle->renewal() && s.obstacle->friction()) s.obstacle->renewal()->renew(view, begin, end, r.data(), data);
   });
 }
 

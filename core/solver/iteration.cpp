@@ -159,7 +159,6 @@ void Iteration<B>::add_natural_residual(std::vector<double>& x, Index first, Ind
   const Level<B>& level = finest();
   LevelView<B> view = level.view();
   view.x = x.data();
-  view.frozen = true;
   if (follows()) view.data = data_.data();
   level.for_each_segment(first, last, Order::forward, [&](const Segment<B>& s, Index begin, Index end) {
     largest = block::larger(largest, s.obstacle->natural_residual(view, begin, end, r.data()));

@@ -97,7 +97,6 @@ template <int B>
 struct Level : LevelSystem<B> {
   std::vector<Segment<B>> segments;
   bool nonlinear = false;         ///< an obstacle of this level adds to the energy
-  bool frozen = true;             ///< LevelView::frozen
   double relaxation = 1;          ///< of sweeps: LevelView::relaxation
   double inherited_rounding = 0;  ///< rounding_of_work() of the finer levels
 
@@ -190,7 +189,6 @@ struct Level : LevelSystem<B> {
             c.tangential.data(),
             c.facet_row.empty() ? nullptr : c.facet_row.data(),
             c.facet.data(),
-            frozen,
             c.before.data()};
   }
 

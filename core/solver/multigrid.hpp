@@ -76,10 +76,6 @@ class MonotoneMultigrid {
   /// What functionals keep frozen during cycles, see Constraints::data: to be renewed between them.
   std::vector<double>& frozen() { return levels_.back().constraints.data; }
 
-  /// From now on sweeps of the finest level let it follow the vectors that they move: LevelView::frozen; or no longer
-  /// so.
-  void follow_in_sweeps(bool on) { levels_.back().frozen = !on; }
-
   /// Subtracts the gradient of the functionals at x, where these are smooth.
   void subtract_gradient(const double* x, double* r);
 

@@ -67,10 +67,6 @@ constexpr OptionRow<S> table[] = {
     {"aggregates", &S::aggregates, "",
      "what makes the aggregates of smoothed aggregation, of `signorini list aggregates`", of_levels,
      "\"greedy\" or \"metis\". Refused where levels are asked for that have none."},
-    {"renew", &S::renew, "cycle | sweep | outer",
-     "when obstacles take anew what they keep frozen of the solution, as Coulomb friction does with the normal force: "
-     "after every cycle; then and in sweeps, within the vector that they move; or after every fourth cycle",
-     always, "See docs/theory/friction.md."},
     {"krylov", &S::krylov, "", "accelerate the cycles while the phases rest", always,
      "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
      "docs/theory/monotone_multigrid.md."},

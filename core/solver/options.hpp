@@ -22,7 +22,6 @@ struct SolverOptions {
   bool reassemble = true;      ///< renew the matrices of algebraic levels where phases have changed
   std::string reach = "all";   ///< all or twins: what corrects constrained vectors from algebraic levels
   std::string interpolate = "global";  ///< global or local: components between algebraic levels
-  std::string renew = "cycle";         ///< cycle, sweep or outer: when functionals that follow the solution are renewed
   bool krylov = true;                  ///< accelerate the cycles while the phases rest
   int threads = 1;                     ///< at most; small problems start none, and results do not depend on them
 };

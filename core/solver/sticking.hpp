@@ -40,6 +40,16 @@ void rest_where_prescribed(DiscreteProblem<B>& problem) {
   }
 }
 
+/// Lets all of x be where it was after the last load step, along the obstacles.
+template <int B>
+void stick_everywhere(const DiscreteProblem<B>& problem, std::vector<double>& x) {
+  const Constraints<B>& c = problem.constraints;
+  for (std::size_t slot = 0; slot < c.tangential.size(); ++slot)
+    for (int k = 0; k < B; ++k)
+      if ((c.tangential[slot] & ~problem.fixed[c.vector[slot]]) >> k & 1u)
+        x[Offset{c.vector[slot]} * B + k] = c.last[slot * B + k];
+}
+
 /// Lets vectors of a start on the finer level stick where all of the coarse slots stick that they are interpolated
 /// from. Interpolation makes them slip a little, and cycles would find the way back from the edge of what sticks
 /// inwards only, a few layers each.

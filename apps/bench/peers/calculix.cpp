@@ -112,7 +112,7 @@ void row(const char* solver, const Solve& s, double first, const Forces& exact) 
 void compare(const fs::path& folder, int refinements, bool direct, double limit) {
   const FrictionScene scene = block_3d("block", "[0.01, 0.005, -0.03]", refinements);
   const Forces exact =
-      own(scene, {direct ? "solver.method=newton" : "solver.renew=sweep", "solver.tolerance=1e-12"}).forces;
+      own(scene, {direct ? "solver.method=newton" : "solver.method=auto", "solver.tolerance=1e-12"}).forces;
   const Solve ours = own(scene, {});
   row("signorini", ours, ours.seconds, exact);
   Driver driver(scene.with(friction));
