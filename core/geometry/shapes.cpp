@@ -12,6 +12,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
+#include "core/geometry/vector.hpp"
 #include "core/geometry/zero_set.hpp"
 
 namespace signorini::geometry {
@@ -22,11 +23,7 @@ using Components = std::vector<Field>;
 
 constexpr double word = 1e-6;      // of one: how far slopes that are meant to be one or zero may be off
 constexpr double settled = 1e-12;  // of a distance: the last step towards it
-constexpr int most_steps = 60;
-
-double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
-Point<3> scaled(double s, const Point<3>& a) { return {s * a[0], s * a[1], s * a[2]}; }
-Point<3> minus(const Point<3>& a, const Point<3>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+constexpr int most_newton_steps = 60;
 
 /// The parameters of a shape at a site, and what its distance is there.
 using Evaluation = std::function<Distance(const Site&)>;
@@ -167,7 +164,7 @@ ImplicitFunction around(const Field& distance, const Site& site, int dimension) 
 double along_normal(const ImplicitFunction& f, const Point<3>& x, const Point<3>& n) {
   const auto at = [&](double s) { return f({x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]}); };
   double s = 0;
-  for (int k = 0; k < most_steps; ++k) {
+  for (int k = 0; k < most_newton_steps; ++k) {
     const Point<3> here{x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]};
     const double step = at(s) / dot(f.gradient(here), n);
     if (!std::isfinite(step)) break;

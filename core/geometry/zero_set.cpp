@@ -9,6 +9,7 @@
 
 #include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
+#include "core/geometry/vector.hpp"
 
 namespace signorini::geometry {
 namespace {
@@ -17,20 +18,14 @@ const double first_step = std::cbrt(std::numeric_limits<double>::epsilon());  //
 const double second_step = std::sqrt(std::sqrt(std::numeric_limits<double>::epsilon()));
 constexpr double believed = 1e-8;      // of a function's value: what is left at the point that it says is nearest
 constexpr double at_zero = 1e-11;      // of the distance: the same of a point that was found, and
-constexpr double across = 1e-8;        // how far it is off the normal; the distance is off by the square of that
+constexpr double off_normal = 1e-8;    // how far it is off the normal; the distance is off by the square of that
 constexpr double at_corner = 1e-9;     // likewise, of the scale, where differences are taken across edges
 constexpr double rounding = 1e-13;     // of the scale
 constexpr double kink = 1e-2;          // of the gradient
 constexpr double least_bowl = 0.1;     // of the identity: below that a stationary point may be a farthest one
 constexpr double independent = 1e-10;  // pivot of unit vectors' products
-constexpr int most_steps = 60, most_halvings = 12;
+constexpr int most_steps_there = 60, most_halvings = 12;
 constexpr std::size_t most_planes = 14;
-
-Point<3> plus(const Point<3>& a, double s, const Point<3>& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
-Point<3> minus(const Point<3>& a, const Point<3>& b) { return plus(a, -1, b); }
 
 /// A function at a point: its value as a length, and the unit vector along which it grows.
 struct Local {
@@ -68,12 +63,12 @@ class Search {
   /// Newton's method from some point; nothing where it ends nowhere.
   std::optional<Distance> newton(const Point<3>& start) const {
     Local y = local(f_, start);
-    for (int k = 0; k < most_steps && y.ok(); ++k) {
+    for (int k = 0; k < most_steps_there && y.ok(); ++k) {
       const Point<3> to = minus(x_, y.at);
       const double along = dot(to, y.normal), far = norm(to);
       const Point<3> off = plus(to, -along, y.normal);
       const double small = rounding * f_.scale();
-      if (std::abs(y.distance) <= at_zero * far + small && norm(off) <= across * far + small && faces(y))
+      if (std::abs(y.distance) <= at_zero * far + small && norm(off) <= off_normal * far + small && faces(y))
         return result(y.at, y.normal);
       const std::optional<Local> next = shortened(y, step(y, along, off));
       if (!next) return {};
@@ -86,7 +81,7 @@ class Search {
   std::optional<Distance> corner() const {
     std::vector<Local> planes;
     add(local(f_, x_), planes);
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < most_steps_there; ++k) {
       if (planes.empty() || !std::ranges::all_of(planes, [](const Local& plane) { return plane.ok(); })) return {};
       const std::optional<Point<3>> z = nearest(planes);
       if (!z) return {};
@@ -124,7 +119,7 @@ class Search {
 
   /// Whether a zero is passed on the way out of the obstacle, not into it.
   bool faces(const Local& y) const {
-    return outside_ * dot(minus(x_, y.at), y.normal) >= -across * norm(minus(x_, y.at)) - rounding * f_.scale();
+    return outside_ * dot(minus(x_, y.at), y.normal) >= -off_normal * norm(minus(x_, y.at)) - rounding * f_.scale();
   }
 
   Distance result(const Point<3>& y, Point<3> normal) const {
