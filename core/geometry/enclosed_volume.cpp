@@ -11,7 +11,7 @@
 namespace signorini::geometry {
 namespace {
 
-struct Side {
+struct FaceSide {
   std::size_t face;
   bool ascends;  ///< the face runs through it from the vertex with the smaller number
 };
@@ -26,8 +26,8 @@ std::vector<std::vector<std::size_t>> merged(const PolygonSoup& surface) {
   return faces;
 }
 
-std::map<Edge, std::vector<Side>> sides_of(const std::vector<std::vector<std::size_t>>& faces) {
-  std::map<Edge, std::vector<Side>> sides;
+std::map<Edge, std::vector<FaceSide>> sides_of(const std::vector<std::vector<std::size_t>>& faces) {
+  std::map<Edge, std::vector<FaceSide>> sides;
   for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t k = 0; k < faces[f].size(); ++k) {
       const std::size_t a = faces[f][k], b = faces[f][(k + 1) % faces[f].size()];
