@@ -35,7 +35,7 @@ namespace {
                                                   found, expected));
 }
 
-constexpr double noticeable = 1e-3;  // of the volume: stresses are off by some times that
+constexpr double noticeable_loss = 1e-3;  // of the volume: stresses are off by some times that
 
 template <int D>
 geometry::Size<D> target_size(const Scene::Body& body, const Progress& progress) {
@@ -95,7 +95,7 @@ struct Mesher {
     double volume = 0;
     for (const Simplex<D>& element : mesh.elements) volume += signed_volume<D>(corners<D>(mesh.points, element));
     const double whole = geometry::enclosed_volume(read_surface(file)), off = volume - whole;
-    if (!(std::abs(off) > noticeable * whole)) return;
+    if (!(std::abs(off) > noticeable_loss * whole)) return;
     warnings->push_back(
         warning<"chord-volume">(body.source.of("size"), 100 * std::abs(off) / whole, off < 0 ? "less" : "more"));
   }
