@@ -12,7 +12,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::size_t batch = 2048;  // edges per call of a plugin
+constexpr std::size_t edges_per_call = 2048;  // of a plugin
 constexpr double no_bend = 1e-13;    // of bounds whose differences are taken
 
 struct Interval {
@@ -56,7 +56,7 @@ class EdgeBends {
     for (std::size_t k = 0; k < bounds_.size(); ++k) {
       if (bounds_[k].obstacle != obstacle) continue;
       if (const auto edge = edge_of(k)) add(*edge);
-      if (edges_.size() == batch) limit(obstacle);
+      if (edges_.size() == edges_per_call) limit(obstacle);
     }
     limit(obstacle);
   }
