@@ -52,14 +52,14 @@ TEST_F(Solve, SaysOnStandardErrorWhyThereIsNoSolution) {
 }
 
 // Every outcome that is no solution: here a pushed block that friction does not hold.
-TEST_F(Solve, SaysSoOfFrictionThatDoesNotComeToRest) {
+TEST_F(Solve, SaysSoOfFrictionThatDoesNotHold) {
   write("block.toml", tables::block("b", "[0, 0]", "[2, 1]", "[8, 4]") + tables::load("b", "[0.0031, -0.01]") +
                           tables::plane("b", "bottom", "[0, 0]", "[0, 1]") + "[refine]\nuniform = 1\n");
   const Ended quiet = signorini(
       {"solve", "block.toml", "--quiet", "--set", "obstacle.0.type=coulomb", "--set", "obstacle.0.friction=0.2"});
-  EXPECT_EQ(quiet.status, 3);
+  EXPECT_EQ(quiet.status, 4);
   EXPECT_EQ(quiet.out, "");
-  EXPECT_THAT(quiet.err, StartsWith("signorini: error: not solved: friction"));
+  EXPECT_THAT(quiet.err, StartsWith("signorini: error: block.toml:1: body.0: no solution: friction does not hold"));
 }
 
 TEST_F(Solve, ReportHoldsThePromisedKeysWithTheirTypes) {
