@@ -13,7 +13,7 @@ namespace signorini {
 namespace {
 
 constexpr std::size_t edges_per_call = 2048;  // of a plugin
-constexpr double no_bend = 1e-13;    // of bounds whose differences are taken
+constexpr double no_bend = 1e-13;             // of bounds whose differences are taken
 
 struct Interval {
   double lower, upper;
