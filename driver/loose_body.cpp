@@ -313,8 +313,7 @@ std::string LooseBody<D, B>::describe_fall(const Ends& ends, const Eigen::Vector
   if (!ends.cones.empty() && slide.norm() > decided * motion.norm() && taken > decided)
     return fmt::format(
         "friction does not hold the body against the loads: of the work that these do along this motion it takes "
-        "{:.6g} "
-        "% at most: {}",
+        "{:.6g} % at most: {}",
         100 * taken, motions_.describe(free_ * slide));
   return fmt::format(
       "the energy is unbounded below: nothing holds the body against the loads, which do work along this motion: {}",

@@ -125,10 +125,11 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
     prescribe(problem, discretization.prescribed);
   }
   solution.x = problem.start;
-  const LooseBody<D, B> body(nodes_[level], model, solution.discretization);
-  problem.loose = before_[level].u.empty() && body.needs_friction();
-  // Where friction is too weak coarse meshes tell it early. (Without it they may be solved all the same.)
-  if (!solution.discretization.functional.empty()) body.require_minimum();
+  if (!solution.discretization.functional.empty()) {
+    const LooseBody<D, B> body(nodes_[level], model, solution.discretization);
+    problem.loose = before_[level].u.empty() && body.needs_friction();
+    body.require_minimum();  // where friction is too weak coarse meshes tell it early
+  }
   times_.assemble += watch.elapsed();
   return solution;
 }
