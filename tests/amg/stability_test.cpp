@@ -4,6 +4,7 @@
 
 #include "amg/black_box.hpp"
 #include "tests/amg/matrices.hpp"
+#include "tests/support/nightly.hpp"
 #include "tests/support/random_problem.hpp"
 
 namespace signorini::test {
@@ -320,7 +321,7 @@ TEST(Stability, UnderdeterminedLeastSquares) {
 // The same in integers, with bounds and a solution in integers: the energy is bounded, and a coarse level may take what
 // rounding leaves of a motion for one that falls for ever.
 TEST(Stability, LeastSquaresInIntegersAreBounded) {
-  for (int seed = 0; seed < 60; ++seed) {
+  for (int seed = 0; seed < nightly(60, 20); ++seed) {
     SCOPED_TRACE(seed);
     Random random(1000 + seed);
     const Index n = 400 + random.below(500), equations = n / 10 + random.below(n / 2), terms = 2 + random.below(4);

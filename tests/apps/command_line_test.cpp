@@ -516,7 +516,7 @@ TEST_F(CommandLine, InterruptEndsTheMeshing) {
                                     "equation = \"diffusion\"\n[[fix]]\nbody = \"b\"\non = \"boundary\"\nvalue = 0\n",
                                     shape, shape[0] == 'd' ? 1e-3 : 0.02));
     const pid_t child = start("signorini", {"check", "round.toml"});
-    wait_until(child, [&] { return megabytes(child) > idle + 45; });
+    wait_until(child, [&] { return megabytes(child) > idle + 20; });
     kill(child, SIGINT);
     const Ended ended = wait_for(child);
     EXPECT_EQ(ended.status, 130);

@@ -42,7 +42,11 @@ TEST_F(Scenes, AllAreSolvedOnTheirCoarsestMeshesAndReportsAgreeWithTheSchema) {
   std::vector<fs::path> reports;
   for (const auto& entry : fs::directory_iterator(scenes)) {
     if (entry.path().extension() != ".toml") continue;
-    solve(entry.path().filename(), {"refine.uniform=0"});
+    std::vector<std::string> coarse{"refine.uniform=0"};
+    // Its coarsest mesh is a fine one.
+    if (entry.path().stem() == "partial_slip_3d")
+      coarse.emplace_back("body.0.size=0.07 + 0.5 * max(0, sqrt(x^2 + y^2 + z^2) - 0.11)");
+    solve(entry.path().filename(), coarse);
     reports.push_back(folder_ / entry.path().stem().replace_extension(".json"));
     fs::rename(folder_ / "o/report.json", reports.back());
   }

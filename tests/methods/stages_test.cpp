@@ -23,7 +23,7 @@ Nested<2> slow() {
   model.fixes = {{on("left"), {Field(0), Field(0)}}};
   Mesh<2> mesh = cube<2>(0, 1, 4);
   for (auto& point : mesh.points) point[0] *= 100;
-  return discretize_all<2, 2>(mesh, 4, model);
+  return discretize_all<2, 2>(mesh, 3, model);
 }
 
 int all_iterations(const Summary& s) {

@@ -8,6 +8,7 @@
 #include "run.hpp"
 #include "scene_text.hpp"
 #include "tests/core/geometry/surfaces.hpp"
+#include "tests/support/nightly.hpp"
 #include "tests/support/random.hpp"
 
 namespace signorini::test {
@@ -192,7 +193,7 @@ TEST(Invariance, Units) {
       Motion<2> plane;
       plane.scale = length;
       expect_invariant<2>(square(), square_on_incline, plane, modulus);
-      if (modulus == 2.1e11) continue;
+      if (modulus == 2.1e11 || (!nightly() && modulus == 1e3)) continue;
       Motion<3> space;
       space.scale = length;
       expect_invariant<3>(half_ball(), ball_on_sphere, space, modulus);

@@ -8,6 +8,7 @@
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"
+#include "tests/support/nightly.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/random.hpp"
 
@@ -185,12 +186,12 @@ void expect_resting(Motion<D> motion, const std::vector<int>& refinements) {
 }
 
 TEST(LooseBody, RestsOnAPlane2D) {
-  expect_resting<2>({}, {0, 2, 5});
-  expect_resting<2>(rotation2(0.7), {2, 4});
+  expect_resting<2>({}, {0, 2, nightly(5, 4)});
+  expect_resting<2>(rotation2(0.7), {2, nightly(4, 3)});
 }
 TEST(LooseBody, RestsOnAPlane3D) {
-  expect_resting<3>({}, {0, 1, 2});
-  expect_resting<3>(rotation3(0.7, 0.4, 2), {1, 2});
+  expect_resting<3>({}, nightly<std::vector<int>>({0, 1, 2}, {0, 1}));
+  expect_resting<3>(rotation3(0.7, 0.4, 2), nightly<std::vector<int>>({1, 2}, {1}));
 }
 
 /// Free at its sides it is under uniaxial stress, uniform: linear elements are exact.
@@ -375,10 +376,11 @@ inside = true
 TEST(LooseBody, RestsInABowl) {
   for (const double unit : {1.0, 1e3, 1e-6}) {
     const auto disk = fmt::format("shape = \"disk\"\ncenter = [0, 0]\nradius = {}\nsize = {}", 0.5 * unit, 0.25 * unit);
-    for (const double turn : {0.0, 0.7}) expect_in_bowl<2>(disk, unit, turn, {1, 3, 4});
+    for (const double turn : {0.0, 0.7})
+      expect_in_bowl<2>(disk, unit, turn, nightly<std::vector<int>>({1, 3, 4}, {1, 3}));
     const auto cube =
         fmt::format("shape = \"box\"\nfrom = [-{0}, -{0}, -{0}]\nto = [{0}, {0}, {0}]\ncells = [2, 2, 2]", 0.3 * unit);
-    expect_in_bowl<3>(cube, unit, 0, {0, 1, 2});
+    expect_in_bowl<3>(cube, unit, 0, nightly<std::vector<int>>({0, 1, 2}, {0, 1}));
   }
 }
 

@@ -3,6 +3,7 @@
 #include "apps/scenes/tables.hpp"
 #include "driver/driver.hpp"
 #include "run.hpp"
+#include "tests/support/nightly.hpp"
 
 namespace signorini::test {
 namespace {
@@ -97,7 +98,7 @@ void expect_agreement(const std::string& scene, int refinements, double poisson 
 
 TEST(RubberNewton, FindsWhatCyclesFind) {
   for (const double poisson : {0.3, 0.4999}) {
-    expect_agreement(block_2d(poisson), 2, poisson);
+    expect_agreement(block_2d(poisson), nightly(2, 1), poisson);
     expect_agreement(block_3d(poisson), 1, poisson);
   }
 }
@@ -109,7 +110,7 @@ TEST(RubberNewton, FindsWhatCyclesFindBetweenBodies) {
 
 // Friction and pressures, renewed in turns between cycles, come to no rest.
 TEST(RubberNewton, BedsOfStiffBodiesWithFrictionAreSolved) {
-  for (const double ratio : {1e4, 1e5}) {
+  for (const double ratio : nightly<std::vector<double>>({1e4, 1e5}, {1e5})) {
     const Found found = solved(bed(ratio, 0.1, load("top", "[0, -0.05]", "top")), {uniform(2)});
     EXPECT_EQ(found.summary.stages.back().method, "newton");
     EXPECT_NEAR(found.contact[0].force[1], 0.04, 1e-8) << ratio;
@@ -119,7 +120,7 @@ TEST(RubberNewton, BedsOfStiffBodiesWithFrictionAreSolved) {
 TEST(RubberNewton, WedgesInNarrowGroovesAreSolved) {
   for (const double degrees : {2, 4, 6, 8})
     for (const double friction : {0.15, 0.3, 0.6}) {
-      const Found found = solved(wedge(degrees, friction), {uniform(2)});
+      const Found found = solved(wedge(degrees, friction), {uniform(nightly(2, 1))});
       double down = 0.02 * (1 + 2 * std::tan(degrees * pi / 180));
       for (const ContactReport& side : found.contact) down -= side.force[1];
       EXPECT_NEAR(down, 0, 1e-8) << degrees << ' ' << friction;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "geometry_checks.hpp"
+#include "tests/support/nightly.hpp"
 
 namespace signorini {
 namespace {
@@ -137,7 +138,7 @@ TEST(PlanarErrors, NameWhatIsWrongWithADisk) {
 TEST(PlanarErrors, NameWhatIsWrongWithTheSize) {
   for (const double h : {0.0, -1.0, std::nan(""), infinity})
     EXPECT_THAT(complaint(Disk{{0, 0}, 1}, h), AllOf(HasSubstr("size"), HasSubstr("positive")));
-  EXPECT_THAT(complaint(Disk{{0, 0}, 1}, 1e-5), HasSubstr("elements"));
+  EXPECT_THAT(complaint(Disk{{0, 0}, 1}, 1e-4), HasSubstr("elements"));
   EXPECT_THAT(complaint(Disk{{0, 0}, 1}, 1e-9), HasSubstr("too small for this shape"));
 }
 
@@ -146,8 +147,9 @@ TEST(PlanarErrors, NameTheNarrowestPlaceOfAPolygonWithoutAMesh) {
     const std::string place = fmt::format(" is {:.3g} away from edge", 20 * width);
     for (const Polygon& narrow :
          {Polygon{{{0, 0}, {20, 0}, {20, 20 * width}}}, Polygon{{{0, 0}, {20, 0}, {20, 20 * width}, {0, 20 * width}}}})
-      EXPECT_THAT(complaint(narrow, 6),
-                  AllOf(HasSubstr("polygon: size: "), HasSubstr("come to an end: points["), HasSubstr(place)));
+      if (test::nightly() || (narrow.points.size() == 3) == (width == 1e-7))
+        EXPECT_THAT(complaint(narrow, 6),
+                    AllOf(HasSubstr("polygon: size: "), HasSubstr("come to an end: points["), HasSubstr(place)));
   }
 }
 

@@ -4,6 +4,7 @@
 #include "core/base/dot.hpp"
 #include "geometry_checks.hpp"
 #include "surfaces.hpp"
+#include "tests/support/nightly.hpp"
 
 namespace signorini {
 namespace {
@@ -84,8 +85,10 @@ std::vector<Named> solids_with_flat_faces() {
 
 TEST(Solid, FlatFacesAreFilledAtAnySizeAndInAnyPosition) {
   for (const auto& [name, surface, volume] : solids_with_flat_faces())
-    for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
+    for (const bool turned : {false, true})
       for (const double h : {0.412, 0.388}) {
+        if (!test::nightly() && turned != (h == 0.388)) continue;
+        const Surface s = turned ? surface.turned(0.7, 0.3) : surface;
         SCOPED_TRACE(fmt::format("{}, size {}", name, h));
         const Mesh<3> m = mesh(TemporaryFile("solid.off", s.off()), h);
         test::expect_consistent(m);
@@ -156,7 +159,7 @@ TEST(Solid, SymmetricSolidsAreFilledAtAnySize) {
                                               {"bipyramid", bipyramid, 2.0 / 3},
                                               {"cube", cube(-1, 1), 8}})
     for (const Surface& s : {surface, surface.turned(0.7, 0.3)})
-      for (const double h : {3.0, 1.5, 1.0, 0.7, 0.5, 0.35}) {
+      for (const double h : test::nightly<std::vector<double>>({3.0, 1.5, 1.0, 0.7, 0.5, 0.35}, {3.0, 1.5, 1.0, 0.6})) {
         SCOPED_TRACE(fmt::format("{}, size {}", name, h));
         const Mesh<3> m = mesh(TemporaryFile("solid.off", s.off()), h);
         test::expect_consistent(m);

@@ -241,7 +241,7 @@ void expect_independent_of_threads(const Nested<B>& nested) {
 }
 
 TEST(Invariance, Threads) {
-  expect_independent_of_threads(discretize_all<2, 1>(cube<2>(-2, 2, 4), 7, radial_model<2>()));
+  expect_independent_of_threads(discretize_all<2, 1>(cube<2>(-2, 2, 5), 6, radial_model<2>()));
   expect_independent_of_threads(
       discretize_all<3, 3>(cube<3>(0, 1, 3), 3, pressed_block<3>(sphere<3>({0.4, 0.55, -1}, 0.98), 0.08)));
 }
