@@ -53,6 +53,8 @@ def run(commands, folder):
     if ended.returncode:
         sys.exit(f"{commands}ends with {ended.returncode}\n{ended.stdout}{ended.stderr}")
     for warning in ended.stderr.splitlines():
+        if warning.endswith(" s so far"):  # on a machine that is busy
+            continue
         if "](warnings.md" not in page and not any(agree(line, warning) for line in page.splitlines()):
             sys.exit(f"{commands}warns, and the page neither shows it nor says where warnings are explained:\n{warning}")
     return ended.stdout + ended.stderr
