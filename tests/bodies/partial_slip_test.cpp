@@ -26,7 +26,7 @@ std::string cylinders(int refinements, const char* slave) {
 std::string spheres(int refinements) {
   const auto ball = [](const char* name, const char* shape, int middle) {
     return fmt::format(
-               "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, 0, {}]\nradius = 1\nsize = \"0.05 + 0.4 * "
+               "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = [0, 0, {}]\nradius = 1\nsize = \"0.05 + 0.5 * "
                "sqrt(x^2 + "
                "y^2 + z^2)\"\n",
                name, shape, middle) +
