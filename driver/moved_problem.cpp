@@ -62,8 +62,9 @@ bool rests(const DiscreteProblem<B>& problem, const Rest& rest) {
 
 /// Whatever a start is there is rounding, too.
 template <int B>
-void stay(DiscreteProblem<B>& problem, std::vector<double>& x) {
+void stay(DiscreteProblem<B>& problem, std::vector<double>& x, std::vector<double>& pressure) {
   std::ranges::fill(x, 0.0);
+  std::ranges::fill(pressure, 0.0);
   for (double& bound : problem.constraints.lower) bound = std::min(bound, 0.0);
   for (double& bound : problem.constraints.upper) bound = std::max(bound, 0.0);
 }
@@ -79,7 +80,8 @@ void prescribe_anew(Discretization<B>& discretization) {
 }  // namespace
 
 template <int B>
-MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x)
+MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x,
+                              std::vector<double>& pressure)
     : discretization_(discretization), way_(std::move(way)), x_(x) {
   if (way_.empty()) return;
   DiscreteProblem<B>& problem = discretization.problem;
@@ -92,7 +94,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   prescribe_anew(discretization);
-  if (rests(problem, rest)) stay(problem, x);
+  if (rests(problem, rest)) stay(problem, x, pressure);
   const std::vector<double> moved = to_global(problem, way_);
   problem.prescribed_work += dot(moved, discretization.load);
 }

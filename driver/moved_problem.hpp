@@ -11,9 +11,11 @@ namespace signorini {
 template <int B>
 class MovedProblem {
  public:
-  /// Takes `way` off prescribed values, bounds and x. Keeps references to both until back(), which is called once.
+  /// Takes `way` off prescribed values, bounds and x. Keeps references to discretization and x until back(), which is
+  /// called once. Where nothing else is left to do, x becomes zero, and so does the start of a pressure.
   /// @param way a motion without energy, local coordinates; empty: none
-  MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x);
+  MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x,
+               std::vector<double>& pressure);
 
   /// The problem as it was, without a load that follows the solution, and x with the way added. What is at a bound
   /// stays there.

@@ -407,7 +407,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   progress_.stop_if_interrupted();
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = matrices_.products_below(level);
-  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x);
+  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x,
+                        solution.pressure);
   std::optional<LoadOf<D, B>> pressure;
   if constexpr (D == B) {
     if (spaces_[level]) {

@@ -9,6 +9,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/fem/added_gap.hpp"
 #include "core/fem/bounds.hpp"
 #include "core/fem/element.hpp"
@@ -258,6 +259,7 @@ struct Distances {
   std::vector<double> left;       // by the number of the jump
   std::vector<char> acts_anyway;  // likewise: whether or not they touch
   double closed = 0;
+  double moved = 0;  // by how much bodies have moved at most there
 };
 
 /// Whether a functional acts on bodies that do not touch: all do but friction that only what presses causes.
@@ -270,8 +272,10 @@ bool acts_anyway(const Obstacle<D>& obstacle, const FunctionalNumbers<D>& number
 template <int D>
 Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all, std::vector<double> u) {
   const Jumps<D>& jumps = *all.jumps;
-  to_jumps(jumps, u);
   Distances out{std::vector<double>(jumps.vector.size(), infinity), std::vector<char>(jumps.vector.size())};
+  for (const Index p : jumps.vector)
+    for (int i = 0; i < D; ++i) out.moved = std::max(out.moved, std::abs(u[Offset{p} * D + i]));
+  to_jumps(jumps, u);
   std::vector<FunctionalNumbers<D>> numbers;
   for (const Bound<D>& bound : collect_bounds(nodes, model, numbers, &all)) {
     if (!model.obstacles[bound.obstacle].other) continue;
@@ -316,10 +320,10 @@ std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const
   constexpr double near = 0.25;  // of what they have come nearer
   const Distances distance = distances(nodes, model, all, u);
   const Jumps<D>& jumps = *all.jumps;
+  const double reach = std::max(near * distance.closed, rounding_of_differences * distance.moved);
   std::vector<char> keep(jumps.vector.size());
   for (std::size_t s = 0; s < keep.size(); ++s)
-    keep[s] =
-        distance.left[s] <= near * distance.closed || distance.acts_anyway[s] || (also && has(*also, jumps.vector[s]));
+    keep[s] = distance.left[s] <= reach || distance.acts_anyway[s] || (also && has(*also, jumps.vector[s]));
   PairedBodies<D> out;
   out.jumps = std::make_shared<const Jumps<D>>(chosen(jumps, keep));
   std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });

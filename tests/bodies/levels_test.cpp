@@ -97,5 +97,23 @@ TEST(Cycles, OfTwoBodiesAreAThirdMoreThanThoseOfOneAtMost) {
   EXPECT_LE(two, 1.3 * std::max(rigid_ball, rigid_block));
 }
 
+// Where bodies touch before anything moves, rounding alone tells whether a rough solution parts them: they stay one
+// problem, which is not solved without contact first.
+TEST(TouchingBodies, ArePairedFromTheStart) {
+  for (const double young : {0.7, 0.8, 0.9, 1.1, 2.0}) {
+    SCOPED_TRACE(young);
+    Driver driver(scene_of(tables::block("upper", "[-0.4, 0]", "[0.4, 1]", "[1, 1]", material(young, 0.49, 2)) +
+                           tables::block("lower", "[-0.5, -0.6]", "[0.7, 0]", "[1, 1]", material(6.7, 0.49, 2)) +
+                           tables::fix("lower", "bottom", "[0, 0]") +
+                           tables::fix("upper", "top", "[\"0\", \"-0.034 * t\"]") +
+                           pair("upper", "bottom", "lower", "top", "friction = 0.16\n", "elastic_coulomb") +
+                           "[refine]\nuniform = 0\n[steps]\ncount = 2\n"));
+    for (const StepReport& step : driver.solve().steps) {
+      EXPECT_EQ(step.summary.outcome, Outcome::converged);
+      EXPECT_EQ(step.summary.stages.size(), 1u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test
