@@ -24,6 +24,7 @@
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"
+#include "methods/attempts.hpp"
 #include "methods/configuration.hpp"
 
 namespace signorini {
@@ -357,12 +358,17 @@ class BlackBox::BlockSolver final : public Solver {
   /// No motion is known to fall: on a coarse level, rounding may have been taken for one. Sweeps there take nothing for
   /// one.
   void go_on_without_motions(const AlgebraicLevels<B>& levels, Result& result, const Monitor& monitor) {
+    const automatic::Attempt& attempt = automatic::attempt(automatic::Kind::sweeps_below);
     SolverOptions sweeps = options_;
-    sweeps.coarse = "pgs";
-    Summary further = signorini::solve<B>(problem_, levels.prolongations, result.x, sweeps, registry_, monitor);
-    further.reason += ", with sweeps on the coarsest level, where Newton's method met a singular matrix";
-    for (IterationRecord& record : further.history) record.iteration += result.summary.iterations;
-    result.summary.append(std::move(further));
+    sweeps.coarse = attempt.solver;
+    Attempts attempts(std::move(result.summary));
+    attempts.run(attempt, automatic::Start::last, [&] {
+      Summary further = signorini::solve<B>(problem_, levels.prolongations, result.x, sweeps, registry_, monitor);
+      further.reason += ", with sweeps on the coarsest level, where Newton's method met a singular matrix";
+      for (IterationRecord& record : further.history) record.iteration += attempts.done().iterations;
+      return further;
+    });
+    result.summary = attempts.result();
   }
 
   /// Where not all motions are known, iterates that run away show one. Those of methods without a coarse correction
@@ -379,19 +385,28 @@ class BlackBox::BlockSolver final : public Solver {
       return;
     }
     if (options_.method == "auto" || options_.method == "monotone") return;
+    const automatic::Attempt& attempt = automatic::attempt(automatic::Kind::cycles_away);
     SolverOptions cycles = options_;
-    cycles.method = "monotone";
-    cycles.max_iterations = cycles_to_run_away;
-    std::vector<double> x = result.x;
-    const Summary further = signorini::solve<B>(problem_, levels.prolongations, x, cycles, registry_, monitor);
-    for (Stage stage : further.stages) {
-      stage.kept = false;
-      result.summary.stages.push_back(std::move(stage));
-    }
-    if (further.outcome == Outcome::interrupted ||
-        (!names_a_fall(x, result.summary) && further.outcome == Outcome::unbounded)) {
-      result.summary.outcome = further.outcome;
-      result.summary.reason = further.reason;
+    cycles.method = attempt.method;
+    cycles.max_iterations = attempt.most_steps;
+    struct {
+      std::vector<double>& x;
+      std::vector<double> before = {};
+      void save() { before = x; }
+      void restore() { x.swap(before); }
+    } place{result.x};
+    Attempts attempts(std::move(result.summary));
+    Summary seen;
+    attempts.run(attempt, automatic::Start::last, place, [&] {
+      Summary found = signorini::solve<B>(problem_, levels.prolongations, result.x, cycles, registry_, monitor);
+      if (found.outcome == Outcome::interrupted || names_a_fall(result.x, found) || found.outcome == Outcome::unbounded)
+        seen = found;
+      return found;
+    });
+    result.summary = attempts.result();
+    if (!seen.reason.empty()) {
+      result.summary.outcome = seen.outcome;
+      result.summary.reason = seen.reason;
     }
   }
 
@@ -418,8 +433,6 @@ class BlackBox::BlockSolver final : public Solver {
         "the couplings that the diagonal hardly shows it",
         row + 1);
   }
-
-  static constexpr int cycles_to_run_away = 40;
 
   SolverOptions options_;
   Registry registry_;

@@ -1,22 +1,27 @@
+#include <algorithm>
 #include <memory>
-#include <optional>
 #include <utility>
-#include <vector>
 
-#include "core/base/error.hpp"
-#include "core/base/stopwatch.hpp"
+#include "core/solver/local_coordinates.hpp"
 #include "driver/nested_solver.hpp"
-#include "methods/nested_iteration.hpp"
+#include "methods/attempts.hpp"
 #include "methods/newton.hpp"
-#include "methods/stages.hpp"
 
-// What a NestedSolver goes on with where its own way did not do: another one, with other options.
+// The attempts of a NestedSolver at one load step (methods/stages.hpp).
 
 namespace signorini {
 namespace {
 
-/// Of Newton's method on each mesh, where cycles do not do.
-constexpr int most_newton_steps = 40;
+using automatic::Kind;
+using automatic::Start;
+
+/// Solutions are large: the one that may be gone back to is moved.
+template <int B>
+struct Reversible {
+  Solution<B> now, before = {};
+  void save() { before = std::move(now); }
+  void restore() { now = std::move(before); }
+};
 
 }  // namespace
 
@@ -37,8 +42,16 @@ bool NestedSolver<D, B>::newton_may_do(const Solution<B>& solution) const {
 
 /// A solver with other options that comes after the same step.
 template <int D, int B>
-std::unique_ptr<NestedSolver<D, B>> NestedSolver<D, B>::other_way(const Scene::Solver& options) const {
-  auto other = std::make_unique<NestedSolver>(hierarchy_, options, registry_, progress_, times_, nodes_);
+std::unique_ptr<NestedSolver<D, B>> NestedSolver<D, B>::other_way(Kind kind) const {
+  Scene::Solver own = options_;
+  if (kind == Kind::levels_of_meshes) {
+    own.hierarchy = "meshes";
+  } else {
+    own.method = "newton";
+    own.start = "nested";
+    own.max_iterations = std::min(own.max_iterations, automatic::attempt(kind).most_steps);
+  }
+  auto other = std::make_unique<NestedSolver>(hierarchy_, own, registry_, progress_, times_, nodes_);
   other->spared_ = spared_;
   if (pairs_.given()) other->take_contact(pairs_.all(), forces_);
   other->before_ = before_;
@@ -46,65 +59,36 @@ std::unique_ptr<NestedSolver<D, B>> NestedSolver<D, B>::other_way(const Scene::S
   return other;
 }
 
-/// Another try where `first` did not do: the better one of both is what goes on. Errors of the other one count where
-/// there is no first solution.
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::try_again(const Model<B>& model, const Scene::Solver& options, std::vector<Stage> left,
-                                          std::optional<Solution<B>> first) {
-  auto other = other_way(options);
-  std::optional<Solution<B>> second;
-  const Stopwatch watch;
-  try {
-    second = before_.back().u.empty() ? other->solve(model) : other->solve_after(model, before_.back().u);
-  } catch (const Error& error) {
-    if (error.status() == Exit::interrupted || !first) throw;
-    first->summary.stages.push_back(dropped_start(watch.elapsed(), error.what()));
-    return std::move(*first);
-  }
-  const bool same_method = options.method == options_.method;  // else what it did not solve is of no use
-  const bool better =
-      second->summary.outcome == Outcome::converged || !first || (same_method && !first->summary.converged());
-  if (better) other_ = std::move(other);
-  if (!better) left = second->summary.stages;
-  for (Stage& stage : left) stage.kept = false;
-  Solution<B>& kept = better ? *second : *first;
-  kept.summary.put_in_front(std::move(left));
-  return std::move(kept);
-}
-
-/// Slender bodies sway with so little energy that rounding in the matrix hides it. Levels by the matrix may then carry
-/// them anywhere, and say so at best by missing the tolerance; meshes keep such motions out of the corrections.
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve_on_meshes(const Model<B>& model) {
-  std::optional<Solution<B>> first;
-  const Stopwatch watch;
-  std::vector<Stage> left;
-  try {
-    first = start_and_solve(model);
-    if (first->summary.outcome == Outcome::converged || progress_.is_ended()) return std::move(*first);
-    left = first->summary.stages;
-  } catch (const Error& error) {
-    if (error.status() == Exit::interrupted) throw;
-    left = {dropped_start(watch.elapsed(), error.what())};
-  }
-  progress_.phase("levels chosen by the matrix do not reach the tolerance: once more with those of the meshes");
-  Scene::Solver own = options_;
-  own.hierarchy = "meshes";
-  return try_again(model, own, std::move(left), std::move(first));
-}
-
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>& model) {
-  if (may_fall_back()) return solve_on_meshes(model);
-  Solution<B> first = start_and_solve(model);
-  if (progress_.is_ended() || !newton_may_do(first)) return first;
-  progress_.phase("friction does not come to rest: once more by Newton's method");
-  Scene::Solver own = options_;
-  own.method = "newton";
-  own.start = "nested";
-  own.max_iterations = std::min(own.max_iterations, most_newton_steps);
-  std::vector<Stage> left = first.summary.stages;
-  return try_again(model, own, std::move(left), std::move(first));
+  Attempts attempts;
+  Reversible<B> place;
+  const auto run = [&](Kind kind, const auto& solve) {
+    return attempts.run(automatic::attempt(kind), Start::first, place, [&] {
+      place.now = solve();
+      return std::move(place.now.summary);
+    });
+  };
+  const auto try_other = [&](Kind kind, const char* phase) {
+    progress_.phase(phase);
+    auto other = other_way(kind);
+    const auto& last = before_.back().u;
+    if (run(kind, [&] { return last.empty() ? other->solve(model) : other->solve_after(model, last); }))
+      other_ = std::move(other);
+  };
+  if (may_fall_back()) {
+    run(Kind::levels_of_matrix, [&] { return start_and_solve(model); });
+    if (!attempts.begun() || (attempts.done().outcome != Outcome::converged && !progress_.is_ended()))
+      try_other(Kind::levels_of_meshes,
+                "levels chosen by the matrix do not reach the tolerance: once more with those of the meshes");
+  } else {
+    place.now = start_and_solve(model);
+    if (progress_.is_ended() || !newton_may_do(place.now)) return std::move(place.now);
+    attempts = Attempts(std::move(place.now.summary));
+    try_other(Kind::newton_by_meshes, "friction does not come to rest: once more by Newton's method");
+  }
+  place.now.summary = attempts.result();
+  return std::move(place.now);
 }
 
 /// Newton's method is for the step at hand: the next one is tried by cycles again.
@@ -116,10 +100,34 @@ void NestedSolver<D, B>::come_back() {
   other_.reset();
 }
 
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
+  come_back();
+  if (other_) return other_->solve_after(model, u);
+  before_.back().u = u;
+  pairs_.begin_step(model, u);
+  Solution<B> solution = solve_safely(model);
+  Attempts attempts(std::move(solution.summary));
+  const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
+  const auto may_slide = [&] { return !other_ && attempts.done().converged(); };  // the other one follows by itself
+  for (int again = 0; again < automatic::most_slides && may_slide() && !progress_.is_ended(); ++again) {
+    if (!pairs_.follow(model, displacement())) break;
+    progress_.phase("bodies have slid past each other, and are paired anew");
+    attempts.run(automatic::attempt(Kind::pairs_anew), Start::first, [&] {
+      solution = solve_safely(model);
+      return std::move(solution.summary);
+    });
+  }
+  if (!other_) solution.slides_on = may_slide() && pairs_.would_follow(model, displacement());
+  solution.summary = attempts.result();
+  return solution;
+}
+
 #define SIGNORINI_INSTANTIATE(D, B)                                       \
   template bool NestedSolver<D, B>::may_fall_back() const;                \
   template Solution<B> NestedSolver<D, B>::solve_safely(const Model<B>&); \
-  template void NestedSolver<D, B>::come_back();
+  template void NestedSolver<D, B>::come_back();                          \
+  template Solution<B> NestedSolver<D, B>::solve_after(const Model<B>&, const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

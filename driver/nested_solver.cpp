@@ -31,13 +31,6 @@
 namespace signorini {
 namespace {
 
-/// Cycles that levels by the matrix are given for stretched elastic cells: they take twenty, or do not do. With
-/// friction they may take sixty.
-constexpr int patience_with_matrix = 40, patience_with_friction = 100;
-
-/// How often a load step is solved again because bodies have slid on in it.
-constexpr int most_slides = 4;
-
 /// What rounding of the assembled matrix does, in units of what it does to products with it: an entry comes from about
 /// so many operations. (Cantilevers from 100:1 to 1000:1 in six units of length each differ by 2 to 7 of them.)
 constexpr double of_assembly = 6;
@@ -137,6 +130,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
 template <int D, int B>
 void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs,
                                       std::vector<std::vector<double>> forces) {
+  if (other_) other_->take_contact(pairs, forces);
   for (std::size_t level = 0; level < kept_.size(); ++level)
     if (kept_[level]) add_forces(level, -1, kept_[level]->discretization);  // back to the model's own
   pairs_.give(std::move(pairs));
@@ -320,9 +314,8 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
   try {
     Solution<B> coarsest = discretize_level(model, first_);
     continue_algebraically(coarsest.discretization.problem);
-  } catch (const Error& error) {
-    if (error.status() == Exit::interrupted) throw;
-    progress_.phase(fmt::format("no levels below the coarsest mesh: {}", error.what()));
+  } catch (const Error&) {
+    progress_.phase(fmt::format("no levels below the coarsest mesh: {}", failure()));
   }
   matrices_.forget_products();
 }
@@ -461,7 +454,9 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   if (moves) body.require_minimum();
   SolverOptions options = options_;
   if (may_fall_back())
-    options.max_iterations = std::min(options.max_iterations, moves ? patience_with_matrix : patience_with_friction);
+    options.max_iterations =
+        std::min(options.max_iterations, moves ? automatic::attempt(automatic::Kind::levels_of_matrix).most_steps
+                                               : automatic::patience_with_friction);
   solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
   while (solution.summary.converged() && !progress_.is_ended() && pair_more(model, solution)) {
     std::vector<Stage> before = std::move(solution.summary.stages);
@@ -539,28 +534,6 @@ Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   if (other_) return other_->solve(model);
   for (LevelSolution<B>& of_level : before_) of_level = {};
   return solve_safely(model);
-}
-
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::vector<double>& u) {
-  come_back();
-  if (other_) return other_->solve_after(model, u);
-  before_.back().u = u;
-  pairs_.begin_step(model, u);
-  Solution<B> solution = solve_safely(model);
-  const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
-  for (int again = 0; !other_ && again < most_slides && solution.summary.converged() && !progress_.is_ended();
-       ++again) {
-    if (!pairs_.follow(model, displacement())) return solution;
-    progress_.phase("bodies have slid past each other, and are paired anew");
-    std::vector<Stage> before = std::move(solution.summary.stages);
-    for (Stage& stage : before) stage.kept = false;
-    solution = solve_safely(model);
-    solution.summary.put_in_front(std::move(before));
-  }
-  if (!other_)  // which has followed by itself
-    solution.slides_on = solution.summary.converged() && pairs_.would_follow(model, displacement());
-  return solution;
 }
 
 template class NestedSolver<2, 1>;

@@ -17,6 +17,7 @@
 #include "driver/progress.hpp"
 #include "methods/configuration.hpp"
 #include "methods/solve.hpp"
+#include "methods/stages.hpp"
 
 namespace signorini {
 
@@ -76,7 +77,10 @@ class NestedSolver {
   void may_set_elements_aside(MeshHierarchy<D>& meshes) { spared_ = &meshes; }
 
   /// Of all methods together, in one solve from now on.
-  void limit_iterations(int most) { options_.max_iterations = most; }
+  void limit_iterations(int most) {
+    options_.max_iterations = most;
+    if (other_) other_->limit_iterations(most);
+  }
 
   /// Interpolation between the meshes `level` and `level` + 1.
   const Prolongation& from_mesh(std::size_t level) const { return matrices_.above(level); }
@@ -103,10 +107,7 @@ class NestedSolver {
 
   bool may_fall_back() const;
   bool newton_may_do(const Solution<B>& solution) const;
-  std::unique_ptr<NestedSolver> other_way(const Scene::Solver& options) const;
-  Solution<B> try_again(const Model<B>& model, const Scene::Solver& options, std::vector<Stage> left,
-                        std::optional<Solution<B>> first);
-  Solution<B> solve_on_meshes(const Model<B>& model);
+  std::unique_ptr<NestedSolver> other_way(automatic::Kind kind) const;
   Solution<B> solve_safely(const Model<B>& model);
   void come_back();
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);

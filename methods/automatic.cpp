@@ -11,7 +11,7 @@ namespace signorini::automatic {
 namespace {
 
 bool interior_points_suit(Offset unknowns) {
-  return std::ranges::any_of(stages(), [=](const StageRule& rule) {
+  return std::ranges::any_of(stages(), [=](const Attempt& rule) {
     return rule.kind == Kind::interior_points && rule.suits({.unknowns = unknowns});
   });
 }

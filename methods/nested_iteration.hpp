@@ -6,18 +6,9 @@
 #include "core/base/error.hpp"
 #include "core/solver/options.hpp"
 #include "core/solver/summary.hpp"
+#include "methods/attempts.hpp"
 
 namespace signorini {
-
-/// The stage of a level that gave no start.
-inline Stage dropped_start(double seconds, std::string reason) {
-  Stage stage;
-  stage.method = "nested start";
-  stage.seconds = seconds;
-  stage.reason = std::move(reason);
-  stage.kept = false;
-  return stage;
-}
 
 /// For a start on a finer level, which need not be better than the discretisation error: one cycle from a coarser start
 /// brings a scalar problem below that, as in linear full multigrid; cycles of elastic bodies reduce the error far less.
@@ -49,12 +40,13 @@ bool nested_iteration(std::size_t levels, const SolverOptions& options, const So
     std::string reason;
     try {
       reason = solve(k, for_a_start<B>(options, started), started);
-    } catch (const Error& error) {
-      if (error.status() == Exit::interrupted) throw;
-      reason = error.what();
+    } catch (const Error&) {
+      reason = failure();
     }
     started = reason.empty();
-    if (!started) failed(k, dropped_start(seconds() - begin, std::move(reason)));
+    if (!started)
+      failed(k, failed_stage(automatic::attempt(automatic::Kind::nested_start).method, seconds() - begin,
+                             std::move(reason)));
   }
   return started;
 }

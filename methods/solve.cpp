@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
-#include <new>
 #include <utility>
 
 #include "core/algebra/energy_along.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "methods/active_set.hpp"
+#include "methods/attempts.hpp"
 #include "methods/automatic.hpp"
 #include "methods/configuration.hpp"
 #include "methods/interior_point.hpp"
@@ -52,65 +51,83 @@ class Automatic {
   }
 
   Summary run() {
-    for (const automatic::StageRule& rule : automatic::stages())
-      if (unsolved_for(rule) && rule.suits(situation_)) run(rule);
-    if (went_on_ && done_.outcome == Outcome::stuck) {
-      done_.outcome = Outcome::iteration_limit;
-      done_.reason = fmt::format("iteration limit {}: {}", options_.max_iterations, done_.reason);
+    for (const automatic::Attempt& attempt : automatic::stages())
+      for (const Start start : attempt.starts)
+        if (attempt.suits(situation_) && (!attempts_.begun() || (is_unsolved() && !is_repeated(attempt, start))))
+          run(attempt, start);
+    Summary done = attempts_.result();
+    if (went_on_ && done.outcome == Outcome::stuck) {
+      done.outcome = Outcome::iteration_limit;
+      done.reason = fmt::format("iteration limit {}: {}", options_.max_iterations, done.reason);
     }
-    done_.setup_seconds = setup_seconds_;
-    return std::move(done_);
+    done.setup_seconds = setup_seconds_;
+    return done;
   }
+
+  // Places of attempts.
+  void save() { before_ = now(); }
+  void restore() { go_to(before_); }
 
  private:
-  bool unsolved_for(const automatic::StageRule& rule) const {
-    if (!situation_.begun) return true;
-    if (situation_.functional)
-      return done_.outcome == Outcome::stuck && !(rule.kind == automatic::Kind::cycles_from_zero && from_zero_);
-    if (steps_ >= options_.max_iterations) return false;
-    return done_.outcome == Outcome::stuck || (went_on_ && done_.outcome == Outcome::iteration_limit);
+  using Start = automatic::Start;
+  using Kind = automatic::Kind;
+
+  bool is_unsolved() const {
+    const Outcome outcome = attempts_.done().outcome;
+    if (situation_.functional) return outcome == Outcome::stuck;
+    if (attempts_.steps() >= options_.max_iterations) return false;
+    return outcome == Outcome::stuck || (went_on_ && outcome == Outcome::iteration_limit);
   }
 
-  void run(const automatic::StageRule& rule) {
-    if (!situation_.begun) return begin(rule);
-    went_on_ = !situation_.functional;
-    switch (rule.kind) {
-      case automatic::Kind::cycles_again:
-        return begin_again(rule, start_);
-      case automatic::Kind::cycles_from_zero:
-        from_zero_ = true;
-        return begin_again(rule, zero());
-      case automatic::Kind::newton:
-        return newton_with_friction(rule);
-      case automatic::Kind::cycles:
-        return cycle(rule, prolongations_);
-      case automatic::Kind::single_level:
-        return cycle(rule, {});
-      case automatic::Kind::active_sets:
-        return attempt<ActiveSetIteration<B>>(rule, rule.solver, automatic::shift_if_singular);
-      case automatic::Kind::interior_points:
-        return attempt<InteriorPointIteration<B>>(rule, rule.solver);
+  /// Whether that start was another one's.
+  bool is_repeated(const automatic::Attempt& attempt, Start start) const {
+    if (attempt.kind == Kind::cycles_from_zero) return from_zero_;
+    return attempt.kind == Kind::newton && start == Start::first && start_ == zero();
+  }
+
+  void run(const automatic::Attempt& attempt, Start start) {
+    went_on_ = attempts_.begun() && !situation_.functional;
+    const bool kept = attempts_.run(attempt, start, *this, [&] {
+      if (start == Start::first) go_to(start_);
+      if (start == Start::zero) go_to(zero());
+      return result_of(attempt, start);
+    });
+    if (kept && attempt.keep == automatic::Keep::solved && attempts_.done().converged()) refuse_if_indefinite();
+  }
+
+  Summary result_of(const automatic::Attempt& attempt, Start start) {
+    switch (attempt.kind) {
+      case Kind::newton:
+        return steps_of<NewtonIteration<B>>(attempt);
+      case Kind::active_sets:
+        return steps_of<ActiveSetIteration<B>>(attempt, attempt.solver, automatic::shift_if_singular);
+      case Kind::interior_points:
+        return steps_of<InteriorPointIteration<B>>(attempt, attempt.solver);
+      case Kind::single_level:
+        return without_cycles(more_cycles(attempt, {}));
+      default:
+        return attempts_.begun() && start == Start::last ? more_cycles(attempt, prolongations_) : first_cycles(attempt);
     }
   }
 
-  void begin(const automatic::StageRule& rule) {
+  Summary first_cycles(const automatic::Attempt& attempt) {
     const double begin = seconds();
     SolverOptions own = options_;
-    own.method = rule.method;
-    if (rule.kind == automatic::Kind::cycles_again) own.krylov = false;
-    own.max_iterations = std::min(own.max_iterations, rule.most_steps);
-    const bool longer = situation_.following && rule.patience.first < automatic::patience_with_loads.first;
-    MultigridIteration<B> loop(problem_, prolongations_, x_, own, components(rule), situation_,
-                               longer ? automatic::patience_with_loads : rule.patience);
-    const double ready = seconds();
-    done_ = loop.run(monitor_);
-    setup_seconds_ = ready - begin;
-    steps_ = done_.iterations;
+    own.method = attempt.method;
+    if (attempt.kind == Kind::cycles_again) own.krylov = false;
+    own.max_iterations = std::min(own.max_iterations, attempt.most_steps);
+    const bool longer = situation_.following && attempt.patience.first < automatic::patience_with_loads.first;
+    MultigridIteration<B> loop(problem_, prolongations_, x_, own, components(attempt), situation_,
+                               longer ? automatic::patience_with_loads : attempt.patience);
+    setup_seconds_ = seconds() - begin;
+    Summary found = loop.run(monitor_);
     situation_.begun = true;
-    if (done_.outcome == Outcome::iteration_limit && steps_ < options_.max_iterations) done_.outcome = Outcome::stuck;
+    if (found.outcome == Outcome::iteration_limit && found.iterations < options_.max_iterations)
+      found.outcome = Outcome::stuck;
     situation_.slow = loop.lost_patience();
-    situation_.unknowns = done_.level_unknowns.back();
-    situation_.coarsest = done_.level_unknowns.front();
+    situation_.unknowns = found.level_unknowns.back();
+    situation_.coarsest = found.level_unknowns.front();
+    return found;
   }
 
   /// Where an iteration begins: x, and p of a load that follows.
@@ -119,106 +136,55 @@ class Automatic {
     bool operator==(const Place&) const = default;
   };
   Place now() const { return {x_, problem_.following ? problem_.following->values() : std::vector<double>{}}; }
-  Place zero() const {
-    Place out = start_;
-    std::ranges::fill(out.x, 0.0);
-    std::ranges::fill(out.p, 0.0);
-    return out;
-  }
+  Place zero() const { return {std::vector<double>(start_.x.size()), std::vector<double>(start_.p.size())}; }
   void go_to(const Place& place) {
     x_ = place.x;
     if (problem_.following) problem_.following->set(place.p);
   }
 
-  /// What was done until now is dropped.
-  void begin_again(const automatic::StageRule& rule, const Place& start) {
-    std::vector<Stage> left = std::move(done_.stages);
-    for (Stage& stage : left) stage.kept = false;
-    go_to(start);
-    begin(rule);
-    done_.put_in_front(std::move(left));
-  }
-
-  /// From the first start, then from zero: cycles may have slid far away. Then from there, all the same.
-  void newton_with_friction(const automatic::StageRule& rule) {
-    const Place last = now(), nothing = zero();
-    for (const Place* start : std::array<const Place*, 3>{&start_, &nothing, &last}) {
-      if (done_.outcome != Outcome::stuck || (start == &start_ && start_ == nothing)) continue;
-      go_to(*start);
-      attempt<NewtonIteration<B>>(rule);
-    }
-  }
-
-  /// The user's options for up to `most` further steps.
-  SolverOptions limited(int most) const {
+  /// The user's options for up to so many further steps as the attempt may take.
+  SolverOptions limited(const automatic::Attempt& attempt) const {
     SolverOptions own = options_;
-    own.max_iterations = most < options_.max_iterations - steps_ ? steps_ + most : options_.max_iterations;
+    const int done = attempts_.steps();
+    if (attempt.most_steps < own.max_iterations - done) own.max_iterations = done + attempt.most_steps;
     return own;
   }
 
-  Components<B> components(const automatic::StageRule& rule) const {
+  Components<B> components(const automatic::Attempt& attempt) const {
     SolverOptions own = options_;
-    if (*rule.solver) own.coarse = rule.solver;
+    if (*attempt.solver) own.coarse = attempt.solver;
     return components_of<B>(own, registry_);
   }
 
-  Monitor counted() {
-    return [this](const IterationRecord& record) {
-      ++steps_;
-      return !monitor_ || monitor_(record);
-    };
+  static Summary without_cycles(Summary found) {
+    found.iterations = found.stages.front().iterations = 0;
+    return found;
   }
 
-  /// A method that solves linear systems: it may fail, its linear solver may not be there, or out of memory. Then what
-  /// it did is dropped.
+  /// Of a method that solves linear systems: it may fail, its linear solver may not be there, or out of memory.
   template <class Method, class... More>
-  void attempt(const automatic::StageRule& rule, More... more) {
-    const SolverOptions own = limited(rule.most_steps);
-    const int before = steps_;
-    const Place start = now();
+  Summary steps_of(const automatic::Attempt& attempt, More... more) {
     const double begin = seconds();
-    bool ended = false;
-    Stage stage;
-    stage.method = rule.method;
-    stage.linear = rule.solver;
-    try {
-      Summary found = Method(problem_, x_, own, registry_, more...).run(counted(), steps_);
-      found.iterations = found.stages.front().iterations = 0;  // no cycles
-      stage = found.stages.front();
-      ended = found.converged() || found.outcome == Outcome::interrupted;
-      if (ended) done_.append(std::move(found));
-    } catch (const Error& error) {
-      if (error.status() == Exit::interrupted) throw;
-      stage.reason = error.what();
-    } catch (const std::bad_alloc&) {
-      stage.reason = "out of memory";
-    }
-    if (ended) {
-      if (done_.converged()) refuse_if_indefinite(start.x);
-      return;
-    }
-    stage.seconds = seconds() - begin;
-    stage.kept = false;
-    done_.stages.push_back(std::move(stage));
-    go_to(start);
-    steps_ = before;
+    Summary found = Method(problem_, x_, limited(attempt), registry_, more...).run(monitor_, attempts_.steps());
+    found.stages.front().seconds = seconds() - begin;
+    return without_cycles(std::move(found));
   }
 
   /// What such a method calls solved is a minimum only if the matrix has no negative eigenvalue. Else it may lie above
   /// where the cycles came to, and the way there shows that.
-  void refuse_if_indefinite(const std::vector<double>& start) const {
+  void refuse_if_indefinite() const {
     std::vector<double> way(x_.size());
-    std::transform(x_.begin(), x_.end(), start.begin(), way.begin(), std::minus<>());
+    std::transform(x_.begin(), x_.end(), before_.x.begin(), way.begin(), std::minus<>());
     refuse_if_negative_along(problem_.A, way);
   }
 
-  void cycle(const automatic::StageRule& rule, std::span<const Prolongation> prolongations) {
-    SolverOptions own = limited(rule.most_steps);
+  Summary more_cycles(const automatic::Attempt& attempt, std::span<const Prolongation> prolongations) const {
+    SolverOptions own = limited(attempt);
     own.method = "monotone";
-    Summary found = MultigridIteration<B>(problem_, prolongations, x_, own, components(rule)).run(counted(), steps_);
-    found.options.method = found.stages.front().method = rule.method;
-    if (prolongations.empty()) found.iterations = found.stages.front().iterations = 0;  // no cycles
-    done_.append(std::move(found));
+    Summary found =
+        MultigridIteration<B>(problem_, prolongations, x_, own, components(attempt)).run(monitor_, attempts_.steps());
+    found.options.method = found.stages.front().method = attempt.method;
+    return found;
   }
 
   const DiscreteProblem<B>& problem_;
@@ -230,10 +196,9 @@ class Automatic {
   automatic::Situation situation_;
   bool went_on_ = false;    // beyond the first cycles
   bool from_zero_ = false;  // the cycles began there
-  Place start_;             // where the first ones began, if others may
-  Summary done_;
+  Place start_, before_;    // where the first ones began, if others may, and where the attempt at hand did
+  Attempts attempts_;
   double setup_seconds_ = 0;
-  int steps_ = 0;  // of all that is kept
 };
 
 /// The loop of a method other than "auto".

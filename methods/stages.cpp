@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace signorini::automatic {
 
 namespace {
@@ -11,6 +13,7 @@ namespace {
 // Vectors on a single level, and where so many are coupled to each on the coarsest one, above which a cycle's Newton
 // steps, up to a dozen, are too dear to be tried first.
 constexpr Index many_vectors = 1000, fewer_vectors = 400, many_couplings = 100;
+constexpr int patience_with_matrix = 40, cycles_to_run_away = 40;
 // What a direct solver does in about a minute and a few gigabytes, even for elasticity in space.
 constexpr Offset most_for_direct = 150'000;
 // Each of up to so many interior points needs a factorisation.
@@ -51,8 +54,8 @@ std::string number(Offset n) { return n < 1000 ? fmt::format("{}", n) : fmt::for
 
 }  // namespace
 
-const std::vector<StageRule>& stages() {
-  static const std::vector<StageRule> list{
+const std::vector<Attempt>& stages() {
+  static const std::vector<Attempt> list{
       {.name = "cycles, sweeps below",
        .kind = Kind::cycles,
        .method = "auto",
@@ -85,7 +88,8 @@ const std::vector<StageRule>& stages() {
        .ends = fmt::format("if friction does not come to rest, or after {} cycles", plain_cycles),
        .purpose = "rubber that the accelerated ones do not solve",
        .most_steps = plain_cycles,
-       .patience = endless},
+       .patience = endless,
+       .starts = {Start::first}},
       {.name = "cycles from zero",
        .kind = Kind::cycles_from_zero,
        .method = "auto",
@@ -93,7 +97,8 @@ const std::vector<StageRule>& stages() {
        .suits = [](const Situation& s) { return s.functional && s.begun; },
        .begins = "with friction, if the start was another one",
        .ends = "if friction does not come to rest, or at `max_iterations`",
-       .purpose = "a body that friction barely holds, and that slid off on a coarse mesh"},
+       .purpose = "a body that friction barely holds, and that slid off on a coarse mesh",
+       .starts = {Start::zero}},
       {.name = "Newton's method with friction and pressures",
        .kind = Kind::newton,
        .method = "newton",
@@ -106,7 +111,9 @@ const std::vector<StageRule>& stages() {
                        "matrix is singular",
                        friction_steps),
        .purpose = "bodies that little but friction holds; rubber in narrow grooves or under far stiffer bodies",
-       .most_steps = friction_steps},
+       .most_steps = friction_steps,
+       .starts = {Start::first, Start::zero, Start::last},  // cycles may have slid far away
+       .keep = Keep::solved},
       {.name = "active sets, multigrid",
        .kind = Kind::active_sets,
        .method = "pdas",
@@ -115,7 +122,8 @@ const std::vector<StageRule>& stages() {
        .begins = "for scalar problems that coarsen to half of the unknowns or less, at any size",
        .ends = "if sets cycle, or do not come to rest",
        .purpose = "graph Laplacians with weights over 8 decades. Solved by conjugate gradients with an algebraic "
-                  "multigrid cycle"},
+                  "multigrid cycle",
+       .keep = Keep::solved},
       {.name = "active sets, direct",
        .kind = Kind::active_sets,
        .method = "pdas",
@@ -123,7 +131,8 @@ const std::vector<StageRule>& stages() {
        .suits = factorisable,
        .begins = fmt::format("for at most {} unknowns", number(most_for_direct)),
        .ends = "if sets cycle, or do not come to rest",
-       .purpose = "cells stretched 25 times that bend. Solved by CHOLMOD"},
+       .purpose = "cells stretched 25 times that bend. Solved by CHOLMOD",
+       .keep = Keep::solved},
       {.name = "interior points",
        .kind = Kind::interior_points,
        .method = "interior_point",
@@ -134,7 +143,8 @@ const std::vector<StageRule>& stages() {
        .purpose =
            "sets that cycle, as they may if couplings have both signs. Mehrotra's predictor and corrector: a few dozen "
            "linear systems for any matrix",
-       .most_steps = interior_points},
+       .most_steps = interior_points,
+       .keep = Keep::solved},
       {.name = "the coarse solver on the finest level",
        .kind = Kind::single_level,
        .method = "newton",
@@ -158,9 +168,82 @@ const std::vector<StageRule>& stages() {
   return list;
 }
 
+const std::vector<Attempt>& attempts_around() {
+  static const std::vector<Attempt> list{
+      {.name = "nested start",
+       .kind = Kind::nested_start,
+       .method = "nested start",
+       .solver = "",
+       .begins = "first, on each coarser level from the coarsest one up, if `start` is \"nested\"",
+       .purpose = "a start near the solution. What fails on a coarse level may well hold on the finest one",
+       .keep = Keep::solved},
+      {.name = "levels of the matrix",
+       .kind = Kind::levels_of_matrix,
+       .method = "nested start",
+       .solver = "",
+       .begins = "with elastic bodies whose levels the matrix may choose (`hierarchy` \"auto\", stretched cells)",
+       .purpose = fmt::format("stretched cells. Of at most {} cycles, {} with friction: they take twenty, or do not do",
+                              patience_with_matrix, patience_with_friction),
+       .most_steps = patience_with_matrix,
+       .starts = {Start::first},
+       .keep = Keep::better},
+      {.name = "levels of the meshes",
+       .kind = Kind::levels_of_meshes,
+       .method = "nested start",
+       .solver = "",
+       .begins = "if those of the matrix did not reach the tolerance",
+       .purpose = "columns that can sway. They do so with so little energy that rounding in the matrix hides it, and "
+                  "its levels may carry them anywhere; meshes keep such motions out of the corrections",
+       .starts = {Start::first},
+       .keep = Keep::better},
+      {.name = "Newton's method mesh by mesh",
+       .kind = Kind::newton_by_meshes,
+       .method = "nested start",
+       .solver = "",
+       .begins = fmt::format("with friction that all stages of `auto` leave unsolved before `max_iterations`, up to {} "
+                             "steps on each mesh; the next load step begins with the stages again",
+                             newton_steps),
+       .purpose = "stacks of soft and stiff blocks: what few cycles leave on a coarse mesh has slid far away",
+       .most_steps = newton_steps,
+       .starts = {Start::first},
+       .keep = Keep::solved},
+      {.name = "pairs anew",
+       .kind = Kind::pairs_anew,
+       .method = "auto",
+       .solver = "",
+       .begins = fmt::format("if bodies have slid past each other in the step; up to {} times", most_slides),
+       .purpose = "contact between the nodes that face each other now",
+       .starts = {Start::first}},
+      {.name = "cycles with sweeps below",
+       .kind = Kind::sweeps_below,
+       .method = "auto",
+       .solver = "pgs",
+       .begins = "with a matrix alone, if its energy seems to have no minimum but no motion is known to fall",
+       .purpose = "matrices whose rounding on a coarse level is taken for such a motion"},
+      {.name = "cycles that run away",
+       .kind = Kind::cycles_away,
+       .method = "monotone",
+       .solver = "",
+       .begins = "with a matrix alone, if another method than `auto` or `monotone` was asked for and ends unsolved",
+       .purpose = fmt::format("energies without a minimum, which iterates that run away show in {} cycles",
+                              cycles_to_run_away),
+       .most_steps = cycles_to_run_away,
+       .keep = Keep::never},
+      {.name = "refinement",
+       .kind = Kind::refinement,
+       .method = "refinement",
+       .solver = "extended",
+       .begins = "with a matrix alone, last, if it is cheap beside the solve, or rounding is in question",
+       .purpose = "matrices that double precision does not solve. Active sets with residuals in extended precision",
+       .keep = Keep::better}};
+  return list;
+}
+
+const Attempt& attempt(Kind kind) { return *std::ranges::find(attempts_around(), kind, &Attempt::kind); }
+
 std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Offset coarsest) {
   std::vector<std::string> out;
-  for (const StageRule& rule : stages())
+  for (const Attempt& rule : stages())
     if (rule.kind == Kind::active_sets && rule.suits({.block = block, .unknowns = unknowns, .coarsest = coarsest}))
       out.emplace_back(rule.solver);
   return out;
@@ -174,8 +257,21 @@ bool others_suit(const Situation& s) { return s.functional || coarsens(s) || fac
 
 std::string table_of_stages() {
   std::string out = "| stage | begins | ends unsolved | is for |\n| --- | --- | --- | --- |\n";
-  for (const StageRule& rule : stages())
+  for (const Attempt& rule : stages())
     out += fmt::format("| {} | {} | {} | {} |\n", rule.name, rule.begins, rule.ends, rule.purpose);
+  return out;
+}
+
+std::string table_of_attempts_around() {
+  const auto keeps = [](Keep keep) {
+    return keep == Keep::always   ? "always"
+           : keep == Keep::solved ? "if it is solved"
+           : keep == Keep::better ? "if it reaches the tolerance, or what came before does not count as solved"
+                                  : "never";
+  };
+  std::string out = "| attempt | begins | is kept | is for |\n| --- | --- | --- | --- |\n";
+  for (const Attempt& attempt : attempts_around())
+    out += fmt::format("| {} | {} | {} | {} |\n", attempt.name, attempt.begins, keeps(attempt.keep), attempt.purpose);
   return out;
 }
 

@@ -5,8 +5,8 @@
 
 #include "core/base/types.hpp"
 
-/// The policy of method "auto": which stages a solve goes through. The list is in stages.cpp; docs/theory/auto.md shows
-/// it.
+/// What may be attempted at a problem, in which order: the stages of method "auto", and what those who call it attempt
+/// before and after. The lists are in stages.cpp, attempts.hpp runs them, and docs/theory/auto.md shows them.
 namespace signorini::automatic {
 
 /// When cycles are given up: after `first` of them, and later after every `every`, where their rate leads to more than
@@ -37,24 +37,65 @@ struct Situation {
 };
 
 /// What makes the steps of a stage.
-enum class Kind { cycles, cycles_again, cycles_from_zero, newton, single_level, active_sets, interior_points };
+enum class Kind {
+  cycles,
+  cycles_again,
+  cycles_from_zero,
+  newton,
+  single_level,
+  active_sets,
+  interior_points,
+  nested_start,
+  levels_of_matrix,
+  levels_of_meshes,
+  newton_by_meshes,
+  pairs_anew,
+  sweeps_below,
+  cycles_away,
+  refinement
+};
+
+/// Where an attempt begins: where the last one that was kept ended, where the first one began, or at zero. From the
+/// last two, what was kept before is dropped.
+enum class Start { last, first, zero };
+
+/// Whether what an attempt came to is kept: else the next one begins where this one did.
+enum class Keep {
+  always,
+  solved,  ///< where the problem is, or the user ended it
+  better,  ///< where it reaches the tolerance, or what was kept before does not count as solved
+  never    ///< it is only looked at
+};
 
 inline constexpr int unlimited = std::numeric_limits<int>::max();
 
-/// Stages follow each other in the order of the list. Each begins where it suits and those before it have left the
-/// problem unsolved, from where the last one of them that was kept ended.
-struct StageRule {
+/// Attempts follow each other in the order of the list. Each begins where it suits and those before it have left the
+/// problem unsolved.
+struct Attempt {
   const char* name;
   Kind kind;
   const char* method;  ///< as reports name it; "auto": by what the cycles were
   const char* solver;  ///< registered: the coarse one, or the linear one; "": that of the options
-  bool (*suits)(const Situation&);
-  std::string begins, ends, purpose;  ///< for the documentation
-  int most_steps = unlimited;         ///< fewer where `max_iterations` is reached
+  bool (*suits)(const Situation&) = nullptr;  ///< of stages; who attempts the others knows when
+  std::string begins, ends, purpose;          ///< for the documentation
+  int most_steps = unlimited;                 ///< fewer where `max_iterations` is reached
   Patience patience = patience_with_cycles;
+  std::vector<Start> starts = {Start::last};  ///< each is an attempt
+  Keep keep = Keep::always;
 };
 
-const std::vector<StageRule>& stages();
+/// Those of method "auto".
+const std::vector<Attempt>& stages();
+
+/// Those around it, of one kind each: of scenes, and of a matrix and bounds alone.
+const std::vector<Attempt>& attempts_around();
+const Attempt& attempt(Kind kind);
+
+/// Cycles with friction that levels by the matrix are given for stretched elastic cells. They may take sixty; without
+/// friction they take twenty, or do not do.
+inline constexpr int patience_with_friction = 100;
+/// How often a load step is solved again because bodies have slid on in it.
+inline constexpr int most_slides = 4;
 
 /// Whether the factorisations of Newton's method with friction and pressures are affordable.
 bool newton_is_affordable(int block, Offset unknowns);
@@ -67,7 +108,8 @@ bool others_suit(const Situation& situation);
 /// @param unknowns, coarsest on the finest level and on the coarsest one
 std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Offset coarsest);
 
-/// The list as a table in Markdown.
+/// The lists as tables in Markdown.
 std::string table_of_stages();
+std::string table_of_attempts_around();
 
 }  // namespace signorini::automatic

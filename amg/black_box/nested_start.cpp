@@ -296,9 +296,8 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
       const Prolongation& P = prolongations[prolongations.size() - 1 - levels.size()];
       levels.emplace_back(fine, P, *registry.create<Transfer<B>>("transfer", options.transfer));
     }
-  } catch (const Error& error) {
-    if (error.status() == Exit::interrupted) throw;
-    drop(dropped_start(seconds() - begin, error.what()));
+  } catch (const Error&) {
+    drop(failed_stage(automatic::attempt(automatic::Kind::nested_start).method, seconds() - begin, failure()));
   }
   const std::size_t left_out = prolongations.size() - levels.size();
   std::vector<double> x;

@@ -374,8 +374,9 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
   judge(more, options.tolerance);
   if (more.outcome == Outcome::converged) more.rounding_error = 0;
   Stage stage;
-  stage.method = "refinement";
-  stage.linear = "extended";
+  const automatic::Attempt& refinement = automatic::attempt(automatic::Kind::refinement);
+  stage.method = refinement.method;
+  stage.linear = refinement.solver;
   stage.factorisations = sets.sets();
   stage.linear_solves = sets.solves();
   stage.seconds = seconds() - begin;
@@ -383,7 +384,7 @@ void refine(const DiscreteProblem<B>& problem, const HeldRows<B>& held, std::spa
   stage.reason = more.reason;
   more.stages = {std::move(stage)};
   more.options = options;
-  more.options.method = "refinement";
+  more.options.method = refinement.method;
   more.finest_level = summary.finest_level;
   more.setup_seconds = summary.setup_seconds;
   more.solve_seconds = summary.solve_seconds + more.stages.front().seconds;

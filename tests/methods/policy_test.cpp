@@ -17,20 +17,21 @@
 namespace signorini::test {
 namespace {
 
+using automatic::Attempt;
 using automatic::Situation;
-using automatic::StageRule;
 
-// To renew docs/theory/auto.md after a change of methods/stages.cpp, copy the table that this test prints.
-TEST(Policy, IsTheTableOfTheDocumentation) {
+// To renew docs/theory/auto.md after a change of methods/stages.cpp, copy the tables that this test prints.
+TEST(Policy, IsTheTablesOfTheDocumentation) {
   std::ifstream file(SIGNORINI_SOURCE_DIR "/docs/theory/auto.md");
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_THAT(text.str(), testing::HasSubstr("\n\n" + automatic::table_of_stages() + "\n"));
+  EXPECT_THAT(text.str(), testing::HasSubstr("\n\n" + automatic::table_of_attempts_around() + "\n"));
 }
 
 std::vector<std::string> names(const Situation& situation) {
   std::vector<std::string> out;
-  for (const StageRule& rule : automatic::stages())
+  for (const Attempt& rule : automatic::stages())
     if (rule.suits(situation)) out.emplace_back(rule.name);
   return out;
 }
@@ -83,7 +84,7 @@ TEST(Policy, IsWhatASolveGoesThrough) {
   const Summary s = solve<2>(nested.finest(), nested.prolongations, x, options, own);
   const auto unknowns = static_cast<Offset>(x.size());
   std::vector<std::string> expected = {""}, found = {""};
-  for (const StageRule& rule : automatic::stages())
+  for (const Attempt& rule : automatic::stages())
     if (rule.suits(
             {.block = 2, .vectors = nested.finest().A.size(), .unknowns = unknowns, .levels = true, .begun = true}))
       expected.emplace_back(rule.method);
