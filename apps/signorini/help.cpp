@@ -161,7 +161,7 @@ void words_command(const CLI::App& program, const std::string& after) {
                                    : fmt::format("{}{}.{}=", place.table->name, listed ? ".0" : "", place.key->name));
     }
     std::ranges::sort(all);
-    all.erase(std::ranges::unique(all).begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
   };
   if (after == "set") return print(keys(true));
