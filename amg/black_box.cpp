@@ -483,7 +483,8 @@ BlackBox& BlackBox::operator=(BlackBox&&) noexcept = default;
 
 void BlackBox::set_tolerance(double tolerance) { solver_->set_tolerance(tolerance); }
 
-BlackBox::Result BlackBox::solve(Values b, Values lower, Values upper, Values start, const Monitor& monitor) {
+BlackBox::Result BlackBox::solve(const Values& b, const Values& lower, const Values& upper, const Values& start,
+                                 const Monitor& monitor) {
   return solver_->solve(b, lower, upper, start, lasting(monitor));
 }
 

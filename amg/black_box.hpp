@@ -109,7 +109,8 @@ class BlackBox {
   /// @param lower, upper, start one value per unknown; empty: none, and nested iteration
   /// @throws Error(Exit::input) for sizes that do not fit and values that are not numbers, Error(Exit::no_solution)
   ///     where a lower bound lies above the upper one, or no bound holds the load in a row of A that is zero
-  Result solve(Values b, Values lower = {}, Values upper = {}, Values start = {}, const Monitor& monitor = {});
+  Result solve(const Values& b, const Values& lower = {}, const Values& upper = {}, const Values& start = {},
+               const Monitor& monitor = {});
 
   /// Another matrix of the same size for the solves from now on, such as that of the next time step: the interpolations
   /// between the levels stay, their matrices are computed anew. The more the matrices differ the more cycles it takes.
