@@ -76,9 +76,9 @@ struct Attempt {
   Kind kind;
   const char* method;  ///< as reports name it; "auto": by what the cycles were
   const char* solver;  ///< registered: the coarse one, or the linear one; "": that of the options
-  bool (*suits)(const Situation&) = nullptr;  ///< of stages; who attempts the others knows when
-  std::string begins, ends, purpose;          ///< for the documentation
-  int most_steps = unlimited;                 ///< fewer where `max_iterations` is reached
+  bool (*suits)(const Situation&) = nullptr;         ///< of stages; who attempts the others knows when
+  std::string begins = {}, ends = {}, purpose = {};  ///< for the documentation
+  int most_steps = unlimited;                        ///< fewer where `max_iterations` is reached
   Patience patience = patience_with_cycles;
   std::vector<Start> starts = {Start::last};  ///< each is an attempt
   Keep keep = Keep::always;
