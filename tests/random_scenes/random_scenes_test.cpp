@@ -200,12 +200,12 @@ class RandomScenes : public Folder {
   std::string texts_;  ///< of the last scene, in each way it was solved
 };
 
-TEST_F(RandomScenes, Columns2D) { judge_columns<2>(60); }
-TEST_F(RandomScenes, Columns3D) { judge_columns<3>(20); }
-TEST_F(RandomScenes, Rounds2D) { judge_rounds<2>(10); }
-TEST_F(RandomScenes, Rounds3D) { judge_rounds<3>(2); }
-TEST_F(RandomScenes, Piles2D) { judge_piles<2>(40); }
-TEST_F(RandomScenes, Piles3D) { judge_piles<3>(5); }
+TEST_F(RandomScenes, Columns2D) { judge_columns<2>(150); }
+TEST_F(RandomScenes, Columns3D) { judge_columns<3>(40); }
+TEST_F(RandomScenes, Rounds2D) { judge_rounds<2>(20); }
+TEST_F(RandomScenes, Rounds3D) { judge_rounds<3>(3); }
+TEST_F(RandomScenes, Piles2D) { judge_piles<2>(77); }
+TEST_F(RandomScenes, Piles3D) { judge_piles<3>(10); }
 
 }  // namespace
 }  // namespace signorini::test

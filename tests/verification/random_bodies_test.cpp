@@ -365,10 +365,10 @@ TEST(RandomBodies, KeepTheirForcesWhereAMotionIsLeft) {
   EXPECT_EQ(tally.solved, 1);
 }
 
-TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays2D) { judge_all<2>(120, Bodies::soft); }
-TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays3D) { judge_all<3>(60, Bodies::soft); }
-TEST(RandomBodies, AreMovedHoweverStiffTheyAre2D) { judge_all<2>(120, Bodies::stiff_and_moved); }
-TEST(RandomBodies, AreMovedHoweverStiffTheyAre3D) { judge_all<3>(60, Bodies::stiff_and_moved); }
+TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays2D) { judge_all<2>(250, Bodies::soft); }
+TEST(RandomBodies, AreSolvedOrRefusedAsALinearProgrammeSays3D) { judge_all<3>(100, Bodies::soft); }
+TEST(RandomBodies, AreMovedHoweverStiffTheyAre2D) { judge_all<2>(250, Bodies::stiff_and_moved); }
+TEST(RandomBodies, AreMovedHoweverStiffTheyAre3D) { judge_all<3>(100, Bodies::stiff_and_moved); }
 
 }  // namespace
 }  // namespace signorini::test
