@@ -1,5 +1,6 @@
 #include "driver/level_pairs.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "core/fem/discretize.hpp"
@@ -18,9 +19,36 @@ constexpr double far = 0.2501;
 }  // namespace
 
 template <int D, int B>
+void LevelPairs<D, B>::begin_at(std::size_t first) {
+  first_ = first;
+  for (MeshLevel<D, B>& level : levels_) level.connected = {};
+}
+
+template <int D, int B>
+auto LevelPairs<D, B>::found() const -> Found {
+  Found out{{}, shift_};
+  for (const MeshLevel<D, B>& level : levels_) out.of_level.emplace_back(level.all_pairs, level.pairs);
+  return out;
+}
+
+template <int D, int B>
+void LevelPairs<D, B>::put_back(Found found) {
+  shift_ = std::move(found.shift);
+  for (std::size_t k = 0; k < levels_.size(); ++k)
+    std::tie(levels_[k].all_pairs, levels_[k].pairs) = std::move(found.of_level[k]);
+}
+
+template <int D, int B>
+void LevelPairs<D, B>::forget() {
+  if (given_) return;
+  shift_.clear();
+  held_ = false;
+  for (MeshLevel<D, B>& level : levels_) level.all_pairs = level.pairs = nullptr;
+}
+
+template <int D, int B>
 void LevelPairs<D, B>::give(std::vector<Pairs> pairs) {
-  all_ = std::move(pairs);
-  chosen_ = all_;
+  for (std::size_t k = 0; k < levels_.size(); ++k) levels_[k].all_pairs = levels_[k].pairs = std::move(pairs[k]);
   given_ = true;
 }
 
@@ -30,15 +58,16 @@ bool LevelPairs<D, B>::find(const Model<B>& model) {
   if constexpr (D == B) {
     if (given_) return true;
     if (!model.follows) shift_.clear();
-    for (std::size_t level = first_; level < nodes_.size(); ++level) {
-      Pairs now = pair_bodies<D>(nodes_[level], model, collect_fixes(nodes_[level], model), shift_);
-      stay = stay && all_[level] && same_jumps(*now, *all_[level]);
-      all_[level] = std::move(now);
+    for (std::size_t k = first_; k < levels_.size(); ++k) {
+      MeshLevel<D, B>& level = levels_[k];
+      Pairs now = pair_bodies<D>(level.nodes, model, collect_fixes(level.nodes, model), shift_);
+      stay = stay && level.all_pairs && same_jumps(*now, *level.all_pairs);
+      level.all_pairs = std::move(now);
     }
     const bool held_before = std::exchange(held_, held(model));
     stay = stay && held_ == held_before;
-    for (std::size_t level = first_; level < nodes_.size(); ++level)
-      chosen_[level] = stay ? with_new_gaps(*all_[level], *chosen_[level]) : all_[level];
+    for (std::size_t k = first_; k < levels_.size(); ++k)
+      levels_[k].pairs = stay ? with_new_gaps(*levels_[k].all_pairs, *levels_[k].pairs) : levels_[k].all_pairs;
   }
   return stay;
 }
@@ -47,14 +76,16 @@ bool LevelPairs<D, B>::find(const Model<B>& model) {
 template <int D, int B>
 bool LevelPairs<D, B>::held(const Model<B>& model) const {
   if constexpr (D == B)
-    return LooseBody<D, B>(nodes_[first_], model, discretize(nodes_[first_], model, all_[first_])).held();
+    return LooseBody<D, B>(levels_[first_].nodes, model,
+                           discretize(levels_[first_].nodes, model, levels_[first_].all_pairs))
+        .held();
   return false;
 }
 
 /// The shape stays the undeformed one: in the dent of a body that slides the next step would have to climb its slope.
 template <int D, int B>
 bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& u) {
-  std::vector<Point<B>> shift = shift_after({shift_, all_.back()}, model, u);
+  std::vector<Point<B>> shift = shift_after({shift_, levels_.finest().all_pairs}, model, u);
   if (shift == shift_) return false;
   shift_ = std::move(shift);
   return true;
@@ -66,16 +97,17 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
   std::vector<Point<B>> shift = place.shift;
   if constexpr (D == B) {
     if (given_ || !model.follows || !is_paired(model) || !place.all) return shift;
+    const Nodes<D>& nodes = levels_.finest().nodes;
     shift.resize(model.obstacles.size());
-    const Pairs near = near_contact(nodes_.back(), model, *place.all, u);
+    const Pairs near = near_contact(nodes, model, *place.all, u);
     bool moved = false;
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
       if (!term.other || !term.renew) continue;
-      Slip<D> slip = slip_past(nodes_.back(), model, k, *place.all, *near, u);
+      Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
       if (slip.length == 0 && shift[k] != Point<B>{}) {  // past each other's ends: how far tells where they began
-        const Pairs first = pair_bodies<D>(nodes_.back(), model, collect_fixes(nodes_.back(), model));
-        slip = slip_past(nodes_.back(), model, k, *first, *first, u);
+        const Pairs first = pair_bodies<D>(nodes, model, collect_fixes(nodes, model));
+        slip = slip_past(nodes, model, k, *first, *first, u);
       }
       if (!(length<D>(difference<D>(slip.mean, shift[k])) > far * slip.length)) continue;
       shift[k] = slip.mean;
@@ -90,10 +122,11 @@ template <int D, int B>
 bool LevelPairs<D, B>::narrow(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
   constexpr std::size_t most = 2;  // times as many as are needed
   if constexpr (D == B) {
-    Pairs& chosen = chosen_[level];
-    const Pairs needed = near_contact(nodes_[level], model, *all_[level], u);
-    if (chosen->nodes.size() < all_[level]->nodes.size()) {
-      const Pairs both = near_contact(nodes_[level], model, *all_[level], u, chosen.get());
+    const auto& [all, nodes] = std::tie(levels_[level].all_pairs, levels_[level].nodes);
+    Pairs& chosen = levels_[level].pairs;
+    const Pairs needed = near_contact(nodes, model, *all, u);
+    if (chosen->nodes.size() < all->nodes.size()) {
+      const Pairs both = near_contact(nodes, model, *all, u, chosen.get());
       if (both->nodes.size() <= most * needed->nodes.size()) {
         if (both->nodes.size() == chosen->nodes.size()) return false;
         chosen = both;
@@ -108,7 +141,7 @@ bool LevelPairs<D, B>::narrow(const Model<B>& model, std::size_t level, const st
 
 template <int D, int B>
 void LevelPairs<D, B>::narrow_by_coarser(const Model<B>& model, std::size_t level, const std::vector<double>& u) {
-  const Prolongation P = interpolation(level - 1);
+  const Prolongation P = interpolation(level);
   std::vector<double> refined(static_cast<std::size_t>(P.fine()) * B);
   weights::with<B>(P, [&](const auto& weight) {
     for (Index p = 0; p < P.fine(); ++p)
@@ -120,10 +153,10 @@ void LevelPairs<D, B>::narrow_by_coarser(const Model<B>& model, std::size_t leve
 template <int D, int B>
 bool LevelPairs<D, B>::widen(const Model<B>& model, const std::vector<double>& u) {
   if constexpr (D == B) {
-    const Pairs& all = all_.back();
-    Pairs& chosen = chosen_.back();
-    if (!all || chosen == all || !touches_elsewhere(nodes_.back(), model, *all, *chosen, u)) return false;
-    chosen = near_contact(nodes_.back(), model, *all, u, chosen.get());
+    const auto& [all, nodes] = std::tie(levels_.finest().all_pairs, levels_.finest().nodes);
+    Pairs& chosen = levels_.finest().pairs;
+    if (!all || chosen == all || !touches_elsewhere(nodes, model, *all, *chosen, u)) return false;
+    chosen = near_contact(nodes, model, *all, u, chosen.get());
     return true;
   }
   return false;
@@ -131,18 +164,19 @@ bool LevelPairs<D, B>::widen(const Model<B>& model, const std::vector<double>& u
 
 template <int D, int B>
 void LevelPairs<D, B>::connect(std::size_t level, std::span<Prolongation> between) {
-  if (!all_[level]) return;
-  for (std::size_t k = first_; k < level; ++k) {
-    const std::array now{chosen_[k]->jumps, chosen_[k + 1]->jumps};
-    if (connected_[k] == now) continue;
-    between[k - first_] = between_jumps(interpolation(k), *now[1], *now[0]);
-    connected_[k] = now;
+  if (!levels_[level].all_pairs) return;
+  for (std::size_t k = first_ + 1; k <= level; ++k) {
+    const std::array now{levels_[k - 1].pairs->jumps, levels_[k].pairs->jumps};
+    if (levels_[k].connected == now) continue;
+    between[k - 1 - first_] = between_jumps(interpolation(k), *now[1], *now[0]);
+    levels_[k].connected = now;
   }
 }
 
+/// From the next coarser mesh, between displacements.
 template <int D, int B>
-Prolongation LevelPairs<D, B>::interpolation(std::size_t refinement) const {
-  return prolongation(hierarchy_.refinements[refinement], nodes_[refinement], nodes_[refinement + 1]);
+Prolongation LevelPairs<D, B>::interpolation(std::size_t level) const {
+  return prolongation(*levels_[level].refinement, levels_[level - 1].nodes, levels_[level].nodes);
 }
 
 template class LevelPairs<2, 1>;

@@ -1,13 +1,10 @@
 #pragma once
-#include <array>
-#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "core/fem/model.hpp"
-#include "core/fem/paired_bodies.hpp"
-#include "core/mesh/mesh.hpp"
 #include "core/solver/prolongation.hpp"
+#include "driver/mesh_levels.hpp"
 
 namespace signorini {
 
@@ -16,17 +13,13 @@ namespace signorini {
 template <int D, int B>
 class LevelPairs {
  public:
-  using Pairs = std::shared_ptr<const PairedBodies<B>>;
+  using Pairs = typename MeshLevel<D, B>::Pairs;
 
-  /// Keeps references.
-  /// @param nodes of each mesh
-  /// @param first the coarsest mesh that is a level
-  LevelPairs(const MeshHierarchy<D>& hierarchy, const std::vector<Nodes<D>>& nodes, std::size_t first)
-      : hierarchy_(hierarchy), nodes_(nodes), first_(first) {
-    all_.resize(nodes.size());
-    chosen_.resize(nodes.size());
-    connected_.resize(hierarchy.refinements.size());
-  }
+  /// Keeps a reference.
+  explicit LevelPairs(MeshLevels<D, B>& levels) : levels_(levels) {}
+
+  /// From now on this is the coarsest mesh that is a level. Interpolation between meshes knows no jumps.
+  void begin_at(std::size_t first);
 
   /// Of a new model all that may touch; to be called where is_paired(). In the first load step as the undeformed bodies
   /// lie to each other. Where nothing but gaps is new unknowns stay what they are.
@@ -41,29 +34,36 @@ class LevelPairs {
   bool follow(const Model<B>& model, const std::vector<double>& u);
   /// Whether it would.
   bool would_follow(const Model<B>& model, const std::vector<double>& u) const {
-    return shift_after({shift_, all_.back()}, model, u) != shift_;
+    return shift_after({shift_, levels_.finest().all_pairs}, model, u) != shift_;
   }
 
   /// Steps after this one begin from where bodies have found each other now.
-  void accept() { accepted_ = {shift_, all_.back()}; }
+  void accept() { accepted_ = {shift_, levels_.finest().all_pairs}; }
   /// Such a step begins, or begins again, with the last one's displacement: follows it from there.
   void begin_step(const Model<B>& model, const std::vector<double>& u) { shift_ = shift_after(accepted_, model, u); }
-  /// Steps begin from where those of another one's do.
-  void come_after(const LevelPairs& other) { accepted_ = other.accepted_; }
+
+  /// What a solve has found.
+  struct Found {
+    std::vector<std::pair<Pairs, Pairs>> of_level;  // all and chosen
+    std::vector<Point<B>> shift;
+  };
+  Found found() const;
+  void put_back(Found found);
+  /// The next solve finds pairs as if there had been none, but for those that are given.
+  void forget();
 
   /// From now on these are all that may touch, per mesh, whatever the model says.
   void give(std::vector<Pairs> pairs);
   bool given() const { return given_; }
-  const std::vector<Pairs>& all() const { return all_; }
 
   /// Per obstacle by how much slaves were taken to have moved past masters when they found each other; empty: not.
   const std::vector<Point<B>>& shift() const { return shift_; }
 
   /// What unknowns of a mesh are jumps for; null: for nothing.
-  const Pairs& at(std::size_t level) const { return chosen_[level]; }
+  const Pairs& at(std::size_t level) const { return levels_[level].pairs; }
 
   /// Whether a solution is to choose among all.
-  bool may_narrow(std::size_t level) const { return all_[level] && held_; }
+  bool may_narrow(std::size_t level) const { return levels_[level].all_pairs && held_; }
   /// Jumps are where a displacement of that mesh nearly touches, or one of the next coarser mesh does; and, as long as
   /// these are most of them, where they were in the last solve.
   /// @return whether they are at other nodes now
@@ -85,16 +85,13 @@ class LevelPairs {
   };
 
   std::vector<Point<B>> shift_after(const Place& place, const Model<B>& model, const std::vector<double>& u) const;
-  Prolongation interpolation(std::size_t refinement) const;
+  Prolongation interpolation(std::size_t level) const;
   bool held(const Model<B>& model) const;
 
-  const MeshHierarchy<D>& hierarchy_;
-  const std::vector<Nodes<D>>& nodes_;
-  const std::size_t first_;
-  std::vector<Pairs> all_, chosen_;  // per mesh
+  MeshLevels<D, B>& levels_;
+  std::size_t first_ = 0;
   std::vector<Point<B>> shift_;
   Place accepted_;
-  std::vector<std::array<std::shared_ptr<const Jumps<B>>, 2>> connected_;  // per refinement: of the interpolation
   bool given_ = false;
   bool held_ = false;  // prescribed values hold all bodies
 };

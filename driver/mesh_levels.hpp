@@ -1,30 +1,43 @@
 #pragma once
-#include <optional>
+#include <cstddef>
+#include <deque>
+#include <vector>
 
-#include "core/mesh/mesh.hpp"
-#include "core/scene/scene.hpp"
-#include "methods/configuration.hpp"
+#include "driver/mesh_level.hpp"
 
-/// Which meshes are levels, and what comes below the coarsest one.
 namespace signorini {
 
-/// How levels below the coarsest mesh are chosen: classical or aggregation; nothing where there are none.
-std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices);
+/// The meshes of a hierarchy, coarsest first. References to a level stay good until it is dropped.
+template <int D, int B>
+class MeshLevels {
+ public:
+  /// Keeps references to the meshes.
+  /// @param nodes of each mesh
+  MeshLevels(const MeshHierarchy<D>& hierarchy, std::vector<Nodes<D>> nodes);
 
-/// The coarsest mesh that gives a level: the first one, or the finest alone where all coarser levels are to be
-/// algebraic: where many cells are stretched, for there point smoothing needs levels that are coarser along the strong
-/// couplings only, and uniformly refined meshes have others. Below quadratic elements there are always linear ones.
-template <int D>
-std::size_t first_mesh(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block, int order = 1);
+  std::size_t size() const { return levels_.size(); }
+  MeshLevel<D, B>& operator[](std::size_t level) { return levels_[level]; }
+  const MeshLevel<D, B>& operator[](std::size_t level) const { return levels_[level]; }
+  MeshLevel<D, B>& finest() { return levels_.back(); }
+  const MeshLevel<D, B>& finest() const { return levels_.back(); }
+  std::vector<const Mesh<D>*> meshes() const;
 
-/// The number of meshes, coarsest first, that have no coarser level, because of bending, which those represent badly:
-/// of elastic bodies that are slender, or whose cells are stretched, as far as a factorisation costs no more than some
-/// cycles.
-template <int D>
-std::size_t factorised_meshes(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options, int block);
+  auto begin() { return levels_.begin(); }
+  auto end() { return levels_.end(); }
+  auto begin() const { return levels_.begin(); }
+  auto end() const { return levels_.end(); }
 
-/// Whether many cells of a mesh are stretched.
-template <int D>
-bool is_stretched(const Mesh<D>& mesh, int block);
+  /// A mesh that has come out of the finest one is the finest one now. It knows no last step.
+  void append(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes);
+  /// The next coarser one is the finest one again.
+  void drop_finest();
+  /// The next coarser mesh has been refined in another way. What is known of the last step goes over: displacements by
+  /// VertexId, linear between, and obstacles' own numbers from the vertex itself, or else from an end of the edge whose
+  /// midpoint it is; a start for pressures does not.
+  void replace_finest(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes);
+
+ private:
+  std::deque<MeshLevel<D, B>> levels_;
+};
 
 }  // namespace signorini

@@ -19,9 +19,9 @@
 #include "core/solver/admissible.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
+#include "driver/level_choice.hpp"
 #include "driver/level_start.hpp"
 #include "driver/loose_body.hpp"
-#include "driver/mesh_levels.hpp"
 #include "driver/moved_problem.hpp"
 #include "driver/near_null_space.hpp"
 #include "methods/near_start.hpp"
@@ -47,15 +47,16 @@ void remember(const std::vector<double>& u, Discretization<B>& discretization) {
     for (int k = 0; k < B; ++k) held.last[k] += u[Offset{held.bound.vertex} * B + k];
 }
 
-template <int D>
-std::vector<Prolongation> between_meshes(const MeshHierarchy<D>& hierarchy, const std::vector<Nodes<D>>& nodes,
-                                         std::size_t first, Times& times) {
-  const Stopwatch watch;
+template <int D, int B>
+std::vector<Prolongation> between_meshes(const MeshLevels<D, B>& levels, std::size_t first) {
   std::vector<Prolongation> between;
-  for (std::size_t k = first; k < hierarchy.refinements.size(); ++k)
-    between.push_back(prolongation(hierarchy.refinements[k], nodes[k], nodes[k + 1]));
-  times.setup += watch.elapsed();
+  for (std::size_t k = first + 1; k < levels.size(); ++k)
+    between.push_back(prolongation(*levels[k].refinement, levels[k - 1].nodes, levels[k].nodes));
   return between;
+}
+
+void add_force(const std::vector<double>& force, double sign, std::vector<double>& load) {
+  for (std::size_t k = 0; k < force.size(); ++k) load[k] += sign * force[k];
 }
 
 template <int D, int B>
@@ -67,12 +68,9 @@ template <int D, int B>
 NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
                                  const Registry& registry, const Progress& progress, Times& times,
                                  std::vector<Nodes<D>> nodes)
-    : hierarchy_(hierarchy),
-      nodes_(nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
+    : levels_(hierarchy, nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
       options_(options),
-      first_(first_mesh(hierarchy, options, B, nodes_.back().order())),
-      pairs_(hierarchy, nodes_, first_),
-      factorised_(factorised_meshes(hierarchy, options, B)),
+      pairs_(levels_),
       registry_(registry),
       progress_(progress),
       times_(times),
@@ -80,47 +78,83 @@ NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene:
         progress_.cycle(record);
         return !progress_.is_ended();
       }),
-      matrices_(first_, factorised_, between_meshes(hierarchy, nodes_, first_, times)) {
-  before_.resize(hierarchy.levels.size());
-  now_.resize(hierarchy.levels.size());
-  spaces_.resize(hierarchy.levels.size());
-  changed_.resize(hierarchy.levels.size());
-  kept_.resize(hierarchy.levels.size());
+      matrices_(0, 0, {}) {
+  choose_levels();
+}
+
+/// Which meshes are levels depends on all of them and on how the hierarchy is to be. Of others nothing is kept.
+template <int D, int B>
+void NestedSolver<D, B>::choose_levels() {
+  if (chosen_for_ == options_.hierarchy) return;
+  const Stopwatch watch;
+  chosen_for_ = options_.hierarchy;
+  const std::vector<const Mesh<D>*> meshes = levels_.meshes();
+  first_ = first_mesh<D>(meshes, options_, B, nodes().order());
+  factorised_ = factorised_meshes<D>(meshes, options_, B);
+  matrices_ = LevelMatrices<B>(first_, factorised_, between_meshes(levels_, first_));
+  continued_ = false;
+  pairs_.begin_at(first_);
+  for (MeshLevel<D, B>& level : levels_) level.kept.reset();
+  times_.setup += watch.elapsed();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::append(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
+  spared_ = nullptr;
+  levels_.append(mesh, refinement, std::move(nodes));
+  chosen_for_.clear();
+  choose_levels();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::drop_finest() {
+  spared_ = nullptr;
+  levels_.drop_finest();
+  chosen_for_.clear();
+  choose_levels();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::replace_finest(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
+  spared_ = nullptr;
+  levels_.replace_finest(mesh, refinement, std::move(nodes));
+  chosen_for_.clear();
+  choose_levels();
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::size_t level) {
   progress_.stop_if_interrupted();
   Stopwatch watch;
-  const Mesh<D>& mesh = hierarchy_.levels[level];
-  progress_.phase(fmt::format("level {}: {} vertices", level, mesh.vertices()));
+  MeshLevel<D, B>& here = levels_[level];
+  progress_.phase(fmt::format("level {}: {} vertices", level, here.mesh->vertices()));
   Solution<B> solution;
   if (auto renewed = renew_level(model, level)) {
     solution.discretization = std::move(*renewed);
   } else {
-    changed_[level] = true;
-    solution.discretization = discretize<D, B>(nodes_[level], model, pairs_.at(level));
+    here.changed = true;
+    solution.discretization = discretize<D, B>(here.nodes, model, here.pairs);
     Assemblies& count = times_.assemblies;
     ++count.stiffness, ++count.load, ++count.constraints;
   }
-  if (changed_[level]) find_pressure_space(model, level);
-  if (level == first_ && changed_[level]) matrices_.forget_products();
+  if (here.changed) find_pressure_space(model, level);
+  if (level == first_ && here.changed) matrices_.forget_products();
   DiscreteProblem<B>& problem = solution.discretization.problem;
-  if (model.follows && !before_[level].u.empty()) remember(before_[level].u, solution.discretization);
+  if (model.follows && !here.before.u.empty()) remember(here.before.u, solution.discretization);
   rest_where_prescribed(problem);
-  if (model.follows) before_[level].numbers.hand_to(solution.discretization);
+  if (model.follows) here.before.numbers.hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
-  if (!forces_.empty()) {
+  if (!here.force.empty()) {
     Discretization<B>& discretization = solution.discretization;
-    add_forces(level, 1, discretization);
+    add_force(here.force, 1, discretization.load);
     problem.b = local_forces(problem, discretization.load);
     discretization.prescribed.take_load(problem.b);
     prescribe(problem, discretization.prescribed);
   }
   solution.x = problem.start;
   if (!solution.discretization.functional.empty()) {
-    const LooseBody<D, B> body(nodes_[level], model, solution.discretization);
-    problem.loose = before_[level].u.empty() && body.needs_friction();
+    const LooseBody<D, B> body(here.nodes, model, solution.discretization);
+    problem.loose = here.before.u.empty() && body.needs_friction();
     body.require_minimum();  // where friction is too weak coarse meshes tell it early
   }
   times_.assemble += watch.elapsed();
@@ -130,18 +164,12 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
 template <int D, int B>
 void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs,
                                       std::vector<std::vector<double>> forces) {
-  if (other_) other_->take_contact(pairs, forces);
-  for (std::size_t level = 0; level < kept_.size(); ++level)
-    if (kept_[level]) add_forces(level, -1, kept_[level]->discretization);  // back to the model's own
   pairs_.give(std::move(pairs));
-  forces_ = std::move(forces);
-}
-
-/// To its load.
-template <int D, int B>
-void NestedSolver<D, B>::add_forces(std::size_t level, double sign, Discretization<B>& discretization) const {
-  if (forces_.empty()) return;
-  for (std::size_t k = 0; k < forces_[level].size(); ++k) discretization.load[k] += sign * forces_[level][k];
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    MeshLevel<D, B>& level = levels_[k];
+    if (level.kept) add_force(level.force, -1, level.kept->discretization.load);  // back to the model's own
+    level.force = std::move(forces[k]);
+  }
 }
 
 /// Where bodies may touch each other.
@@ -209,7 +237,7 @@ void NestedSolver<D, B>::connect_jumps(std::size_t level) {
 /// a start.
 template <int D, int B>
 bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution) {
-  const std::size_t finest = nodes_.size() - 1;
+  const std::size_t finest = levels_.size() - 1;
   if (!pairs_.at(finest)) return false;
   const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
   if (!pairs_.widen(model, u)) return false;
@@ -226,17 +254,18 @@ bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution)
 /// From what the last solve left, if that is all there.
 template <int D, int B>
 std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>& model, std::size_t level) {
-  std::optional<Kept> kept = std::exchange(kept_[level], std::nullopt);
+  MeshLevel<D, B>& here = levels_[level];
+  auto kept = std::exchange(here.kept, std::nullopt);
   if (!kept) return {};
   DiscreteProblem<B>& problem = kept->discretization.problem;
-  if (level + 1 < hierarchy_.levels.size()) {
+  if (level + 1 < levels_.size()) {
     GalerkinMatrix<B>* matrix = matrices_.of(level);
     if (!matrix) return {};
     problem.A = std::move(matrix->A);
     problem.fixed = std::move(matrix->off);
   }
-  const Assembled assembled = renew(nodes_[level], kept->model, model, kept->discretization, pairs_.at(level));
-  changed_[level] = !assembled.same_matrix();
+  const Assembled assembled = renew(here.nodes, kept->model, model, kept->discretization, here.pairs);
+  here.changed = !assembled.same_matrix();
   times_.assemblies.stiffness += assembled.stiffness;
   times_.assemblies.load += assembled.load;
   ++times_.assemblies.constraints;
@@ -246,11 +275,12 @@ std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>&
 /// Meshes that are no refinements have none: starts on them know the displacements' part of the material alone.
 template <int D, int B>
 void NestedSolver<D, B>::find_pressure_space(const Model<B>& model, std::size_t level) {
-  spaces_[level].reset();
+  MeshLevel<D, B>& here = levels_[level];
+  here.pressure_space.reset();
   if constexpr (D == B) {
-    if (model.pressure == Pressure::none || hierarchy_.levels[level].families.empty()) return;
-    PressureSpace<D> space = signorini::pressure_space(nodes_[level], model);
-    if (space.size > 0) spaces_[level].emplace(std::move(space));
+    if (model.pressure == Pressure::none || here.mesh->families.empty()) return;
+    PressureSpace<D> space = signorini::pressure_space(here.nodes, model);
+    if (space.size > 0) here.pressure_space.emplace(std::move(space));
   }
 }
 
@@ -258,32 +288,30 @@ void NestedSolver<D, B>::find_pressure_space(const Model<B>& model, std::size_t 
 template <int D, int B>
 std::vector<double> NestedSolver<D, B>::refined_pressure(std::size_t level, const std::vector<double>& coarse) const {
   if constexpr (D == B) {
-    if (spaces_[level] && !coarse.empty() && spaces_[level - 1])
-      return prolongate(*spaces_[level - 1], hierarchy_.levels[level - 1], coarse, hierarchy_.refinements[level - 1],
-                        *spaces_[level], hierarchy_.levels[level]);
+    const MeshLevel<D, B>&here = levels_[level], &below = levels_[level - 1];
+    if (here.pressure_space && !coarse.empty() && below.pressure_space)
+      return prolongate(*below.pressure_space, *below.mesh, coarse, *here.refinement, *here.pressure_space, *here.mesh);
   }
   return {};
 }
 
 template <int D, int B>
-void NestedSolver<D, B>::keep(const Model<B>& model, std::size_t level, Solution<B>& coarse) {
+void NestedSolver<D, B>::keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse) {
   if (coarse.x.empty()) return;
   DiscreteProblem<B>& problem = coarse.discretization.problem;
   for (auto* values : {&problem.b, &problem.start}) release(*values);  // which are new in every solve
   problem.constraints = {};
-  kept_[level].emplace(Kept{model, std::move(coarse.discretization)});
+  level.kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(coarse.discretization)});
 }
 
 template <int D, int B>
 void NestedSolver<D, B>::take_back(const Model<B>& model, Discretization<B> last) {
-  if (other_) return other_->take_back(model, std::move(last));
-  kept_.back().emplace(Kept{model, std::move(last)});
+  levels_.finest().kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(last)});
 }
 
 template <int D, int B>
 void NestedSolver<D, B>::forget_matrices() {
-  if (other_) other_->forget_matrices();
-  kept_.assign(kept_.size(), std::nullopt);
+  for (MeshLevel<D, B>& level : levels_) level.kept.reset();
   drop_algebraic_levels();
 }
 
@@ -297,9 +325,10 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   Stopwatch watch;
   const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
   AlgebraicSettings settings = algebraic_settings(options_);
-  settings.stretched = is_stretched(hierarchy_.levels.front(), B);
-  auto modes = *coarsening == Coarsening::aggregation ? near_null_space<D, B>(nodes_[first_], coarsest.jumps.get())
-                                                      : NearNullSpace{};
+  settings.stretched = is_stretched(*levels_[0].mesh, B);
+  auto modes = *coarsening == Coarsening::aggregation
+                   ? near_null_space<D, B>(levels_[first_].nodes, coarsest.jumps.get())
+                   : NearNullSpace{};
   const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
   auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
   matrices_.continue_below(std::move(below.prolongations), std::move(below.matrices));
@@ -310,7 +339,7 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
 /// For a start on the finest mesh, which alone has to hold the whole problem.
 template <int D, int B>
 void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
-  if (factorised_ > 0 || !coarsening_below(options_, B, nodes_[first_].size())) return;
+  if (factorised_ > 0 || !coarsening_below(options_, B, levels_[first_].nodes.size())) return;
   try {
     Solution<B> coarsest = discretize_level(model, first_);
     continue_algebraically(coarsest.discretization.problem);
@@ -322,19 +351,20 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
 
 template <int D, int B>
 void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
+  const MeshLevel<D, B>& here = levels_[level];
   const DiscreteProblem<B>& problem = solution.discretization.problem;
   std::optional<CoarserStep<B>> coarser;
   if (!coarse.x.empty())
-    coarser.emplace(CoarserStep<B>{coarse.discretization.problem, coarse.x, coarse.pressure, before_[level - 1],
+    coarser.emplace(CoarserStep<B>{coarse.discretization.problem, coarse.x, coarse.pressure, levels_[level - 1].before,
                                    matrices_.above(level - 1)});
   const CoarserStep<B>* known = coarser ? &*coarser : nullptr;
-  if (spaces_[level]) {
+  if (here.pressure_space) {
     const auto refined = [&](const std::vector<double>& pressure) { return refined_pressure(level, pressure); };
-    start_with_pressure(problem, before_[level], known, refined, solution.x, solution.pressure);
+    start_with_pressure(problem, here.before, known, refined, solution.x, solution.pressure);
   } else {
     std::vector<std::vector<double>> starts;
     if (options_.start == "nested") starts.push_back(std::move(solution.x));
-    solution.x = start_after(problem, before_[level], known, std::move(starts));
+    solution.x = start_after(problem, here.before, known, std::move(starts));
   }
 }
 
@@ -343,15 +373,16 @@ void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& 
 /// @param solution none: coarser meshes come first in any case
 template <int D, int B>
 bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solution<B>>& solution) {
-  const std::size_t finest = hierarchy_.levels.size() - 1;
-  if (options_.start != "nested" || before_[finest].u.empty() || pairs_.given() || is_paired(model)) return false;
+  const std::size_t finest = levels_.size() - 1;
+  const MeshLevel<D, B>& here = levels_[finest];
+  if (options_.start != "nested" || here.before.u.empty() || pairs_.given() || is_paired(model)) return false;
   solution = discretize_level(model, finest);
   const DiscreteProblem<B>& problem = solution->discretization.problem;
-  if (changed_[finest] || spaces_[finest] || !solution->discretization.functional.empty()) return false;
+  if (here.changed || here.pressure_space || !solution->discretization.functional.empty()) return false;
   const auto matrices = matrices_.matrices_below(finest);
   if (matrices.empty()) return false;
   const Stopwatch watch;
-  std::vector<double> x = to_local(problem, before_[finest].u);
+  std::vector<double> x = to_local(problem, here.before.u);
   const bool near = is_near(problem, matrices_.below(finest), matrices, x);
   if (near) solution->x = std::move(x);
   times_.solve += watch.elapsed();
@@ -383,13 +414,14 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
     solution.x = nested_start(problem, matrices_.between_algebraic(), options_, registry_, monitor_, &dropped_);
   }
   if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
-  if (!before_[level].u.empty()) start_after_step(level, coarse, solution);
+  if (!levels_[level].before.u.empty()) start_after_step(level, coarse, solution);
   times_.solve += watch.elapsed();
   if (refined) {
     const Stopwatch sharing;
-    matrices_.share(coarse.discretization.problem, level, problem, changed_[level - 1] || changed_[level]);
+    matrices_.share(coarse.discretization.problem, level, problem,
+                    levels_[level - 1].changed || levels_[level].changed);
     times_.setup += sharing.elapsed();
-    keep(model, level - 1, coarse);
+    keep(model, levels_[level - 1], coarse);
   }
   return solution;
 }
@@ -398,35 +430,36 @@ template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      const LooseBody<D, B>* body, Solution<B>& solution) {
   progress_.stop_if_interrupted();
+  const MeshLevel<D, B>& here = levels_[level];
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = matrices_.products_below(level);
   MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x,
                         solution.pressure);
   std::optional<LoadOf<D, B>> pressure;
   if constexpr (D == B) {
-    if (spaces_[level]) {
-      pressure.emplace(*spaces_[level], solution.discretization, std::move(solution.pressure));
+    if (here.pressure_space) {
+      pressure.emplace(*here.pressure_space, solution.discretization, std::move(solution.pressure));
       solution.discretization.problem.following = &*pressure;
     }
   }
-  probe_functionals(nodes_[level], model, solution.discretization, solution.x);
-  const bool result = level + 1 == hierarchy_.levels.size() && options.tolerance <= options_.tolerance;
-  progress_.solving({result, options.tolerance, 1 << hierarchy_.finest().mirrors.size()});
+  probe_functionals(here.nodes, model, solution.discretization, solution.x);
+  const bool result = level + 1 == levels_.size() && options.tolerance <= options_.tolerance;
+  progress_.solving({result, options.tolerance, 1 << levels_.finest().mesh->mirrors.size()});
   try {
     std::optional<ElementsAside<D>> aside;
-    if (spared_ && level + 1 == hierarchy_.levels.size()) aside.emplace(*spared_);
+    if (spared_ && level + 1 == levels_.size()) aside.emplace(*spared_);
     solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     if (error.status() != Exit::interrupted) {
-      blame_functionals(nodes_[level], model, solution.discretization, solution.x);
+      blame_functionals(here.nodes, model, solution.discretization, solution.x);
       if (!std::ranges::all_of(solution.x, [](double v) { return std::isfinite(v); }))
-        check_admissible_sets(nodes_[level], model, solution.discretization.problem, true);
+        check_admissible_sets(here.nodes, model, solution.discretization.problem, true);
     }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
   if (spared_) restore_elements(*spared_);
-  check_functionals(nodes_[level], model, solution.discretization, solution.x);
+  check_functionals(here.nodes, model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
   if constexpr (D == B) {
@@ -457,10 +490,10 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
     options.max_iterations =
         std::min(options.max_iterations, moves ? automatic::attempt(automatic::Kind::levels_of_matrix).most_steps
                                                : automatic::patience_with_friction);
-  solve_level(model, hierarchy_.levels.size() - 1, options, moves ? &body : nullptr, solution);
+  solve_level(model, levels_.size() - 1, options, moves ? &body : nullptr, solution);
   while (solution.summary.converged() && !progress_.is_ended() && pair_more(model, solution)) {
     std::vector<Stage> before = std::move(solution.summary.stages);
-    solve_level(model, hierarchy_.levels.size() - 1, options, nullptr, solution);
+    solve_level(model, levels_.size() - 1, options, nullptr, solution);
     solution.summary.put_in_front(std::move(before));
   }
   if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
@@ -478,13 +511,14 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
   Solution<B> coarse;
   const auto solve = [&](std::size_t k, const SolverOptions& options, bool) -> std::string {
     const std::size_t level = first_ + k;
+    MeshLevel<D, B>& here = levels_[level];
     Solution<B> solution = begin_level(model, level, coarse);
     std::optional<LooseBody<D, B>> body;
-    if (solution.discretization.functional.empty()) body.emplace(nodes_[level], model, solution.discretization);
+    if (solution.discretization.functional.empty()) body.emplace(here.nodes, model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
-    now_[level].u = to_global(solution.discretization.problem, solution.x);
-    now_[level].numbers = {solution.discretization, solution.x};
-    now_[level].pressure = solution.pressure;
+    here.now.u = to_global(solution.discretization.problem, solution.x);
+    here.now.numbers = {solution.discretization, solution.x};
+    here.now.pressure = solution.pressure;
     coarse = std::move(solution);
     return "";
   };
@@ -495,15 +529,16 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     coarse = {};
     matrices_.forget_products();
   };
-  nested_iteration<B>(hierarchy_.levels.size() - 1 - first_, options_, solve, failed);
+  nested_iteration<B>(levels_.size() - 1 - first_, options_, solve, failed);
   return coarse;
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
-  const std::size_t finest = hierarchy_.levels.size() - 1;
+  const std::size_t finest = levels_.size() - 1;
+  dropped_.clear();
   if (spared_) restore_elements(*spared_);  // memory may have run out in the last solve
-  for (LevelSolution<B>& of_level : now_) of_level = {};
+  for (MeshLevel<D, B>& level : levels_) level.now = {};
   pair_levels(model);
   std::optional<Solution<B>> begun;
   const bool near = begin_near(model, begun);
@@ -514,26 +549,16 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   coarse = {};
   if (finest == first_) come_near(model, solution);
   solve_finest(model, solution);
-  now_[finest].numbers = {solution.discretization, solution.x};
-  now_[finest].pressure = solution.pressure;
+  levels_[finest].now.numbers = {solution.discretization, solution.x};
+  levels_[finest].now.pressure = solution.pressure;
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;
 }
 
 template <int D, int B>
 void NestedSolver<D, B>::accept() {
-  if (other_) return other_->accept();
   pairs_.accept();
-  before_.swap(now_);
-  for (LevelSolution<B>& of_level : now_) of_level = {};
-}
-
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
-  come_back();
-  if (other_) return other_->solve(model);
-  for (LevelSolution<B>& of_level : before_) of_level = {};
-  return solve_safely(model);
+  for (MeshLevel<D, B>& level : levels_) level.before = std::exchange(level.now, {});
 }
 
 template class NestedSolver<2, 1>;

@@ -6,14 +6,13 @@
 
 #include "core/component/registry.hpp"
 #include "core/fem/discretize.hpp"
-#include "core/fem/pressure_space.hpp"
 #include "core/io/report.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/scene/scene.hpp"
 #include "core/solver/summary.hpp"
 #include "driver/level_matrices.hpp"
 #include "driver/level_pairs.hpp"
-#include "driver/level_solution.hpp"
+#include "driver/mesh_levels.hpp"
 #include "driver/progress.hpp"
 #include "methods/configuration.hpp"
 #include "methods/solve.hpp"
@@ -35,11 +34,6 @@ struct Solution {
   bool slides_on = false;                 ///< bodies have slid past each other since they were last paired
 };
 
-/// Of scalar bodies there is nothing to know.
-struct NoPressure {};
-template <int D, int B>
-using PressureOf = std::conditional_t<D == B, PressureSpace<D>, NoPressure>;
-
 /// Solves models on one hierarchy of meshes: by nested iteration from the coarsest level up, or on the finest level
 /// only.
 template <int D, int B>
@@ -51,12 +45,17 @@ class NestedSolver {
                const Progress& progress, Times& times, std::vector<Nodes<D>> nodes = {});
 
   /// Of the finest mesh: solutions have B numbers for each.
-  const Nodes<D>& nodes() const { return nodes_.back(); }
+  const Nodes<D>& nodes() const { return levels_.finest().nodes; }
+
+  /// Between solves the hierarchy may become another one, see MeshLevels; elements are set aside no more.
+  void append(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes);
+  void drop_finest();
+  void replace_finest(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes);
 
   /// Of the last solve on the finest mesh; null where no pressure has unknowns of its own.
   const PressureOf<D, B>* pressure_space() const {
-    if (other_) return other_->pressure_space();
-    return spaces_.back() ? &*spaces_.back() : nullptr;
+    const std::optional<PressureOf<D, B>>& space = levels_.finest().pressure_space;
+    return space ? &*space : nullptr;
   }
 
   /// Starts as `solver.start` says. Error(Exit::interrupted) when the user asked to end, Error(Exit::no_solution) where
@@ -77,10 +76,7 @@ class NestedSolver {
   void may_set_elements_aside(MeshHierarchy<D>& meshes) { spared_ = &meshes; }
 
   /// Of all methods together, in one solve from now on.
-  void limit_iterations(int most) {
-    options_.max_iterations = most;
-    if (other_) other_->limit_iterations(most);
-  }
+  void limit_iterations(int most) { options_.max_iterations = most; }
 
   /// Interpolation between the meshes `level` and `level` + 1.
   const Prolongation& from_mesh(std::size_t level) const { return matrices_.above(level); }
@@ -93,23 +89,20 @@ class NestedSolver {
   void forget_matrices();
 
   /// In the last solve, per obstacle by how much slaves were taken to have moved past masters; empty: not.
-  const std::vector<Point<B>>& shift() const { return other_ ? other_->shift() : pairs_.shift(); }
+  const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
 
   /// Whether all levels below the finest mesh are chosen by its matrix.
-  bool by_matrix() const { return other_ ? other_->by_matrix() : first_ > 0; }
+  bool by_matrix() const { return first_ > 0; }
 
  private:
-  /// The problem of a level after its solve: all but its matrix, which is among the products where it is a coarse one.
-  struct Kept {
-    Model<B> model;
-    Discretization<B> discretization;
-  };
+  struct Place;
+  struct Found;
 
+  void choose_levels();
   bool may_fall_back() const;
   bool newton_may_do(const Solution<B>& solution) const;
-  std::unique_ptr<NestedSolver> other_way(automatic::Kind kind) const;
-  Solution<B> solve_safely(const Model<B>& model);
-  void come_back();
+  Found solve_safely(const Model<B>& model);
+  Solution<B> solve_sliding(const Model<B>& model);
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   bool begin_near(const Model<B>& model, std::optional<Solution<B>>& solution);
@@ -125,7 +118,7 @@ class NestedSolver {
   bool pair_more(const Model<B>& model, Solution<B>& solution);
   std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
   void add_forces(std::size_t level, double sign, Discretization<B>& discretization) const;
-  void keep(const Model<B>& model, std::size_t level, Solution<B>& coarse);
+  void keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse);
   void find_pressure_space(const Model<B>& model, std::size_t level);
   std::vector<double> refined_pressure(std::size_t level, const std::vector<double>& coarse) const;
   void continue_algebraically(DiscreteProblem<B>& coarsest);
@@ -135,27 +128,20 @@ class NestedSolver {
                    Solution<B>& solution);  // without a body it is not moved first
   Solution<B> solve_coarser_meshes(const Model<B>& model);
 
-  const MeshHierarchy<D>& hierarchy_;
-  MeshHierarchy<D>* spared_ = nullptr;  // the same, where its elements may be set aside
-  const std::vector<Nodes<D>> nodes_;   // per mesh
+  MeshHierarchy<D>* spared_ = nullptr;  // where its elements may be set aside
+  MeshLevels<D, B> levels_;
   Scene::Solver options_;
-  const std::size_t first_;  // the coarsest mesh that gives a level, or a start
+  std::string chosen_for_;      // the option `hierarchy` of what follows; empty: not chosen yet
+  std::size_t first_ = 0;       // the coarsest mesh that gives a level, or a start
+  std::size_t factorised_ = 0;  // the number of meshes that have no coarser level
   LevelPairs<D, B> pairs_;
-  std::vector<std::vector<double>> forces_;  // per mesh, see take_contact(); empty: none
-  const std::size_t factorised_;             // the number of meshes that have no coarser level
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;
   const Monitor monitor_;
   LevelMatrices<B> matrices_;
-  std::vector<bool> changed_;              // per mesh: its matrix is another one than in the last solve
-  std::vector<std::optional<Kept>> kept_;  // per mesh
-  bool continued_ = false;
-  std::vector<Stage> dropped_;                           // starts that coarser levels did not give, and rough ones
-  std::unique_ptr<NestedSolver> other_;                  // what goes on where this one did not do
-  std::vector<LevelSolution<B>> before_;                 // per mesh, of the last step that was accepted
-  std::vector<LevelSolution<B>> now_;                    // per mesh, of the last solve
-  std::vector<std::optional<PressureOf<D, B>>> spaces_;  // per mesh
+  bool continued_ = false;      // algebraic levels have been looked for
+  std::vector<Stage> dropped_;  // starts that coarser levels did not give, and rough ones
 };
 
 }  // namespace signorini

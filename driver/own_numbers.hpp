@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,21 @@ class OwnNumbers {
       const auto from = data.begin() + static_cast<Offset>(slot) * width_;
       numbers_.insert(numbers_.end(), from, from + width_);
     }
+  }
+
+  /// For other nodes: each takes over those of the one in `source`; -1: none.
+  OwnNumbers at_nodes(std::span<const Index> source) const {
+    OwnNumbers out;
+    out.width_ = width_;
+    for (std::size_t p = 0; p < source.size(); ++p) {
+      auto found = std::ranges::lower_bound(of_, std::pair(source[p], Index{0}));
+      for (; found != of_.end() && found->first == source[p]; ++found) {
+        out.of_.emplace_back(static_cast<Index>(p), found->second);
+        const auto from = numbers_.begin() + (found - of_.begin()) * width_;
+        out.numbers_.insert(out.numbers_.end(), from, from + width_);
+      }
+    }
+    return out;
   }
 
   /// To where the next step has the same obstacles at the same nodes: Constraints::before.

@@ -18,7 +18,7 @@
 #include "driver/contact_warnings.hpp"
 #include "driver/dirichlet_neumann.hpp"
 #include "driver/fitting_order.hpp"
-#include "driver/mesh_levels.hpp"
+#include "driver/level_choice.hpp"
 #include "driver/numbers.hpp"
 #include "driver/problem.hpp"
 #include "driver/results.hpp"
@@ -201,8 +201,9 @@ void check(Scene& scene, const Registry& registry, std::size_t body) {
   if (pressures > 0) say("pressure: {} unknowns of its own where material is nearly incompressible\n", pressures);
   print_contacts(nodes, scene, scene.bodies[body], model, slaves);
   const Scene::Solver options = solver_options(scene, scene.bodies[body]);
-  const std::size_t first = first_mesh(hierarchy, options, B, order);
-  const bool factorised = factorised_meshes(hierarchy, options, B) > 0;
+  const std::vector<const Mesh<D>*> meshes = meshes_of(hierarchy);
+  const std::size_t first = first_mesh<D>(meshes, options, B, order);
+  const bool factorised = factorised_meshes<D>(meshes, options, B) > 0;
   const auto below = factorised ? std::nullopt : coarsening_below(options, B, hierarchy.levels[first].vertices());
   const bool functional =
       std::ranges::any_of(model.obstacles, [](const auto& term) { return term.obstacle->functional() != nullptr; });
