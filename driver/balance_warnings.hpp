@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fem/forces.hpp"
 #include "core/fem/nodes.hpp"
 #include "core/io/report.hpp"
 #include "core/io/warning.hpp"
@@ -18,9 +19,9 @@ Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nod
                           const std::vector<double>& load, const StepReport& report, double rounding);
 
 /// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or an obstacle:
-/// the largest of its parts. Forces that cancel within one of these are known by their work alone.
+/// the largest of its parts. Forces that cancel within a fix count.
 /// @param report of this body alone, with its parts
-/// @param u its displacements
-double imbalance(const StepReport& report, const std::vector<double>& u);
+template <int D, int B>
+double imbalance(const Scene& scene, const Scene::Body& body, const StepReport& report, const Forces<B>& forces);
 
 }  // namespace signorini

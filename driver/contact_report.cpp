@@ -39,6 +39,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.undetermined_force = contact.undetermined_force;
   report.largest_penetration = at.penetration;
   report.largest_opening = at.opening;
+  report.over_edge = at.over_edge;
   report.largest_displacement = at.displacement;
   report.beyond_nodes = at.beyond;
   return report;

@@ -37,6 +37,13 @@ double off(const ContactReport& contact) {
   return contact.largest_displacement > 0 ? by / contact.largest_displacement : 0;
 }
 
+std::string why_off(const ContactReport& contact) {
+  if (contact.over_edge) return "there it moves over an edge of the obstacle, behind which conditions are others";
+  return fmt::format("for these displacements the obstacle or the boundary is too curved, or {}",
+                     contact.pair ? "the mesh too coarse: between bodies conditions are means over faces"
+                                  : "quadratic elements are too coarse");
+}
+
 /// The same between nodes, if more than at these. (Of scalars it is what elements leave.)
 double off_between(const ContactReport& contact) {
   const double by = contact.penetration_between_nodes;
@@ -166,9 +173,7 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
           origin, std::fmax(contact.largest_penetration, contact.largest_opening),
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
                                                                  : "off the obstacle though contact is claimed",
-          contact.largest_displacement, at_step(report, farthest),
-          contact.pair ? ", or the mesh too coarse: between bodies conditions are means over faces"
-                       : ", or quadratic elements are too coarse"));
+          contact.largest_displacement, at_step(report, farthest), why_off(contact)));
     const StepReport& between = worst(report, k, off_between);
     if (const ContactReport& c = between.contact[k]; off_between(c) > coarse)
       warnings.push_back(warning<"between-nodes">(

@@ -2,9 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "amg/coarse/allowed_motions.hpp"
-#include "core/fem/discretize.hpp"
-#include "core/fem/rigid_motions.hpp"
+#include "driver/free_motions.hpp"
 
 namespace signorini {
 
@@ -15,24 +13,22 @@ template <int D, int B>
 class LooseBody {
  public:
   /// Keeps references to all of them.
-  LooseBody(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization);
+  LooseBody(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization)
+      : body_(nodes, model, discretization) {}
 
   /// Whether the prescribed values leave it no motion.
-  bool held() const { return free_.cols() == 0; }
+  bool held() const { return body_.none(); }
 
-  /// Whether nothing but friction may hold the body: the loads do work along a motion that no bound ends.
+  /// See LimitAnalysis.
   bool needs_friction() const;
-
-  /// Error(Exit::no_solution) that names a motion along which the loads do work and that no bound ends, whatever
-  /// friction takes of that work: then no forces within the cones of friction bear the loads, and without friction the
-  /// energy has no minimum. Exact but for rounding: a motion counts whose work is more than 1e-10 of what the loads
-  /// could do. (Where such forces are, Coulomb's law may yet have no solution.)
+  /// Likewise.
   void require_minimum() const;
 
   /// Moves x (local coordinates), or the undeformed body where that has less energy then, as a rigid body to where
   /// prescribed values, obstacles and loads take it. What is stiff comes to rest next to that, and iterations find it
   /// slowly.
   /// @return the way of the undeformed body there (local coordinates); empty: it stays where it is
+  /// @throws Error(Exit::input) where that is a turn by more than a hundred radians
   std::vector<double> fall(std::vector<double>& x) const;
 
   /// Whether the motion that takes the undeformed body nearest to x (local coordinates), of those that the prescribed
@@ -47,60 +43,17 @@ class LooseBody {
 
  private:
   using Motions = RigidMotions<D, B>;
+  using Free = FreeMotions<D, B>;
+  using Room = typename Free::Room;
 
-  /// What a bound leaves to motions c: lower <= row . c <= upper.
-  struct Room {
-    Index vertex;
-    Eigen::RowVectorXd row;
-    double lower, upper;
-    double normal;  ///< component of the bounded direction along the one that presses against friction
-  };
-
-  /// What friction leaves to motions c: those that leave an obstacle by at least `coefficient` times their way along
-  /// it. Against all others a force within its cone does work.
-  struct Cone {
-    Eigen::RowVectorXd away;
-    Eigen::MatrixXd along;  ///< one row per tangential direction
-    double coefficient;
-
-    double size() const { return away.norm() + coefficient * along.norm(); }
-    double excess(const Eigen::VectorXd& c) const { return away.dot(c) - coefficient * (along * c).norm(); }
-    /// What a linear condition says of the same where it goes along as c.
-    Eigen::RowVectorXd cut(const Eigen::VectorXd& c) const {
-      return away - coefficient * (along * c).normalized().transpose() * along;
-    }
-  };
-
-  /// What ends motions that go on.
-  struct Ends {
-    AllowedMotions allowed;
-    std::vector<Eigen::RowVectorXd> rows;  ///< of what it knows
-    std::vector<Cone> cones;
-
-    void add(const Eigen::RowVectorXd& row);
-    double worst(const Eigen::VectorXd& motion, std::size_t& cone) const;
-    Eigen::VectorXd nearest(const Eigen::VectorXd& work, double enough);
-    Eigen::VectorXd slide(const Eigen::VectorXd& motion) const;
-  };
-
-  void add_work();
-  Ends ends() const;
-  void add_end(const Room& room, Ends& out) const;
-  std::string describe_fall(const Ends& ends, const Eigen::VectorXd& motion) const;
   Eigen::VectorXd nearest_motion(const std::vector<double>& x) const;
-  double resistance(const Eigen::VectorXd& motion) const;
-  double coefficient_of_friction(Index slot) const;
-  int normal_component(Index slot) const;
-  bool slides_along(const std::vector<double>& step, double least) const;
+  double turn(const Eigen::VectorXd& motion) const;  // radians, the largest about an axis
+  void refuse_turned(const Eigen::VectorXd& motion) const;
   std::vector<double> as_prescribed() const;
   bool is_near(const typename Motions::Motion& motion) const;
   Eigen::VectorXd come_clear(std::vector<double>& x) const;
   Eigen::VectorXd let_fall(std::vector<double>& x) const;
   void touch(double rounding, std::vector<double>& x) const;
-  std::vector<Room> gaps(const std::vector<double>& x) const;
-  std::vector<Room> rooms(const std::vector<double>& x) const;
-  template <class Visit>
-  void each_polyhedron(const Visit& visit) const;
   void add_pressed(Index slot, const std::vector<double>& x, std::vector<double>& forces,
                    std::vector<Eigen::RowVectorXd>& rows) const;
   Eigen::MatrixXd pressed(const std::vector<double>& x) const;
@@ -108,17 +61,10 @@ class LooseBody {
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
   Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                const Eigen::MatrixXd& costless) const;
-  void add(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move_and_stay(const Eigen::VectorXd& motion, std::vector<double>& x) const;
 
-  const Nodes<D>& nodes_;
-  const Model<B>& model_;
-  const Discretization<B>& discretization_;
-  Motions motions_;
-  Eigen::MatrixXd free_;  // columns: an orthonormal basis
-  Eigen::VectorXd work_;  // of the loads along each of them
-  double most_work_ = 0;  // that loads of this size could do along a motion of length one
+  const FreeMotions<D, B> body_;
 };
 
 }  // namespace signorini

@@ -129,6 +129,38 @@ double difference_of_displacements(const std::vector<double>& u) {
   return length<D>(range);
 }
 
+/// Whether most of what the obstacle's normal turns by, along the way of a node, it turns at one place: halves of the
+/// way, of which each time the one is kept over which it turns more.
+template <int D>
+bool turns_at_once(const Nodes<D>& nodes, const Surface<D>& at, Index p, const ObstacleTerm<D>& term,
+                   const std::vector<double>& u) {
+  constexpr int halves = 8;
+  constexpr double most = 0.5, least = 1e-6;
+  const auto place = std::ranges::lower_bound(at.nodes, p) - at.nodes.begin();
+  SurfaceVertex v{};
+  std::copy_n(node_normals(nodes, at)[static_cast<std::size_t>(place)].data(), D, v.normal);
+  const auto normal = [&](double part) {
+    for (int i = 0; i < D; ++i) v.position[i] = nodes.at(p)[i] + part * u[Offset{p} * D + i];
+    const std::vector<Gap<D>> there = gaps<D>({v}, {p}, term);
+    return there.empty() ? Point<D>{} : there.front().normal;
+  };
+  const auto turn = [](Point<D> a, const Point<D>& b) {
+    for (int i = 0; i < D; ++i) a[i] -= b[i];
+    return length<D>(a);
+  };
+  double from = 0, to = 1;
+  Point<D> before = normal(from), after = normal(to);
+  const double whole = turn(before, after);
+  for (int k = 0; k < halves; ++k) {
+    const double middle = (from + to) / 2;
+    const Point<D> between = normal(middle);
+    const bool first = turn(before, between) > turn(between, after);
+    (first ? to : from) = middle;
+    (first ? after : before) = between;
+  }
+  return whole > least && turn(before, after) > most * whole;
+}
+
 template <int B>
 DeformedContact violation(const ContactState<B>& state, Index obstacle) {
   DeformedContact out;
@@ -152,11 +184,13 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   const ObstacleTerm<D>& term = model.obstacles[obstacle];
   const Mesh<D> there = displaced(nodes, u);
   const Nodes<D> moved = nodes.on(there);
-  const auto all = term.other ? pair_gaps(nodes, couple_displaced(nodes, model, obstacle, u), term)
-                              : gaps(moved, faces_of(nodes, model, obstacle, false), term);
+  const Surface<D> faces = term.other ? Surface<D>{} : faces_of(nodes, model, obstacle, false);
+  const auto all =
+      term.other ? pair_gaps(nodes, couple_displaced(nodes, model, obstacle, u), term) : gaps(moved, faces, term);
   if (all.empty() && !term.other) return {};
   const auto* faceted = dynamic_cast<const geometry::FacetedDistance*>(term.shape.get());
   DeformedContact out;
+  Index farthest = -1;
   auto node = state.nodes.begin();
   for (const Gap<D>& gap : all) {
     bool contact = false;
@@ -169,12 +203,15 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
         const SmoothedOver over = faceted->smoothed_at(moved.at(gap.node).data());
         if (over.error() > out.smoothed.error()) out.smoothed = over;
       }
+    const double off = contact ? std::abs(gap.distance) : -gap.distance;
+    if (off > std::max(out.opening, out.penetration)) farthest = gap.node;
     if (contact) out.opening = std::max(out.opening, gap.distance);
     out.penetration = std::max(out.penetration, -gap.distance);
     if (contact || gap.distance < 0) out.displacement = std::max(out.displacement, size_at<D>(u, gap.node));
   }
   // Where a body is pressed from behind on something rigid it moves less than what presses it.
   out.displacement = std::max(out.displacement, difference_of_displacements<D>(u));
+  if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
   if (all.empty()) out.penetration = out.opening = out.displacement = unknown;
   return out;

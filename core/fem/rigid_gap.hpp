@@ -14,6 +14,8 @@ struct DeformedContact {
   Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
   double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
   SmoothedOver smoothed{};  ///< likewise
+  /// The obstacle's normal turns at once where the vertex moves of the largest of these distances.
+  bool over_edge = false;
 };
 
 /// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between

@@ -79,9 +79,9 @@ inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::result, "too-curved",
      "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: contact is linearised about "
      "the "
-     "undeformed body, and for these displacements the obstacle or the boundary is too curved{}",
+     "undeformed body, and {}",
      "it reaches into the obstacle, or contact is claimed where it is off it: displacements are too large for this "
-     "curvature, or elements for this contact",
+     "curvature, or take the body over an edge of the obstacle, or elements are too large for this contact",
      "smaller displacements; a finer mesh; between bodies, more `[steps]`"},
     {WarningKind::About::result, "between-nodes",
      "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: conditions hold at nodes "

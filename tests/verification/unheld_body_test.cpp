@@ -168,5 +168,50 @@ TEST(UnheldBody, SaysWhereItGoesWhereFrictionDoesNotHoldIt) {
   EXPECT_THAT(reason(0.3, 0.9), testing::HasSubstr("rotation about"));
 }
 
+// A block that hangs on its bottom is tilted by its load. A plane in front of its side holds it after a small turn; of
+// what one far away would do linearised contact knows nothing.
+TEST(UnheldBody, TurnsByMoreThanLinearisedContactMeans) {
+  const auto tilted = [](const std::string& obstacle) {
+    return fmt::format(R"(
+[[body]]
+name = "b"
+shape = "rectangle"
+from = [-0.3, -0.5]
+to = [0.3, 0.5]
+cells = [3, 3]
+order = 1
+young = 1e6
+poisson = 0.1
+[[fix]]
+body = "b"
+on = "bottom"
+value = [0, "free"]
+[[load]]
+body = "b"
+value = [1e-4, 0]
+[[obstacle]]
+type = "contact"
+body = "b"
+on = "right"
+{}
+)",
+                       obstacle);
+  };
+  const auto plane = [&](double x) {
+    return tilted(fmt::format("shape = \"plane\"\npoint = [{}, 0]\nnormal = [-1, 0]\n", x));
+  };
+  EXPECT_NEAR((run<2, 2>(plane(0.4)).contact().force[0]), -0.3e-4, 1e-9) << "moments about the bottom";
+  {
+    const std::string far = plane(200);
+    try {
+      run<2, 2>(far);
+      ADD_FAILURE() << "solved:" << far;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Exit::input) << error.what();
+      EXPECT_NE(std::string(error.what()).find("turned by"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

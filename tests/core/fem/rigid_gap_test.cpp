@@ -98,5 +98,40 @@ TEST(StartDepth, TellsABodyInsideAndAReversedNormal) {
   EXPECT_FALSE(start_depth(mesh, model, 0, true));
 }
 
+/// Below y = 0 left of x = 0.5, and below a slope right of it.
+class Ridge : public DistanceFunction {
+ public:
+  explicit Ridge(double slope) : normal_{slope / std::hypot(slope, 1), 1 / std::hypot(slope, 1)} {}
+  Distance at(const double* x, const double*, Status&) const noexcept override {
+    const double beyond = normal_[0] * (x[0] - 0.5) + normal_[1] * x[1];
+    return x[1] >= beyond ? Distance{x[1], {0, 1, 0}} : Distance{beyond, {normal_[0], normal_[1], 0}};
+  }
+
+ private:
+  double normal_[2];
+};
+
+// What an edge does is told from what curvature does by where the normal turns.
+TEST(DeformedContact, TellsEdgesFromCurvature) {
+  const Mesh<2> mesh = unit_mesh<2>(4);
+  Model<2> model;
+  std::vector<double> u;
+  for (Index p = 0; p < mesh.vertices(); ++p) u.insert(u.end(), {0.03, 0.0});
+  ContactState<2> state;
+  state.obstacles.resize(1);
+  for (Index p = 0; p < mesh.vertices(); ++p)
+    if (mesh.points[p][1] == 0 && mesh.points[p][0] == 0.5) state.nodes.push_back({p, 0, true});
+  ASSERT_EQ(state.nodes.size(), 1u);
+  const auto over_edge = [&](std::shared_ptr<const DistanceFunction> shape) {
+    model.obstacles = {rigid<2>(shape, "bottom")};
+    const auto found = deformed_contact(Nodes(mesh), model, 0, state, u);
+    EXPECT_GT(found->opening + found->penetration, 1e-4);
+    return found->over_edge;
+  };
+  EXPECT_TRUE(over_edge(std::make_shared<Ridge>(0.36)));
+  EXPECT_FALSE(over_edge(disk(0.7)));
+  EXPECT_FALSE(over_edge(disk(0.05)));
+}
+
 }  // namespace
 }  // namespace signorini::testing
