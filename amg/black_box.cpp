@@ -10,6 +10,7 @@
 #include "amg/black_box/falls_forever.hpp"
 #include "amg/black_box/given_bounds.hpp"
 #include "amg/black_box/given_levels.hpp"
+#include "amg/black_box/go_on.hpp"
 #include "amg/black_box/held_rows.hpp"
 #include "amg/black_box/motions.hpp"
 #include "amg/black_box/nested_start.hpp"
@@ -294,11 +295,12 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.galerkin = levels.matrices;
     Result result;
     std::vector<Stage> dropped;
+    std::vector<double> from(start.begin(), start.end());
+    if (from == last_) go_on(problem_, way_, from);
     if (start.empty())
       result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped);
     else
-      result.x = nested_start_from<B>({start.begin(), start.end()}, problem_, levels.prolongations, options_, registry_,
-                                      monitor, &dropped);
+      result.x = nested_start_from<B>(from, problem_, levels.prolongations, options_, registry_, monitor, &dropped);
     result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
     result.summary.put_in_front(std::move(dropped));
     if (!motions_->complete() && is_in_doubt(levels, result.summary)) refuse_indefinite_by_steps<B>(problem_.A);
@@ -307,8 +309,17 @@ class BlackBox::BlockSolver final : public Solver {
     else if (!fall_.certain && result.summary.outcome != Outcome::interrupted)
       recognise_unbounded(levels, result, monitor);
     refine<B>(problem_, held_, b, options_, *motions_, result.x, result.summary);
+    remember(start, result);
     add_multiplier(result);
     return result;
+  }
+
+  /// What the next solve may go on from. A single cycle leaves nothing but the solver's error.
+  void remember(std::span<const double> start, const Result& result) {
+    last_ = result.x;
+    if (!start.empty() && result.summary.iterations <= 1) return;
+    way_.clear();
+    for (std::size_t i = 0; i < start.size(); ++i) way_.push_back(last_[i] - start[i]);
   }
 
   /// Whether levels do not show if the energy falls along something smooth: a method that solves linear systems has
@@ -441,6 +452,7 @@ class BlackBox::BlockSolver final : public Solver {
   HeldRows<B> held_;
   std::optional<Motions<B>> motions_;  // with the components that are held; none: to be found
   typename Motions<B>::Fall fall_;     // of the problem at hand
+  std::vector<double> last_, way_;     // the last solution, and the way there from its start
   NearNullSpace near_null_;
   std::unique_ptr<Aggregator> aggregator_;
   bool chosen_;                               // levels by the matrix

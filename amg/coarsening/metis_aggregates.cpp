@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-constexpr Index none = -1;
+constexpr Index unassigned = -1;
 constexpr const char* place = "solver.aggregates";
 
 /// The sum of both directions: a coupling may be strong for one of its ends alone.
@@ -98,17 +98,17 @@ struct Pieces {
 };
 
 Pieces pieces(const StrengthGraph& graph, const std::vector<Index>& part) {
-  Pieces out{std::vector<Index>(part.size(), none), {}};
+  Pieces out{std::vector<Index>(part.size(), unassigned), {}};
   std::vector<Index> reached;
   for (Index start = 0; start < graph.size(); ++start) {
-    if (part[start] == none || out.of[start] != none) continue;
+    if (part[start] == unassigned || out.of[start] != none) continue;
     const auto piece = static_cast<Index>(out.first.size());
     out.first.push_back(start);
     out.of[start] = piece;
     reached.assign(1, start);
     for (std::size_t k = 0; k < reached.size(); ++k)
       for (const Coupling& c : graph.of(reached[k]))
-        if (out.of[c.to] == none && part[c.to] == part[start]) {
+        if (out.of[c.to] == unassigned && part[c.to] == part[start]) {
           out.of[c.to] = piece;
           reached.push_back(c.to);
         }
@@ -122,7 +122,7 @@ Aggregates MetisAggregator::aggregate(const StrengthGraph& graph) const {
   const StrengthGraph both = symmetric(graph);
   Vertices vertices = vertices_of(both);
   const std::vector<idx_t> found = cut_into(signorini::aggregate(graph).size(), vertices);
-  std::vector<Index> part(static_cast<std::size_t>(graph.size()), none);
+  std::vector<Index> part(static_cast<std::size_t>(graph.size()), unassigned);
   for (std::size_t k = 0; k < found.size(); ++k) part[vertices.vector[k]] = static_cast<Index>(found[k]);
   Pieces found_pieces = pieces(both, part);
   return rooted_at_the_surface(both, std::move(found_pieces.of), std::move(found_pieces.first));

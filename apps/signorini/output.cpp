@@ -210,6 +210,17 @@ void paint(AtomicFiles& files, const std::string& name, Report& report, const Dr
 
 }  // namespace
 
+bool give_pictures_up(AtomicFiles& files, Report& report, const std::string& reason) {
+  bool any = false;
+  for (const auto& entry : std::filesystem::directory_iterator(files.stage("")))
+    if (entry.path().extension() == ".png") {
+      std::filesystem::remove(entry.path());
+      warn_once(report, warning<"missing-picture">(fmt::format("{}: {}", entry.path().filename().string(), reason)));
+      any = true;
+    }
+  return any;
+}
+
 void draw_convergence(AtomicFiles& files, Report& report) {
   paint(files, "convergence.png", report,
         [&](const Painter& draw, const auto& file) { draw.convergence(file, report.last().summary.history); });

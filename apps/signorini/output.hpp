@@ -56,6 +56,8 @@ bool is_result_file(const std::string& name);
 /// What the report of an earlier run is called until a run has a report.
 inline constexpr const char* old_report = "report.old.json";
 
+/// Removes the pictures that are staged, for `reason`, which goes to `report.warnings`. Returns whether there were any.
+bool give_pictures_up(AtomicFiles& files, Report& report, const std::string& reason);
 /// Draw the convergence history and the result. What could not be drawn goes to `report.warnings`.
 void draw_convergence(AtomicFiles& files, Report& report);
 /// @param numbers of the body's obstacles in the scene

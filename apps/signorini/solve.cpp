@@ -51,10 +51,23 @@ class ResultFiles {
     const bool unwritten = vtu_.steps() < report.steps.size();
     if (scene().output.pictures || unwritten) read_fields();
     if (scene().output.convergence) write_tables(files_, report);
-    if (scene().output.pictures) draw();
     if (unwritten) write_solution();
     vtu_.finish();
+    // Last, so that on a full disk they are what is missing.
+    if (scene().output.pictures) draw();
     report.time.output += watch.elapsed();
+  }
+
+  /// Where the disk has no place for the report beside the pictures these are given up.
+  void write_report() {
+    const std::filesystem::path file = files_.stage("report.json");
+    const auto write = [&] { write_text(file, to_json(driver_.report()).dump(2) + '\n'); };
+    try {
+      write();
+    } catch (const Error& error) {
+      if (!give_pictures_up(files_, driver_.report(), error.what())) throw;
+      write();
+    }
   }
 
  private:
@@ -79,15 +92,17 @@ class ResultFiles {
       });
   }
 
-  /// Takes away the fields of contact.
+  /// Takes away the fields of contact, but for pictures.
   void write_solution() {
     if (!scene().output.vtu) return;
     for (std::size_t body = 0; body < driver_.bodies(); ++body)
       driver_.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
         // Problems with few unknowns per vertex are solved in the time that it takes to pack all of their meshes.
         constexpr double worthwhile = B == 3 ? 0.6 : 0.25;
+        ContactFields& contact = fields_[body].contact;
         vtu_.add(run.nodes(),
-                 point_fields(run.nodes(), run.results(), fields_[body].stress, std::move(fields_[body].contact)),
+                 point_fields(run.nodes(), run.results(), fields_[body].stress,
+                              scene().output.pictures ? contact : std::move(contact)),
                  driver_.report(), body, {worthwhile, scene().solver.threads});
       });
   }
@@ -232,7 +247,7 @@ void solve_command(const SolveArguments& arguments) {
   Report& report = driver.report();
   report.time.total = watch.elapsed();
   report.peak_memory_mb = peak_memory_mb();
-  write_text(files.stage("report.json"), to_json(report).dump(2) + '\n');
+  results.write_report();
   const auto written = files.commit();
   progress.end();
   if (ended) throw Error(ended->status(), fmt::format("{}; {}", ended->what(), what_is_written(scene, report)));

@@ -511,6 +511,7 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
   std::vector<double> start;
+  start.reserve(state.nodes.size());
   for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
     measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],

@@ -1,5 +1,4 @@
 #pragma once
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/dense.hpp"
+#include "core/base/pivoted_factors.hpp"
 
 namespace signorini {
 
@@ -22,8 +21,8 @@ struct Sample {
 constexpr int polynomial_terms(int K, int degree) { return degree == 1 ? K + 1 : (K + 1) * (K + 2) / 2; }
 
 template <int Degree, int K>
-Eigen::Matrix<double, polynomial_terms(K, Degree), 1> monomials(const std::array<double, K>& x) {
-  Eigen::Matrix<double, polynomial_terms(K, Degree), 1> out;
+std::array<double, polynomial_terms(K, Degree)> monomials(const std::array<double, K>& x) {
+  std::array<double, polynomial_terms(K, Degree)> out;
   out[0] = 1;
   for (int i = 0; i < K; ++i) out[i + 1] = x[i];
   if constexpr (Degree > 1)
@@ -37,50 +36,78 @@ Eigen::Matrix<double, polynomial_terms(K, Degree), 1> monomials(const std::array
 template <int Degree, int K, int N = 1>
 class PolynomialFit {
  public:
-  explicit PolynomialFit(const std::vector<Sample<K, N>>& samples) {
+  /// Keeps a reference to the samples.
+  explicit PolynomialFit(const std::vector<Sample<K, N>>& samples) : samples_(samples) {
     for (const auto& sample : samples)
-      for (int i = 0; i < K; ++i) middle_[i] += sample.x[i] / static_cast<double>(samples.size());
+      for (int i = 0; i < K; ++i) middle_[i] += sample.x[i];
+    for (double& m : middle_) m /= static_cast<double>(samples.size());
+    double size = 0;
     for (const auto& sample : samples)
-      for (int i = 0; i < K; ++i) size_ = std::max(size_, std::abs(sample.x[i] - middle_[i]));
-    if (!(size_ > 0)) return;
-    Eigen::Matrix<double, terms, terms> H = decltype(H)::Zero();
+      for (int i = 0; i < K; ++i) size = std::max(size, std::abs(sample.x[i] - middle_[i]));
+    if (!(size > 0)) return;
+    scale_ = 1 / size;
+    std::array<Row, terms> H{};
     for (const auto& sample : samples) {
       const Row here = row(sample.x);
-      H.noalias() += here * here.transpose();
-      h_.noalias() += here * Eigen::Map<const Eigen::Matrix<double, 1, N>>(sample.value.data());
+      for (int i = 0; i < terms; ++i)
+        for (int j = 0; j < terms; ++j) H[i][j] += here[i] * here[j];
     }
-    const SymmetricFactors factors(H);
-    const Eigen::VectorXd pivots = factors.pivots();
-    if (pivots.minCoeff() > dependent * pivots.maxCoeff()) factors_ = factors;
+    factors_ = PivotedFactors<terms>(H);
+    decides_ = factors_.definite(dependent);
+  }
+
+  explicit PolynomialFit(std::vector<Sample<K, N>>&&) = delete;
+
+  /// Before it is asked at many places.
+  void sum_up() {
+    summed_up_ = true;
+    for (const auto& sample : samples_) {
+      const Row here = row(sample.x);
+      for (int i = 0; i < terms; ++i)
+        for (int n = 0; n < N; ++n) moments_[i][n] += here[i] * sample.value[n];
+    }
   }
 
   /// The values at a place. Nothing where the samples do not decide them.
   /// @param most_amplified nothing, either, where independent errors of the samples come out larger by more than that
   std::optional<std::array<double, N>> at(const std::array<double, K>& x,
                                           double most_amplified = std::numeric_limits<double>::infinity()) const {
-    if (!factors_) return {};
-    const Row here = row(x);
-    const Row weights = factors_->solve(here);
-    if (!(here.dot(weights) <= most_amplified * most_amplified)) return {};
-    std::array<double, N> out;
-    Eigen::Map<Eigen::Matrix<double, 1, N>>(out.data()) = weights.transpose() * h_;
+    if (!decides_) return {};
+    const Row here = row(x), weights = factors_.solve(here);
+    if (!(product(here, weights) <= most_amplified * most_amplified)) return {};
+    std::array<double, N> out{};
+    const auto add = [&out](double weight, const std::array<double, N>& values) {
+      for (int n = 0; n < N; ++n) out[n] += weight * values[n];
+    };
+    if (summed_up_)
+      for (int i = 0; i < terms; ++i) add(weights[i], moments_[i]);
+    else
+      for (const auto& sample : samples_) add(product(weights, row(sample.x)), sample.value);
     return out;
   }
 
  private:
   static constexpr int terms = polynomial_terms(K, Degree);
   static constexpr double dependent = 1e-9;
-  using Row = Eigen::Matrix<double, terms, 1>;
+  using Row = std::array<double, terms>;
+
+  static double product(const Row& a, const Row& b) {
+    double sum = 0;
+    for (int i = 0; i < terms; ++i) sum += a[i] * b[i];
+    return sum;
+  }
 
   Row row(std::array<double, K> x) const {
-    for (int i = 0; i < K; ++i) x[i] = (x[i] - middle_[i]) / size_;
+    for (int i = 0; i < K; ++i) x[i] = (x[i] - middle_[i]) * scale_;
     return monomials<Degree, K>(x);
   }
 
+  const std::vector<Sample<K, N>>& samples_;
   std::array<double, K> middle_{};
-  double size_ = 0;
-  Eigen::Matrix<double, terms, N> h_ = Eigen::Matrix<double, terms, N>::Zero();
-  std::optional<SymmetricFactors> factors_;  // where the samples decide
+  double scale_ = 0;
+  PivotedFactors<terms> factors_;
+  bool decides_ = false, summed_up_ = false;
+  std::array<std::array<double, N>, terms> moments_{};
 };
 
 /// Whether there are samples enough for a quadratic polynomial: at least K more than coefficients.

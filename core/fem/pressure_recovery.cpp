@@ -184,7 +184,8 @@ class Recovery {
   double curvature(Index k) const {
     const auto some = samples(k);
     if (!enough_for_quadratic(some)) return 0;
-    const PolynomialFit<2, D - 1> squares(some);
+    PolynomialFit<2, D - 1> squares(some);
+    squares.sum_up();
     const auto pressure = [&](const Place& x) {
       const auto square = squares.at(x);
       return square ? std::sqrt(std::max(square->front(), 0.0)) : 0;

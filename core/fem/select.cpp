@@ -227,7 +227,7 @@ std::vector<double> node_volumes(const Nodes<D>& nodes, Plane plane) {
     return volumes;
   }
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const double measure = linear_element(mesh, mesh.elements[e]).measure;
+    const double measure = signed_volume<D>(points_of(mesh, mesh.elements[e]));
     const auto node = nodes.of_simplex(e);
     for (std::size_t a = 0; a < node.size(); ++a)
       volumes[node[a]] += measure * basis_integral<D>(plane, mesh, mesh.elements[e], a);

@@ -342,10 +342,13 @@ class StressRecovery {
   template <int Degree>
   std::optional<Stress> fit(Index p, double amplified = most_amplified) {
     if (near_.size() < polynomial_terms(D, Degree) + std::size_t{D}) return {};
-    const PolynomialFit<Degree, D, 6> fit(near_);
+    PolynomialFit<Degree, D, 6> fit(near_);
     const auto found = fit.at({}, amplified);
     if constexpr (P == 2 && Degree == 2)
-      if (found && !is_midpoint(p) && !between_materials_[p]) add_at_midpoints(p, fit);
+      if (found && !is_midpoint(p) && !between_materials_[p]) {
+        fit.sum_up();
+        add_at_midpoints(p, fit);
+      }
     return found;
   }
 

@@ -102,11 +102,11 @@ class TractionRecovery {
         faces_.around(k, {rings_at_edge, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
     const Vector around = mean(k);
     if (some.size() < enough<D>) return around;
-    const PolynomialFit<1, D - 1> squares(samples_.around(k, some, [&](const Reached& s) {
+    const auto squares = samples_.around(k, some, [&](const Reached& s) {
       const double value = left(s, direction);
       return value * value;
-    }));
-    const auto fit = squares.at({});
+    });
+    const auto fit = PolynomialFit<1, D - 1>(squares).at({});
     if (!fit) return around;
     const double rest =
         between_means(k, std::sqrt(std::max(fit->front(), 0.0)), [&](Index j) { return left({j}, direction); });

@@ -134,6 +134,41 @@ TEST(WarmStart, FollowsASinkingFloorOnGivenLevels) {
   }
 }
 
+/// All cycles of solves one after the other, each from the last solution.
+int cycles_of_sequence(BlackBox& solver, const std::vector<Change>& problems) {
+  std::vector<double> x;
+  int all = 0;
+  for (std::size_t k = 0; k < problems.size(); ++k) {
+    if (k > 1) cycles(solver, problems[k], x, &all);
+    x = solver.solve(problems[k].b, problems[k].lower, {}, x).x;
+  }
+  return all;
+}
+
+int cycles_from_nothing(BlackBox& solver, const std::vector<Change>& problems) {
+  int all = 0;
+  for (std::size_t k = 2; k < problems.size(); ++k) cycles(solver, problems[k], {}, &all);
+  return all;
+}
+
+// What changed before changes again, by as much, more, less, or back.
+TEST(WarmStart, GoesOnAsBefore) {
+  const Matrix A = laplacian(100);
+  const auto n = static_cast<std::size_t>(A.rows());
+  const Change first{std::vector<double>(n, -1e-4), std::vector<double>(n, -0.04)};
+  std::vector<Change> grows, swings, rises;
+  for (int k = 0; k < 8; ++k) {
+    for (auto* to : {&grows, &swings, &rises}) to->push_back(first);
+    scale(grows.back().b, 1 + 1e-3 * k);
+    scale(swings.back().b, 1 + 1e-3 * std::cos(2.0 * k * k));
+    add_to(rises.back().lower, 4e-5 * k);
+  }
+  for (const auto& [problems, part] : {std::pair(&grows, 0.4), {&swings, 0.4}, {&rises, 0.6}}) {
+    BlackBox solver(A);
+    EXPECT_LE(cycles_of_sequence(solver, *problems), part * cycles_from_nothing(solver, *problems));
+  }
+}
+
 TEST(WarmStart, TakesFewCyclesFromAnyVector) {
   const Matrix A = laplacian(100);
   const auto n = static_cast<std::size_t>(A.rows());

@@ -370,6 +370,32 @@ TEST_F(CommandLine, APictureThatCannotBeWrittenIsMissingAlone) {
   EXPECT_THAT(written("p"), testing::Not(testing::Contains("result.png")));
 }
 
+// Results beside which there is no place for pictures, on a file system of its own.
+TEST_F(CommandLine, PicturesDoNotTakeThePlaceOfResults) {
+  if (std::system("unshare -rm mount -t tmpfs tmpfs /mnt > /dev/null 2>&1") != 0) GTEST_SKIP() << "mounts nothing";
+  write("membrane.toml", membrane);
+  ASSERT_EQ(signorini({"solve", "membrane.toml", "--out", "o"}).status, 0);
+  const auto pages = [&](const char* name) {
+    return static_cast<long>(fs::file_size(folder_ / "o" / name) / 4096) + 1;
+  };
+  const long results = pages("report.json") + pages("solution.vtu") + pages("convergence.csv") + pages("phases.csv");
+  const long pictures = pages("result.png") + pages("convergence.png");
+  fs::create_directory(folder_ / "disk");
+  fs::create_directory(folder_ / "copy");
+  const std::string program = SIGNORINI_BINARY_DIR "/bin/signorini";
+  for (const long more : {1L, 2L, pictures - pages("result.png") / 2, pictures - 1}) {
+    const std::string size = std::to_string(4 * (results + more)) + "k";
+    const std::string inside = "mount -t tmpfs -o size=" + size + " tmpfs disk && " + program +
+                               " solve membrane.toml --out disk/p 2> .err && cp -r disk/p copy/" + std::to_string(more);
+    ASSERT_EQ(std::system(("cd '" + folder_.string() + "' && unshare -rm sh -c '" + inside + "' > .out").c_str()), 0)
+        << more << read(folder_ / ".err");
+    EXPECT_THAT(read(folder_ / ".err"), HasSubstr("a picture is missing: ")) << more;
+    const std::string copy = "copy/" + std::to_string(more);
+    EXPECT_THAT(report(copy).at("warnings").dump(), HasSubstr("a picture is missing: ")) << more;
+    EXPECT_THAT(written(copy), testing::IsSupersetOf({"report.json", "solution.vtu", "convergence.csv"})) << more;
+  }
+}
+
 TEST_F(CommandLine, APipeIsNoScene) {
   ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   const Ended ended = signorini({"check", "pipe"});

@@ -32,5 +32,27 @@ TEST(PolynomialFit, SaysNothingWhereSamplesDecideNothing) {
   EXPECT_FALSE(fitted_value(in_a_row));
 }
 
+TEST(PolynomialFit, IsTheSameSummedUpAndAtEveryPlace) {
+  test::Random random(7);
+  std::vector<Sample<3, 2>> samples(40);
+  const auto exact = [](const std::array<double, 3>& x) {
+    return std::array{1 + x[0] - 2 * x[1] * x[2], x[2] * x[2] - 3 * x[0] * x[1] + 0.5 * x[1]};
+  };
+  const auto anywhere = [&] { return std::array{random.between(4, 6), random.between(-1, 3), random.between(0, 0.1)}; };
+  for (auto& sample : samples) {
+    sample.x = anywhere();
+    sample.value = exact(sample.x);
+  }
+  PolynomialFit<2, 3, 2> fit(samples), summed_up(samples);
+  summed_up.sum_up();
+  for (int k = 0; k < 5; ++k) {
+    const auto x = anywhere();
+    for (const auto& found : {fit.at(x), summed_up.at(x)}) {
+      ASSERT_TRUE(found);
+      for (int n = 0; n < 2; ++n) EXPECT_NEAR((*found)[n], exact(x)[n], 1e-11);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace signorini
