@@ -100,7 +100,9 @@ TEST(Tresca, NoFrictionIsContactAndMuchOfItGlue) {
   for (std::size_t i = 0; i < contact.u().size(); ++i) ASSERT_NEAR(slides.u()[i], contact.u()[i], 1e-9);
   const auto glued = run<2, 2>(block2(with_friction(on_plane, "1e6"), 3));
   for (Index p = 0; p < glued.mesh().vertices(); ++p)
-    if (glued.mesh().points[p][1] == 0) EXPECT_EQ(glued.u()[2 * p], 0);
+    if (glued.mesh().points[p][1] == 0) {
+      EXPECT_EQ(glued.u()[2 * p], 0);
+    }
   EXPECT_EQ(glued.contact().slip_nodes, 0);
 }
 

@@ -124,7 +124,9 @@ void expect_recovered(const std::string& text, double area, double pressure) {
   driver.visit(0, [&](const auto& run) {
     for (const auto& node : run.results().contact.nodes) EXPECT_NEAR(node.recovered, pressure, 1e-8 * pressure);
     for (const auto& node : run.results().masters)
-      if (node.contact) EXPECT_NEAR(node.recovered, pressure, 1e-8 * pressure);
+      if (node.contact) {
+        EXPECT_NEAR(node.recovered, pressure, 1e-8 * pressure);
+      }
   });
 }
 

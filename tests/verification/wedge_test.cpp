@@ -61,8 +61,9 @@ class Optimality {
       all += total[k];
       claimed += vector(k);
       EXPECT_GE(vector(k).dot(corner_.normals[k]), (1 - 1e-12) * vector(k).norm()) << "force of obstacle " << k;
-      if (unique_)
+      if (unique_) {
         EXPECT_LT((total[k] - vector(k)).norm(), 1e-6 * total[k].norm() + 1e-6 * largest_) << "force of obstacle " << k;
+      }
     }
     EXPECT_LT((all - claimed).norm(), 1e-6 * all.norm());
     Index undetermined = 0;

@@ -182,7 +182,7 @@ TEST(Functionals, BetweenBodiesActWhereNothingTouches) {
     return std::string("[[body]]\nname = \"") + name + "\"\nshape = \"rectangle\"\nfrom = " + from + "\nto = " + to +
            "\ncells = [2, 2]\nyoung = 1\npoisson = 0\norder = " + std::to_string(order) + "\n";
   };
-  for (const auto [order, uniform] : {std::pair(1, 0), std::pair(1, 2), std::pair(2, 1)}) {
+  for (const auto& [order, uniform] : {std::pair(1, 0), std::pair(1, 2), std::pair(2, 1)}) {
     Driver driver(parse_scene(bar("a", "[0, 0]", "[1, 1]", order) + bar("b", "[1.1, 0]", "[2.1, 1]", order) +
                                   "[[fix]]\nbody = \"a\"\non = \"left\"\nvalue = [0, 0]\n"
                                   "[[fix]]\nbody = \"b\"\non = \"right\"\nvalue = [0.3, 0]\n"
