@@ -8,7 +8,6 @@
 #include "core/base/dot.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/sdk/block.hpp"
-#include "driver/numbers.hpp"
 #include "driver/touching_bodies.hpp"
 
 namespace signorini {
@@ -99,25 +98,21 @@ Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nod
   return warnings;
 }
 
-template <int D, int B>
-double imbalance(const Scene& scene, const Scene::Body& body, const StepReport& report, const Forces<B>& forces) {
-  const BodyReport& whole = report.bodies.front();
-  const std::vector<int> fixes = numbers_of(scene.fixes, body);
-  double worst = 0;
+double imbalance(const StepReport& report, const std::vector<double>& u) {
+  double largest = 0, worst = 0;
+  for (const double v : u) largest = std::max(largest, std::fabs(v));
+  const double by_work = largest > 0 ? std::fabs(report.summary.energy) / largest : 0;
   for (const BalanceReport& balance : report.balance) {
-    double acting = most_acting(report, balance);
-    for (std::size_t k = 0; k < fixes.size(); ++k)
-      if (scene.fixes[fixes[k]].body == balance.body) acting = std::max(acting, whole.copies * forces.reacting[k]);
-    const double left = left_over(balance, whole.axisymmetric && B == D);
+    const double acting = std::max(most_acting(report, balance), by_work);
+    const double left = left_over(balance, report.bodies.front().axisymmetric && balance.applied.size() > 1);
     if (acting > 0) worst = std::max(worst, left / acting);
   }
   return worst;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                \
-  template Warnings balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&,      \
-                                           const std::vector<double>&, const StepReport&, double); \
-  template double imbalance<D, B>(const Scene&, const Scene::Body&, const StepReport&, const Forces<B>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                           \
+  template Warnings balance_warnings<D, B>(const Scene&, const Scene::Body&, const Nodes<D>&, \
+                                           const std::vector<double>&, const StepReport&, double);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

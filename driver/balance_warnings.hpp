@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/forces.hpp"
 #include "core/fem/nodes.hpp"
 #include "core/io/report.hpp"
 #include "core/io/warning.hpp"
@@ -19,9 +18,9 @@ Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nod
                           const std::vector<double>& load, const StepReport& report, double rounding);
 
 /// What is left of the forces on a body over the largest that acts on it, its applied loads, reactions or an obstacle:
-/// the largest of its parts. Forces that cancel within a fix count.
+/// the largest of its parts. Forces that cancel within one of these are known by their work alone.
 /// @param report of this body alone, with its parts
-template <int D, int B>
-double imbalance(const Scene& scene, const Scene::Body& body, const StepReport& report, const Forces<B>& forces);
+/// @param u its displacements
+double imbalance(const StepReport& report, const std::vector<double>& u);
 
 }  // namespace signorini

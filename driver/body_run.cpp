@@ -227,8 +227,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
        balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report, rounding))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.
-  const double lost =
-      report.summary.outcome == Outcome::rounding ? imbalance<D, B>(scene_, body(), report, results_.forces) : 0;
+  const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report, results_.u) : 0;
   if (lost > inaccurate) {
     report.summary.add_rounding(lost, 0);
     report.bodies.front().summary = report.summary;

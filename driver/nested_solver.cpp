@@ -168,7 +168,7 @@ void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBo
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     MeshLevel<D, B>& level = levels_[k];
     if (level.kept) add_force(level.force, -1, level.kept->discretization.load);  // back to the model's own
-    level.force = std::move(forces[k]);
+    level.force = forces.empty() ? std::vector<double>{} : std::move(forces[k]);
   }
 }
 

@@ -69,7 +69,7 @@ class NestedSolver {
   void accept();
 
   /// Of one body that touches others: from now on these pairs on each mesh, without jumps, and forces at the nodes of
-  /// each mesh, B per node, beside the model's loads.
+  /// each mesh, B per node, beside the model's loads, if there are any.
   void take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs, std::vector<std::vector<double>> forces);
 
   /// While cycles on the finest mesh run, these meshes, which it was made for, may be without their elements.

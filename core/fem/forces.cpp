@@ -1,7 +1,5 @@
 #include "core/fem/forces.hpp"
 
-#include <cmath>
-
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -19,10 +17,9 @@ void each_at_fixes(const std::vector<FixedDirections<B>>& fixes, const ContactSt
 
 /// Adds `force` to the reaction of the fix that prescribes direction k; what the axis prescribes has none.
 template <int B>
-void add(Forces<B>& out, const FixedDirections<B>& fixed, int k, double force) {
+void add(std::vector<std::array<double, B>>& reactions, const FixedDirections<B>& fixed, int k, double force) {
   if (fixed.fix[k] < 0) return;
-  for (int i = 0; i < B; ++i) out.reactions[fixed.fix[k]][i] += force * fixed.direction[k][i];
-  out.reacting[fixed.fix[k]] += std::abs(force);
+  for (int i = 0; i < B; ++i) reactions[fixed.fix[k]][i] += force * fixed.direction[k][i];
 }
 
 }  // namespace
@@ -34,7 +31,6 @@ Forces<B> forces(const Model<B>& model, const Discretization<B>& discretization,
   out.applied = discretization.applied;
   for (const ContactSummary<B>& obstacle : contact.obstacles) out.contact.push_back(obstacle.force);
   out.reactions.assign(model.fixes.size(), {});
-  out.reacting.assign(model.fixes.size(), 0);
   const std::vector<FixedDirections<B>>& fixes = discretization.fixes;
   for (std::size_t row = 0; row < fixes.size(); ++row)
     for (int k = 0; k < fixes[row].count; ++k) {
@@ -42,10 +38,11 @@ Forces<B> forces(const Model<B>& model, const Discretization<B>& discretization,
       std::copy_n(fixes[row].direction[k], B, along);
       if (const double* N = discretization.problem.frames.dual_at(fixes[row].vertex))
         block::transposed_product<B>(N, fixes[row].direction[k], along);
-      add<B>(out, fixes[row], k, discretization.prescribed.force(static_cast<Index>(row), along, x));
+      add<B>(out.reactions, fixes[row], k, discretization.prescribed.force(static_cast<Index>(row), along, x));
     }
   each_at_fixes(fixes, contact, [&](const ContactNode<B>& node, const FixedDirections<B>& fixed) {
-    for (int k = 0; k < fixed.count; ++k) add<B>(out, fixed, k, -block::dot<B>(node.force.data(), fixed.direction[k]));
+    for (int k = 0; k < fixed.count; ++k)
+      add<B>(out.reactions, fixed, k, -block::dot<B>(node.force.data(), fixed.direction[k]));
   });
   return out;
 }

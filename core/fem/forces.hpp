@@ -11,7 +11,6 @@ struct Forces {
   std::vector<std::array<double, B>> applied;    ///< per load of the model
   std::vector<std::array<double, B>> reactions;  ///< per fix of the model
   std::vector<std::array<double, B>> contact;    ///< per obstacle of the model
-  std::vector<double> reacting;                  ///< per fix the sizes of what it does at each node, summed
 };
 
 /// The reaction of a fix is what A x - b of the matrix before elimination leaves along the directions that it

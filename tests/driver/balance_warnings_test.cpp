@@ -32,25 +32,6 @@ TEST(BalanceWarnings, forces_that_cancel_are_not_lost) {
   EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
 }
 
-// What is left over is compared with forces alone: an energy that rounding makes of a stiff body's place is none of
-// them, and what cancels within a fix is one.
-TEST(BalanceWarnings, what_is_left_over_is_compared_with_forces) {
-  const Scene scene = scene_of(square);
-  StepReport report;
-  report.summary.energy = 1e3;
-  report.bodies.push_back({"block", report.summary});
-  report.contact.push_back({});
-  report.contact.front().body = "block";
-  report.contact.front().force = {0, 0};
-  report.balance.push_back({"block", {0.5, 0}, {-0.5, 0.4}, {0, 0}});
-  Forces<2> forces;
-  forces.reacting = {0.8};
-  const auto lost = [&] { return imbalance<2, 2>(scene, scene.bodies.front(), report, forces); };
-  EXPECT_NEAR(lost(), 0.5, 1e-12);
-  forces.reacting = {400};
-  EXPECT_NEAR(lost(), 0.001, 1e-12);
-}
-
 // The radial entry of a sum is none of forces that hold each other.
 TEST(BalanceWarnings, not_for_radial_forces_of_axisymmetric_bodies) {
   const std::string ring = tables::block("ring", "[1, 0]", "[2, 1]", "[4, 4]",
