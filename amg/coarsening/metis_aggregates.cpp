@@ -101,7 +101,7 @@ Pieces pieces(const StrengthGraph& graph, const std::vector<Index>& part) {
   Pieces out{std::vector<Index>(part.size(), unassigned), {}};
   std::vector<Index> reached;
   for (Index start = 0; start < graph.size(); ++start) {
-    if (part[start] == unassigned || out.of[start] != none) continue;
+    if (part[start] == unassigned || out.of[start] != unassigned) continue;
     const auto piece = static_cast<Index>(out.first.size());
     out.first.push_back(start);
     out.of[start] = piece;
