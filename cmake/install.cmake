@@ -45,7 +45,7 @@ install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signori
 
 install(TARGETS signorini_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 if(SIGNORINI_GPL)
-  install(TARGETS signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+  install(TARGETS signorini_plane signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 endif()
 install(FILES LICENSE docs/abi.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT sdk)
 if(TARGET signorini)

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/paired_sides.hpp"
@@ -188,11 +189,10 @@ namespace {
 template <int B>
 double rounding_of_forces(const BlockMatrix<B>& A, const std::vector<double>& u) {
   constexpr double terms = 64;
-  double stiffest = 0, farthest = 0;
+  double stiffest = 0;
   for (Index p = 0; p < A.size(); ++p)
     for (int k = 0; k < B; ++k) stiffest = std::max(stiffest, A.diagonal(p)[k * (B + 1)]);
-  for (const double v : u) farthest = std::max(farthest, std::abs(v));
-  return terms * std::numeric_limits<double>::epsilon() * stiffest * farthest;
+  return terms * std::numeric_limits<double>::epsilon() * stiffest * max_norm(u);
 }
 
 void add_once(Warning warning, Warnings& warnings) {

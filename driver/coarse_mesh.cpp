@@ -103,7 +103,7 @@ struct Mesher {
   template <class Shape>
   Mesh<D> free_mesh(const Shape& shape) const {
     try {
-      return geometry::engine().mesh(shape, target_size<D>(body, progress));
+      return geometry::engine<D>().mesh(shape, target_size<D>(body, progress));
     } catch (const geometry::ShapeError& error) {
       input_error(body.source.of(error.key()), error.complaint());
     }

@@ -45,12 +45,6 @@ Selection of_own(Selection selection) {
   return selection;
 }
 
-double largest(const std::vector<double>& v) {
-  double out = 0;
-  for (const double c : v) out = std::max(out, std::abs(c));
-  return out;
-}
-
 /// Makes of what each step finds what the next one takes: a vector extrapolation with one number (B. M. Irons, R. C.
 /// Tuck, Int. J. Numer. Meth. Engng. 1, 1969).
 class Damping {
@@ -396,11 +390,11 @@ Solution<D> DirichletNeumann<D>::solve(const Model<D>& model, const LoadStep& of
     const Vector found = mean_of_masters(finest, u), before = mean_of_masters(finest, taken);
     Vector difference = found;
     for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= before[k];
-    const double size = std::max(largest(u), largest(taken));
-    change = size > 0 ? largest(difference) / size : 0;
+    const double size = std::max(max_norm(u), max_norm(taken));
+    change = size > 0 ? max_norm(difference) / size : 0;
     changes.push_back(change);
     lost = patience.lost(change);
-    const bool too_long = largest(forces) == 0 && !step.empty() && cuts < most_cuts;
+    const bool too_long = max_norm(forces) == 0 && !step.empty() && cuts < most_cuts;
     if (!too_long) {
       start = taken;
       step.resize(u.size());

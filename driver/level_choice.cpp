@@ -12,7 +12,7 @@ constexpr Index large_coarsest_mesh = 1000;
 /// Stretching of cells (core/mesh/stretch.hpp) from which on algebraic levels from the finest mesh take about
 /// half the cycles of nested meshes or less, in about the same time: their set-up costs more for elastic bodies.
 constexpr double stretched_scalar = 1.45, stretched_elastic = 1.7;
-constexpr double many = 0.1;  // part of the cells so stretched
+constexpr double most_stretched = 0.1;  // part of the cells so stretched
 
 /// Vertices across the coarsest mesh of an elastic body, and across all where cells are stretched, which then have no
 /// good coarser level, up to which a factorisation costs no more than some cycles. Other meshes have one: they are
@@ -27,7 +27,7 @@ constexpr double slender = 16;
 
 template <int D>
 bool is_stretched(const Mesh<D>& mesh, int block) {
-  return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > many;
+  return stretched_part(mesh, block == 1 ? stretched_scalar : stretched_elastic) > most_stretched;
 }
 
 std::optional<Coarsening> coarsening_below(const Scene::Solver& options, int block, Index vertices) {

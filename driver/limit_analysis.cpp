@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/dense.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/functional.hpp"
 #include "driver/slabs.hpp"
@@ -148,12 +149,10 @@ double LimitAnalysis<D, B>::resistance(const Eigen::VectorXd& motion) const {
   if (body_.discretization.functional.empty()) return 0;
   std::vector<double> step(problem.b.size()), far;
   body_.add(motion, step);
-  double size = 0, extent = 0;
-  for (const double v : step) size = std::max(size, std::abs(v));
+  const double size = max_norm(step);
   if (slides_along(step, Free::negligible * size)) return infinity;
-  for (const double v : problem.constraints.last) extent = std::max(extent, std::abs(v));
-  for (const Point<D>& x : body_.nodes.mesh().points)
-    for (const double v : x) extent = std::max(extent, std::abs(v));
+  double extent = max_norm(problem.constraints.last);
+  for (const Point<D>& x : body_.nodes.mesh().points) extent = std::max(extent, max_norm(x));
   for (const double v : step) far.push_back(v / size * (extent / Free::negligible));
   return functional::slope(problem, far.data(), step.data());
 }

@@ -9,6 +9,7 @@
 #include "amg/coarse/cone_projection.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/dense.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assemble.hpp"
 #include "core/fem/force_split.hpp"
@@ -23,7 +24,7 @@ namespace {
 constexpr double weak = 1e-6;             // part of the largest force from which one surely is one
 constexpr double force_rounding = 2e-14;  // part of the terms of a residual that is no force
 constexpr double near = 0.1;              // of prescribed values: a motion that takes most of them away
-constexpr double far = 100;               // ways over the size of the body, and turns: no place to be held at
+constexpr double too_far = 100;           // ways over the size of the body, and turns: no place to be held at
 constexpr double stays = 1e-6;            // of a motion: a bound that is left by less is not left
 
 }  // namespace
@@ -84,8 +85,8 @@ Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
   const Constraints<B>& c = problem.constraints;
   std::vector<double> forces;
   std::vector<Eigen::RowVectorXd> rows;
-  double largest = 0, terms = 0, size = 0;
-  for (const double value : x) size = std::max(size, std::abs(value));
+  double largest = 0, terms = 0;
+  const double size = max_norm(x);
   for (Index slot = 0; slot < c.size(); ++slot) {
     const Index p = c.vector[slot];
     double Ax[B];
@@ -200,7 +201,7 @@ bool LooseBody<D, B>::is_far_away(const std::vector<double>& x) const {
   if constexpr (B == 1) return false;
   const Eigen::VectorXd motion = nearest_motion(x);
   const Eigen::Index ways = motion.size() / Motions::modes * Motions::translations;
-  return motion.head(ways).cwiseAbs().maxCoeff() > far * body_.motions.size() || turn(motion) > 1;
+  return motion.head(ways).cwiseAbs().maxCoeff() > too_far * body_.motions.size() || turn(motion) > 1;
 }
 
 // A linear programme, by steps of growing length along the loads and back to what the bounds allow: their fixed points
@@ -228,7 +229,7 @@ std::vector<double> LooseBody<D, B>::fall(std::vector<double>& x) const {
 // one on the wrong side of its faces, or the tangent plane of one.
 template <int D, int B>
 void LooseBody<D, B>::refuse_turned(const Eigen::VectorXd& motion) const {
-  if (!(turn(motion) > far)) return;
+  if (!(turn(motion) > too_far)) return;
   input_error(body_.model.origin,
               fmt::format("obstacles would hold the body against the loads only where it has turned by {:.3g} degrees, "
                           "by {}: contact is linearised about the undeformed body, and says nothing of that; expected "

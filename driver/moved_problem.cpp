@@ -16,17 +16,11 @@ namespace {
 
 constexpr double far_less = 1e-4;  // than the way: what a body deforms then may be near what rounding does
 
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double value : values) out = std::max(out, std::abs(value));
-  return out;
-}
-
 /// What is left of a value after a way; nothing where that is rounding.
 class Rest {
  public:
   explicit Rest(const std::vector<double>& way)
-      : rounding_(256 * std::numeric_limits<double>::epsilon() * largest(way)) {}  // the way is a least-squares fit
+      : rounding_(256 * std::numeric_limits<double>::epsilon() * max_norm(way)) {}  // the way is a least-squares fit
   double operator()(double value, double way) const { return std::abs(value - way) <= rounding_ ? 0 : value - way; }
 
  private:
@@ -103,7 +97,7 @@ template <int B>
 double MovedProblem<B>::back() {
   if (way_.empty()) return 0;
   DiscreteProblem<B>& problem = discretization_.problem;
-  const bool stiff = largest(x_) < far_less * largest(way_);
+  const bool stiff = max_norm(x_) < far_less * max_norm(way_);
   const double acting = stiff ? forces(problem, x_).acting : 0;
   if (problem.following) problem.following->withdraw();
   Constraints<B>& c = problem.constraints;

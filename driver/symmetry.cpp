@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
 #include "core/fem/element.hpp"
@@ -150,8 +151,7 @@ class SymmetryCheck {
  public:
   SymmetryCheck(const Mesh<D>& mesh, const Model<B>& model, std::size_t number)
       : mesh_(mesh), model_(model), mirror_(mesh.mirrors[number]), bit_(1u << number) {
-    for (const Point<D>& x : mesh.points)
-      for (const double c : x) extent_ = std::max(extent_, std::abs(c));
+    for (const Point<D>& x : mesh.points) extent_ = std::max(extent_, max_norm(x));
   }
 
   void run(const ConditionsAcross& across) const {

@@ -6,18 +6,9 @@
 #include "core/base/dot.hpp"
 
 namespace signorini {
-namespace {
-
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double value : values) out = std::max(out, std::abs(value));
-  return out;
-}
-
-}  // namespace
 
 double relative_change(const std::vector<double>& change, const std::vector<double>& values) {
-  const double moved = largest(change), size = largest(values);
+  const double moved = max_norm(change), size = max_norm(values);
   return size > 0 ? moved / size : moved > 0 ? infinity : 0;
 }
 

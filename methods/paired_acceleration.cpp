@@ -65,8 +65,7 @@ void PairedAcceleration<B>::make_orthogonal(Direction& newest) {
 // obstacle's. (The next cycle lets go what pulls.)
 template <int B>
 void PairedAcceleration<B>::project(std::vector<double>& x) const {
-  double largest = 0;
-  for (const double v : x) largest = std::max(largest, std::abs(v));
+  const double largest = max_norm(x);
   for (Index slot = 0; slot < constraints_.size(); ++slot) {
     const Offset first = Offset{constraints_.vector[slot]} * B;
     for (int k = 0; k < B; ++k) {

@@ -28,7 +28,6 @@ constexpr double far = 100;                              // how far off a cone a
 // little time then; whether it is made, the count tells.
 constexpr std::size_t few_vectors = 4000;
 constexpr Offset few_entries = 300'000;
-constexpr Offset blocks_of_a_tree = 4;     // per vector
 constexpr std::size_t most_motions = 100;  // of one component
 constexpr int most_hidden = 10;            // of these, that no small pivot shows
 constexpr double suspicious = 1e-4;        // pivots, of a diagonal of one

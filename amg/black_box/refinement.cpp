@@ -28,19 +28,18 @@ using Set = std::vector<signed char>;  // per unknown: -1 at the lower bound, 1 
 constexpr int most_sets = 40, most_steps = 8;
 constexpr Real no_pivot = 4 * std::numeric_limits<double>::epsilon();  // of a diagonal of about one: a motion
 constexpr Real rounding_of_pivots = 512 * std::numeric_limits<Real>::epsilon();
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double rounding_of_rows = 16 * epsilon;  // of the sum of the terms
-constexpr double weightless = 8 * epsilon;         // supports that are rounding, of the diagonal
-constexpr double harmless = 0.1;                   // part of the tolerance
-constexpr double balanced = 1e-2;                  // ties of the diagonal that cycles see
-constexpr Real slowest = 0.5;                      // reduction of the correction in a step
-constexpr Real negligible = 0.01;                  // part of the tolerance: errors that need no further step
+constexpr double last_digit = std::numeric_limits<double>::epsilon();
+constexpr double rounding_of_terms = 16 * last_digit;  // of their sum
+constexpr double weightless = 8 * last_digit;          // supports that are rounding, of the diagonal
+constexpr double harmless = 0.1;                       // part of the tolerance
+constexpr double balanced = 1e-2;                      // ties of the diagonal that cycles see
+constexpr Real slowest = 0.5;                          // reduction of the correction in a step
+constexpr Real small_part = 0.01;                      // part of the tolerance: errors that need no further step
 constexpr Real rounding = 64 * std::numeric_limits<Real>::epsilon();
 constexpr double inaccurate = 1e-2;  // relative errors from which on nothing is claimed
 
 // What costs little beside any solve: few vectors, or nearly a tree; of either the factorisation, too.
-constexpr Index few_vectors = 400;
-constexpr Offset blocks_of_a_tree = 4;   // per vector
+constexpr Index few_blocks = 400;
 constexpr double cheap_operations = 20;  // per entry
 
 /// Active sets from an admissible vector on.
@@ -68,7 +67,7 @@ class ExtendedSets {
     for (int set = 0; set < most_sets; ++set) {
       const std::vector<TwoDoubles> before = x_;
       if (!factorise() || !solve_free()) return false;
-      if (set > 0 && distance(before) <= negligible * tolerance_ * size()) return true;
+      if (set > 0 && distance(before) <= small_part * tolerance_ * size()) return true;
       const Set last = std::exchange(active_, predicted());
       if (active_ == last) return true;
     }
@@ -110,7 +109,7 @@ class ExtendedSets {
             sum += term;
             terms += std::abs(term);
           }
-        if (std::abs(sum) > rounding_of_rows * terms) return false;
+        if (std::abs(sum) > rounding_of_terms * terms) return false;
       }
     return true;
   }
@@ -193,7 +192,7 @@ class ExtendedSets {
       const Real move = correct();
       residual();
       if (solves_ == 1 && move > 0) first_error_ = static_cast<double>(move / std::max(move, size()));
-      if (move <= negligible * tolerance_ * size()) return true;
+      if (move <= small_part * tolerance_ * size()) return true;
       if (!(move <= slowest * last)) return false;
       last = move;
     }
@@ -257,14 +256,14 @@ double weakest_tie(const BlockMatrix<B>& A) {
 template <int B>
 bool may_mislead(const BlockMatrix<B>& A, double tolerance, bool tree) {
   const double weakest = weakest_tie(A), longest = tree ? 2 : 1;
-  return weakest < balanced || epsilon * std::pow(A.size(), longest) > harmless * tolerance * weakest;
+  return weakest < balanced || last_digit * std::pow(A.size(), longest) > harmless * tolerance * weakest;
 }
 
 /// What a factorisation may take; zero: none is to be made.
 template <int B>
 double most_operations(const BlockMatrix<B>& A, const SolverOptions& options, const Summary& s) {
   const Offset blocks = A.row[A.size()], entries = blocks * B * B / 2;
-  const bool small = A.size() <= few_vectors, tree = blocks <= blocks_of_a_tree * A.size();
+  const bool small = A.size() <= few_blocks, tree = blocks <= blocks_of_a_tree * A.size();
   switch (s.outcome) {
     case Outcome::converged:
       if (s.rounding_error > 0) return affordable_operations(entries);

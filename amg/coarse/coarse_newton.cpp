@@ -8,6 +8,7 @@
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/dense.hpp"
+#include "core/base/dot.hpp"
 #include "core/solver/functional.hpp"
 #include "core/solver/rounding.hpp"
 
@@ -24,10 +25,9 @@ constexpr int most_refinements = 12;     // at which it replaces the old one at 
 constexpr double enough = 1e-3;          // energy decrease of a step, relative to all so far, that ends the loop
 constexpr double shortening = 0.25;      // of steps whose parts within the bounds raise the energy
 constexpr double no_component = 1e-6;    // components of a direction without energy that are zero but for rounding
-constexpr double suspicious =
-    1e-5;                         // part of p'Dp below which a direction's energy may come from a stale factorisation
-constexpr int max_sweeps = 60;    // of Gauss-Seidel alone, there and back
-constexpr int cheap_sweeps = 12;  // that cost less than a factorisation
+constexpr double doubtful = 1e-5;  // part of p'Dp below which a direction's energy may come from a stale factorisation
+constexpr int max_sweeps = 60;     // of Gauss-Seidel alone, there and back
+constexpr int cheap_sweeps = 12;   // that cost less than a factorisation
 constexpr double enough_by_sweeps = 0.1 * enough;  // the same of one sweep there and back
 template <int B>
 constexpr Index max_direct = B == 3 ? 4000 : 12000;  // vectors; above, fill-in costs more than iterations, unless
@@ -213,7 +213,7 @@ CgResult CoarseNewton<B>::solve_directly(const Level<B>& level) {
     return cg;
   };
   if (!worn_) {
-    const CgResult cg = attempt(suspicious);
+    const CgResult cg = attempt(doubtful);
     if (!cg.singular && (cg.converged || cg.iterations != most_refinements)) return cg;
   }
   if (!factorise(level, mask_)) return solve_iteratively(level);
@@ -275,8 +275,7 @@ bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
 // bounds allow. Along a direction without energy the obstacle must end the fall.
 template <int B>
 bool CoarseNewton<B>::move(const Level<B>& level, bool singular) {
-  double largest = 0;
-  for (const double d : d_) largest = std::max(largest, std::abs(d));
+  const double largest = max_norm(d_);
   const double step =
       singular ? admissible_step<B>(level, d_, infinity, no_component * largest) : admissible_step<B>(level, d_, 1, 0);
   if (step == infinity) return false;

@@ -10,7 +10,7 @@ namespace signorini {
 namespace {
 
 constexpr double many = 0.35;            // coarse over fine vectors above which the coarse ones are split again
-constexpr double negligible = 0.2;       // part of the largest weight of a row
+constexpr double weak_part = 0.2;        // part of the largest weight of a row
 constexpr std::size_t most_weights = 8;  // of a row
 
 struct Weight {
@@ -50,7 +50,7 @@ class Row {
       largest = std::max(largest, c.value);
       sum += c.value;
     }
-    std::erase_if(taken_, [=](const Weight& c) { return c.value < negligible * largest; });
+    std::erase_if(taken_, [=](const Weight& c) { return c.value < weak_part * largest; });
     return sum;
   }
 

@@ -14,7 +14,7 @@ namespace signorini {
 namespace {
 
 constexpr Index unassigned = -1;
-constexpr const char* place = "solver.aggregates";
+constexpr const char* key = "solver.aggregates";
 
 /// The sum of both directions: a coupling may be strong for one of its ends alone.
 StrengthGraph symmetric(const StrengthGraph& graph) {
@@ -45,9 +45,9 @@ struct Vertices {
 double scale(Offset couplings) {
   constexpr Offset most = std::numeric_limits<idx_t>::max();
   if (couplings > most / 3)
-    input_error(place, fmt::format("found {} strong couplings, expected 'greedy' for more than {}, which METIS cannot "
-                                   "count",
-                                   couplings, most / 3));
+    input_error(key, fmt::format("found {} strong couplings, expected 'greedy' for more than {}, which METIS cannot "
+                                 "count",
+                                 couplings, most / 3));
   constexpr double fine_enough = 100;
   return std::min(fine_enough, (static_cast<double>(most) / static_cast<double>(couplings) - 1) / 2);
 }
@@ -86,8 +86,8 @@ std::vector<idx_t> cut_into(idx_t parts, Vertices& graph) {
       METIS_PartGraphRecursive(&vertices, &constraints, graph.row.data(), graph.column.data(), nullptr, nullptr,
                                graph.weight.data(), &parts, nullptr, nullptr, options, &cut, part.data());
   if (status != METIS_OK)
-    input_error(place, fmt::format("METIS {} for {} vectors, expected 'greedy'",
-                                   status == METIS_ERROR_MEMORY ? "has not enough memory" : "failed", vertices));
+    input_error(key, fmt::format("METIS {} for {} vectors, expected 'greedy'",
+                                 status == METIS_ERROR_MEMORY ? "has not enough memory" : "failed", vertices));
   return part;
 }
 

@@ -11,7 +11,7 @@ namespace signorini {
 namespace {
 
 constexpr double without_zeros = 0.7;  // part of the couplings of a midpoint that its ends have, too
-constexpr double slight = 0.3;         // coupling of a midpoint to what is no end over that to an end
+constexpr double of_no_end = 0.3;      // coupling of a midpoint to what is no end over that to an end
 constexpr double zero = 1e-8;          // of couplings over the diagonal
 constexpr double mostly = 0.6;         // vectors that are midpoints, were it quadratic elements
 constexpr double sure = 0.3;           // midpoints between two ends, away from all that is prescribed
@@ -189,7 +189,7 @@ class Elements {
   /// At the boundary there are other vertices that are coupled to all around an edge.
   void leave_those_that_pull() {
     const double most = std::ranges::min(candidates_, {}, &Candidate::coupling).coupling;
-    std::erase_if(candidates_, [&](const Candidate& c) { return c.coupling > slight * most; });
+    std::erase_if(candidates_, [&](const Candidate& c) { return c.coupling > of_no_end * most; });
   }
 
   /// Where a vertex is within another one, the midpoint between them is coupled to the same vectors as it is itself.

@@ -6,6 +6,9 @@
 
 namespace signorini {
 
+/// Entries per vector of a matrix up to which it is about that of a tree: its factor has hardly more.
+inline constexpr Offset blocks_of_a_tree = 4;
+
 /// L D L' of a sparse symmetric positive semidefinite matrix with a diagonal of ones. Where a pivot vanishes there is a
 /// motion without energy, and a spring holds its component: what is factorised is the matrix plus one on the diagonal
 /// there. That leaves the solutions of consistent systems as they are, and does not magnify what rounding does along

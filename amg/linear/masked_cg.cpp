@@ -30,12 +30,6 @@ constexpr double little_energy = 1e-5;
 // without energy is said to have no minimum.
 constexpr double typical = 0.01, beyond_doubt = 100;
 
-double largest(const std::vector<double>& v) {
-  double size = 0;
-  for (const double value : v) size = std::max(size, std::abs(value));
-  return size;
-}
-
 }  // namespace
 
 template <int B>
@@ -83,7 +77,7 @@ CgResult masked_cg(const BlockMatrix<B>& A, const std::vector<Flags>& mask, cons
     if (limits.rounding > 0 && !(pAp > little_energy * pDp)) {
       const double of_step =
           rounding_of_work<B>(mask, 0, A.size(), [&](Index q, int k) { return terms_of_product(A, d.data(), q, k); });
-      const double noise = (limits.rounding + of_step) * largest(p);
+      const double noise = (limits.rounding + of_step) * max_norm(p);
       if (!(rz > (pAp > no_energy * pDp ? typical : beyond_doubt) * noise)) return result;
     }
     if (!(pAp > limits.without_energy * pDp)) {

@@ -34,12 +34,15 @@ MatrixXd triangular_factor(const Matrix& A) {
   return Eigen::HouseholderQR<MatrixXd>(A).matrixQR().topRows(A.cols()).triangularView<Eigen::Upper>();
 }
 
-VectorXd singular_values(const Matrix& A) { return Eigen::JacobiSVD<MatrixXd>(A).singularValues(); }
+// One kind of it, for each takes seconds to compile.
+using Svd = Eigen::JacobiSVD<MatrixXd, Eigen::FullPivHouseholderQRPreconditioner>;
+
+VectorXd singular_values(const Matrix& A) { return Svd(A).singularValues(); }
 
 MatrixXd null_space(const MatrixXd& rows, double tolerance) {
   const Eigen::Index n = rows.cols();
   if (rows.rows() == 0 || n == 0) return MatrixXd::Identity(n, n);
-  const Eigen::JacobiSVD<MatrixXd, Eigen::FullPivHouseholderQRPreconditioner> svd(rows, Eigen::ComputeFullV);
+  const Svd svd(rows, Eigen::ComputeFullV);
   const auto& values = svd.singularValues();
   const Eigen::Index rank = values[0] > 0 ? (values.array() > tolerance * values[0]).count() : 0;
   return svd.matrixV().rightCols(n - rank);

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 #include <vector>
 
 namespace signorini {
@@ -9,6 +12,13 @@ inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double s = 0;
   for (std::size_t i = 0; i < a.size(); ++i) s += a[i] * b[i];
   return s;
+}
+
+/// The largest |v_i|; zero where there is none. Entries that are no numbers do not count.
+inline double max_norm(std::span<const double> v) {
+  double out = 0;
+  for (const double value : v) out = std::max(out, std::abs(value));
+  return out;
 }
 
 template <std::size_t N>

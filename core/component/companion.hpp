@@ -16,6 +16,8 @@ struct Companion {
   bool gpl;             ///< a build with SIGNORINI_GPL=OFF leaves it out
 };
 
+inline constexpr Companion plane_library{"plane", "libsignorini_plane.so", "the geometry library for the plane",
+                                         "CGAL",  "GPL-3.0-or-later",      true};
 inline constexpr Companion geometry_library{"geometry", "libsignorini_geometry.so", "the geometry library",
                                             "CGAL",     "GPL-3.0-or-later",         true};
 inline constexpr Companion direct_solvers{
@@ -26,7 +28,7 @@ inline constexpr Companion picture_library{"pictures",
                                            "Cairo",
                                            "BSD-3-Clause AND (LGPL-2.1-only OR MPL-1.1)",
                                            false};
-inline constexpr std::array companions{geometry_library, direct_solvers, picture_library};
+inline constexpr std::array companions{plane_library, geometry_library, direct_solvers, picture_library};
 
 /// Beside the core library.
 std::filesystem::path path_of(const Companion& companion);

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/walls.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "core/solver/functional.hpp"
 
@@ -110,17 +111,6 @@ class Projection {
   std::vector<Index> column_;
   LevelView<B> view_;
 };
-
-/// The longest side of the box around a mesh.
-template <int D>
-double extent(const Mesh<D>& mesh) {
-  double longest = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    const auto [least, most] = std::ranges::minmax(mesh.points, {}, [i](const Point<D>& x) { return x[i]; });
-    longest = std::max(longest, most[i] - least[i]);
-  }
-  return longest;
-}
 
 template <int D, int B>
 [[noreturn]] void refuse(const Nodes<D>& nodes, const Model<B>& model, const Segment<B>& segment, Index node,

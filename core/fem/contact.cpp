@@ -16,7 +16,6 @@
 namespace signorini {
 namespace {
 
-constexpr double positive_force = 1e-8;               // of the largest force
 constexpr double on_bound = rounding_of_differences;  // of the numbers compared
 constexpr double at_rest = 1e-9;                      // of the largest displacement: what solvers leave of no motion
 

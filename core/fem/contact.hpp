@@ -3,6 +3,9 @@
 
 namespace signorini {
 
+/// Of the largest force: what counts as one that presses.
+inline constexpr double positive_force = 1e-8;
+
 /// One bounded direction of a node after the solve.
 template <int B>
 struct ContactNode {

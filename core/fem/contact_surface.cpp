@@ -4,14 +4,9 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
+#include "core/mortar/pairing.hpp"
 
 namespace signorini {
-namespace {
-
-// Cosine of the angle up to which a face counts as one that the obstacle pushes against: 60 degrees, less rounding.
-constexpr double facing = 0.5 - 1e-9;
-
-}  // namespace
 
 template <int D, int B>
 ContactSurface<D, B>::ContactSurface(const Nodes<D>& nodes, const Model<B>& model, Index obstacle)

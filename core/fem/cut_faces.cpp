@@ -116,7 +116,7 @@ class CoarsestFace {
   double measure_;
 };
 
-constexpr double sharp = 0.7;  // the cosine of about 45 degrees, at which faces meet at an edge
+constexpr double at_an_edge = 0.7;  // the cosine of about 45 degrees, at which faces meet at an edge
 
 /// Parts of the boundary of the coarsest mesh that no sharp edge divides.
 template <int D>
@@ -135,7 +135,7 @@ class Pieces {
         for (int k = 0, i = 0; k < D; ++k)
           if (k != opposite) ridge[i++] = face.vertices()[k];
         const auto [entry, is_new] = first.try_emplace(sorted(ridge), f);
-        if (!is_new && dot(normal[f], normal[entry->second]) > sharp) parent_[root(f)] = root(entry->second);
+        if (!is_new && dot(normal[f], normal[entry->second]) > at_an_edge) parent_[root(f)] = root(entry->second);
       }
     }
   }
@@ -171,7 +171,7 @@ class FacettedVertices {
     constexpr double flat = 1 - 1e-10;  // of about a thousandth of a degree
     double cosine = 0;
     for (int i = 0; i < D; ++i) cosine += normal_[v][i] * normal[i];
-    if (cosine > sharp && cosine < flat) is_[v] = true;
+    if (cosine > at_an_edge && cosine < flat) is_[v] = true;
     normal_[v] = normal;
   }
 
@@ -180,7 +180,7 @@ class FacettedVertices {
 };
 
 // Part of a face beside the one that is meant which an expression such as z > 0.99 for z = 1 holds on as well.
-constexpr double slack = 0.05;
+constexpr double few_missed = 0.05;
 
 template <int D>
 CutSelection cut(const Mesh<D>& mesh, const Selection& selection, const FacettedVertices<D>& facetted,
@@ -209,7 +209,7 @@ CutSelection cut(const Mesh<D>& mesh, const Selection& selection, const Facetted
     }
   }
   for (const auto& [root, piece] : of_piece)
-    if (piece.picked > 0 || piece.missed > slack * piece.all) out.missed += piece.missed;
+    if (piece.picked > 0 || piece.missed > few_missed * piece.all) out.missed += piece.missed;
   return out;
 }
 

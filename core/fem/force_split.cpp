@@ -10,7 +10,7 @@ namespace {
 
 constexpr double dependent = rounding_of_differences;
 constexpr double zero = rounding_of_differences;  // parts, relative to the force
-constexpr double equal = rounding_of_bases;       // residuals, relative to the force
+constexpr double equal_ways = rounding_of_bases;  // residuals, relative to the force
 
 /// One way to divide a force.
 struct Way {
@@ -31,7 +31,7 @@ class Splitter {
     std::vector<int> taken(directions_.size());
     int count = 0;
     for (const Way& way : ways_) {
-      if (way.residual > best_ + equal * force_.norm()) continue;
+      if (way.residual > best_ + equal_ways * force_.norm()) continue;
       ++count;
       for (std::size_t k = 0; k < way.directions.size(); ++k) {
         const int at = way.directions[k];

@@ -13,8 +13,6 @@
 namespace signorini {
 namespace {
 
-constexpr double positive_force = 1e-8;  // of the largest one
-
 /// The master of one obstacle.
 template <int D>
 class Master {

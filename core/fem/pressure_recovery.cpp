@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fem/element.hpp"
+#include "core/fem/fit_limits.hpp"
 #include "core/fem/fixes.hpp"
 #include "core/fem/pressed_faces.hpp"
 #include "core/fem/revolution.hpp"
@@ -12,19 +13,12 @@
 namespace signorini {
 namespace {
 
-constexpr int rings = 3;         // of neighbours that a fit looks at
-constexpr int rings_beyond = 5;  // the same at the edge, where it goes on from further inside
-constexpr int most_rings = 6;    // where there are few samples
-constexpr double excess = 1.25;  // over the means around a node: a linear pressure at a corner has less
 constexpr double at_edge =
     0.3;  // of the next pressure inside is what a mean at the edge may have without any of its own
-constexpr double steep = 1.05;       // from a node near the end of the other body to the next: pressures peak there
-constexpr double falls = 0.5;        // from a node in contact to the next one: more is left under a punch
-constexpr double sharp = 1e12;       // over the square at an edge, beyond it: contact ends there
-constexpr double least_width = 0.4;  // of samples, over the way to the next node: two rows of them have 0.5
-// Samples that a fit looks for, and without which it does not go on to the edge.
-template <int D>
-constexpr std::size_t enough = D == 2 ? 4 : 12;
+constexpr double steep = 1.05;           // from a node near the end of the other body to the next: pressures peak there
+constexpr double falls = 0.5;            // from a node in contact to the next one: more is left under a punch
+constexpr double most_of_square = 1e12;  // over the square at an edge, beyond it: contact ends there
+constexpr double least_width = 0.4;      // of samples, over the way to the next node: two rows of them have 0.5
 
 template <int D, int B>
 class Recovery {
@@ -276,7 +270,7 @@ class Recovery {
     const auto value = fitted(k);
     if (value && !punched && *value <= falls * sum / count) return *value;
     const double reach = faces_.reach(k);
-    return -sum / count * std::min((1 - reach) / reach, sharp);
+    return -sum / count * std::min((1 - reach) / reach, most_of_square);
   }
 
   double hardly_covered_beside(Index k) const {

@@ -15,7 +15,7 @@
 namespace signorini {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.
 template <int D>
@@ -213,7 +213,7 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   out.displacement = std::max(out.displacement, difference_of_displacements<D>(u));
   if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
-  if (all.empty()) out.penetration = out.opening = out.displacement = unknown;
+  if (all.empty()) out.penetration = out.opening = out.displacement = not_there;
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/dense.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/rounding.hpp"
 #include "core/fem/element.hpp"
 #include "core/mesh/join.hpp"
@@ -79,8 +80,7 @@ Point<D> filled(double value) {
 
 template <class Vector>
 std::string text(const Vector& values) {
-  double largest = 0;
-  for (const double v : values) largest = std::max(largest, std::abs(v));
+  const double largest = max_norm({values.data(), static_cast<std::size_t>(values.size())});
   std::string out;
   for (const double v : values)
     out += fmt::format("{}{:.6g}", out.empty() ? "" : ", ", std::abs(v) <= 1e-9 * largest ? 0.0 : v);

@@ -1,4 +1,5 @@
 #include "core/fem/traction_recovery.hpp"
+#include "core/fem/fit_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +7,7 @@
 namespace signorini {
 namespace {
 
-constexpr int rings = 3, rings_at_edge = 5, most_rings = 6;  // of neighbours that a fit looks at
-constexpr double excess = 1.25;                              // over the means around a node
 constexpr double common = 0.5;  // length of the mean of unit vectors that have a direction in common
-template <int D>
-constexpr std::size_t enough = D == 2 ? 4 : 12;
 
 template <int D, int B>
 class TractionRecovery {
@@ -99,7 +96,7 @@ class TractionRecovery {
 
   Vector near_edge(Index k, const Vector& direction) const {
     const auto some =
-        faces_.around(k, {rings_at_edge, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
+        faces_.around(k, {rings_beyond, most_rings, enough<D>}, [this](Index other) -> bool { return stuck_[other]; });
     const Vector around = mean(k);
     if (some.size() < enough<D>) return around;
     const auto squares = samples_.around(k, some, [&](const Reached& s) {

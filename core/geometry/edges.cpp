@@ -9,13 +9,14 @@
 #include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
 #include "core/geometry/groups.hpp"
+#include "core/geometry/vector.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 namespace {
 
 constexpr double digits = 1e-6;         // of the size of all: what files round away
-constexpr double coplanar = 1e-6;       // angle
+constexpr double one_plane = 1e-6;      // angle
 constexpr double kink = 0.5;            // of the angle between faces: more than that has to be left of an edge
 constexpr double share = 0.25;          // of its half of the angle: less is not turning on
 constexpr double alone = 0.2;           // of the angle, where one side alone is seen
@@ -115,18 +116,6 @@ class Surface {
 };
 
 template <int D>
-Point<D> plus(Point<D> a, double factor, const Point<D>& b) {
-  for (int k = 0; k < D; ++k) a[k] += factor * b[k];
-  return a;
-}
-
-template <int D>
-Point<D> unit(const Point<D>& a) {
-  const double size = length<D>(a);
-  return size > 0 ? plus<D>({}, 1 / size, a) : a;
-}
-
-template <int D>
 double angle_between(const Point<D>& a, const Point<D>& b) {
   return 2 * std::atan2(length<D>(difference<D>(a, b)), length<D>(plus<D>(a, 1, b)));
 }
@@ -214,7 +203,7 @@ class EdgeFinder {
       if (j < 0) continue;
       angle_[i] = angle_between<D>(normal_at(i), normal_at(j));
       if (angle_[i] > crease_) continue;
-      const double least = std::max(coplanar, digits * size / std::min(height_[i], height_[j]));
+      const double least = std::max(one_plane, digits * size / std::min(height_[i], height_[j]));
       kind_[i] = angle_[i] <= least ? Kind::flat : Kind::open;
     }
   }

@@ -12,8 +12,8 @@
 #include "core/mesh/mesh.hpp"
 #include "core/sdk/settings.hpp"
 
-/// Meshing and closest-point queries by CGAL, in a shared library of their own (signorini_geometry, GPL) that is loaded
-/// only when a scene needs it. Nothing else includes CGAL.
+/// Meshing and closest-point queries by CGAL, in shared libraries of their own (signorini_plane for two dimensions,
+/// signorini_geometry for three; GPL) that are loaded only when a scene needs them. Nothing else includes CGAL.
 namespace signorini::geometry {
 
 /// Target edge length at a point.
@@ -66,14 +66,25 @@ class ShapeError : public Error {
   std::string key_, complaint_;
 };
 
-class Engine {
+template <int D>
+class Engine;
+
+template <>
+class Engine<2> {
+ public:
+  virtual ~Engine() = default;
+  /// As of three dimensions.
+  virtual Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const = 0;
+};
+
+template <>
+class Engine<3> {
  public:
   virtual ~Engine() = default;
   /// Meshes with the parts and curves that the shape promises; the boundary vertices of curved shapes lie on the true
   /// surface. Meshes depend neither on units nor on the place: those of the same shape in other units are scaled, up to
   /// rounding, and sizes count to six digits. What is wrong is a ShapeError: unreadable file, surface not closed,
   /// self-intersecting polygon, bad size, details that would take very many elements.
-  virtual Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const = 0;
   virtual Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const = 0;
   /// Distance to a triangle surface file: negative inside a closed one. The normal of an open surface is oriented by
   /// its faces.
@@ -84,6 +95,7 @@ class Engine {
 };
 
 /// The CGAL engine, loading its library on first use. Throws Error(Exit::plugin) when the library is missing.
-const Engine& engine();
+template <int D>
+const Engine<D>& engine();
 
 }  // namespace signorini::geometry

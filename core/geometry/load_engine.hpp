@@ -7,6 +7,7 @@ namespace signorini::geometry {
 
 /// Loads a geometry library for good. Throws Error(Exit::plugin) naming the path when there is none, or another
 /// library.
-const Engine& load_engine(const std::filesystem::path& library);
+template <int D>
+const Engine<D>& load_engine(const std::filesystem::path& library);
 
 }  // namespace signorini::geometry

@@ -8,6 +8,7 @@
 #include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
 #include "core/geometry/tips.hpp"
+#include "core/geometry/vector.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -18,21 +19,8 @@ constexpr double same_plane = 1 - 2e-4;  // cosine, of a degree
 constexpr double least_rise = 0.25;      // cosine: how far a jet looks around the corner
 
 template <int D>
-Point<D> scaled(double factor, Point<D> p) {
-  for (double& x : p) x *= factor;
-  return p;
-}
-
-template <int D>
 void add(Point<D>& sum, double factor, const Point<D>& p) {
   for (int k = 0; k < D; ++k) sum[k] += factor * p[k];
-}
-
-/// a / |a|, or zero where a is zero.
-template <int D>
-Point<D> unit(const Point<D>& a) {
-  const double l = length<D>(a);
-  return l > 0 ? scaled<D>(1 / l, a) : Point<D>{};
 }
 
 Point<2> area_normal(const std::array<Point<2>, 2>& p) {

@@ -2,15 +2,35 @@
 #include <cmath>
 
 #include "core/base/types.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
 inline double norm(const Point<3>& a) { return std::hypot(a[0], a[1], a[2]); }
-inline Point<3> scaled(double s, const Point<3>& a) { return {s * a[0], s * a[1], s * a[2]}; }
-/// a + s b
-inline Point<3> plus(const Point<3>& a, double s, const Point<3>& b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+
+template <std::size_t D>
+std::array<double, D> scaled(double s, std::array<double, D> a) {
+  for (double& x : a) x *= s;
+  return a;
 }
-inline Point<3> minus(const Point<3>& a, const Point<3>& b) { return plus(a, -1, b); }
+
+/// a + s b
+template <std::size_t D>
+std::array<double, D> plus(std::array<double, D> a, double s, const std::array<double, D>& b) {
+  for (std::size_t k = 0; k < D; ++k) a[k] += s * b[k];
+  return a;
+}
+
+template <std::size_t D>
+std::array<double, D> minus(const std::array<double, D>& a, const std::array<double, D>& b) {
+  return plus<D>(a, -1, b);
+}
+
+/// a / |a|, or zero where a is zero.
+template <std::size_t D>
+std::array<double, D> unit(const std::array<double, D>& a) {
+  const double l = length<static_cast<int>(D)>(a);
+  return l > 0 ? scaled<D>(1 / l, a) : std::array<double, D>{};
+}
 
 }  // namespace signorini::geometry

@@ -16,14 +16,14 @@ namespace {
 
 const double first_step = std::cbrt(std::numeric_limits<double>::epsilon());  // balances truncation and rounding
 const double second_step = std::sqrt(std::sqrt(std::numeric_limits<double>::epsilon()));
-constexpr double believed = 1e-8;      // of a function's value: what is left at the point that it says is nearest
-constexpr double at_zero = 1e-11;      // of the distance: the same of a point that was found, and
-constexpr double off_normal = 1e-8;    // how far it is off the normal; the distance is off by the square of that
-constexpr double at_corner = 1e-9;     // likewise, of the scale, where differences are taken across edges
-constexpr double rounding = 1e-13;     // of the scale
-constexpr double kink = 1e-2;          // of the gradient
-constexpr double least_bowl = 0.1;     // of the identity: below that a stationary point may be a farthest one
-constexpr double independent = 1e-10;  // pivot of unit vectors' products
+constexpr double believed = 1e-8;          // of a function's value: what is left at the point that it says is nearest
+constexpr double at_zero = 1e-11;          // of the distance: the same of a point that was found, and
+constexpr double off_normal = 1e-8;        // how far it is off the normal; the distance is off by the square of that
+constexpr double at_corner = 1e-9;         // likewise, of the scale, where differences are taken across edges
+constexpr double rounding = 1e-13;         // of the scale
+constexpr double kink_of_gradient = 1e-2;  // of the gradient
+constexpr double least_bowl = 0.1;         // of the identity: below that a stationary point may be a farthest one
+constexpr double independent = 1e-10;      // pivot of unit vectors' products
 constexpr int most_steps_there = 60, most_halvings = 12;
 constexpr std::size_t most_planes = 14;
 
@@ -242,7 +242,7 @@ bool ImplicitFunction::has_kink(const Point<3>& x) const {
     Point<3> left = x, right = x;
     left[k] -= h;
     right[k] += h;
-    if (std::abs(value_(left) - 2 * here + value_(right)) > kink * h * steepest) return true;
+    if (std::abs(value_(left) - 2 * here + value_(right)) > kink_of_gradient * h * steepest) return true;
   }
   return false;
 }

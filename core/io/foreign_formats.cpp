@@ -9,7 +9,7 @@
 namespace signorini {
 namespace {
 
-constexpr std::string_view convert =
+constexpr std::string_view to_be_converted =
     "which is not read; expected a file that Gmsh or meshio has converted: `gmsh OLD -save -o NEW.msh`, `meshio "
     "convert "
     "OLD NEW.msh`";
@@ -21,7 +21,7 @@ struct Format {
   std::vector<std::string_view> extensions;  ///< of names, in lower case
   std::vector<std::string_view> beginnings;  ///< of some line, the first one where the format has a fixed beginning
   bool at_first = true;
-  std::string_view advice = convert;
+  std::string_view advice = to_be_converted;
 };
 
 const std::vector<Format>& formats() {

@@ -11,12 +11,12 @@
 namespace signorini {
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+bool ends_word(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
 }  // namespace
 
 void MshInput::skip_space() {
-  while (position_ < content_.size() && is_space(content_[position_])) ++position_;
+  while (position_ < content_.size() && ends_word(content_[position_])) ++position_;
 }
 
 bool MshInput::at_end() {
@@ -29,7 +29,7 @@ bool MshInput::next_is(char c) { return !at_end() && content_[position_] == c; }
 std::string_view MshInput::word() {
   skip_space();
   const std::size_t start = position_;
-  while (position_ < content_.size() && !is_space(content_[position_])) ++position_;
+  while (position_ < content_.size() && !ends_word(content_[position_])) ++position_;
   return content_.substr(start, position_ - start);
 }
 

@@ -15,21 +15,22 @@ namespace signorini {
 namespace {
 
 enum class NumberKind { integer, natural, real };
-struct Type {
+struct PlyType {
   std::string_view name, other_name;
   NumberKind kind;
   std::size_t size;
 };
-constexpr Type types[] = {{"char", "int8", NumberKind::integer, 1},   {"uchar", "uint8", NumberKind::natural, 1},
-                          {"short", "int16", NumberKind::integer, 2}, {"ushort", "uint16", NumberKind::natural, 2},
-                          {"int", "int32", NumberKind::integer, 4},   {"uint", "uint32", NumberKind::natural, 4},
-                          {"int64", "long", NumberKind::integer, 8},  {"uint64", "ulong", NumberKind::natural, 8},
-                          {"float", "float32", NumberKind::real, 4},  {"double", "float64", NumberKind::real, 8}};
+constexpr PlyType ply_types[] = {
+    {"char", "int8", NumberKind::integer, 1},   {"uchar", "uint8", NumberKind::natural, 1},
+    {"short", "int16", NumberKind::integer, 2}, {"ushort", "uint16", NumberKind::natural, 2},
+    {"int", "int32", NumberKind::integer, 4},   {"uint", "uint32", NumberKind::natural, 4},
+    {"int64", "long", NumberKind::integer, 8},  {"uint64", "ulong", NumberKind::natural, 8},
+    {"float", "float32", NumberKind::real, 4},  {"double", "float64", NumberKind::real, 8}};
 
 struct Property {
   std::string name;
-  const Type* count = nullptr;  ///< of a list
-  const Type* type = nullptr;
+  const PlyType* count = nullptr;  ///< of a list
+  const PlyType* type = nullptr;
 };
 
 struct Element {
@@ -45,8 +46,8 @@ struct Header {
   std::vector<Element> elements;
 };
 
-const Type& type_of(const TextLines& lines, std::string_view word) {
-  for (const Type& type : types)
+const PlyType& type_of(const TextLines& lines, std::string_view word) {
+  for (const PlyType& type : ply_types)
     if (word == type.name || word == type.other_name) return type;
   lines.fail_at(word, "a type such as 'float', 'double', 'uchar' or 'int'");
 }
@@ -108,14 +109,14 @@ class Values {
   }
 
   template <class Of>
-  double real(const Type& type, const Of& of) {
+  double real(const PlyType& type, const Of& of) {
     if (storage_ == Storage::text) return lines_.real(lines_.next(), of);
     return type.kind == NumberKind::real ? (type.size == 4 ? raw<float>(of) : raw<double>(of))
                                          : static_cast<double>(integer(type, of));
   }
 
   template <class Of>
-  Offset integer(const Type& type, const Of& of) {
+  Offset integer(const PlyType& type, const Of& of) {
     if (storage_ == Storage::text) return lines_.integer(lines_.next(), of);
     const bool natural = type.kind == NumberKind::natural;
     switch (type.size) {
@@ -243,7 +244,7 @@ class PlyReader {
 
   /// Anything but text may be not finite.
   template <class Of>
-  void skip_one(const Type& type, const Of& of) {
+  void skip_one(const PlyType& type, const Of& of) {
     if (header_.storage != Storage::text)
       values_.real(type, of);
     else if (lines_.next().empty())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/markdown.hpp"
 #include "core/io/report.hpp"
 #include "core/io/report_rows.hpp"
 
@@ -43,12 +44,6 @@ std::string type_of(const KeySpec& key) {
                      key.sometimes ? "; not always there" : "");
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
-  return result;
-}
-
 /// Whether a key means the same in the whole report.
 bool is_of_report(const KeySpec& key) {
   return std::ranges::any_of(report::report_spec().keys,
@@ -76,7 +71,7 @@ std::string keys_table(const ObjectSpec& object, bool top) {
     if (!top && is_of_report(key))
       shared += fmt::format("{}`{}`", shared.empty() ? "" : ", ", key.name);
     else
-      table += fmt::format("| `{}` | {} | {} |\n", key.name, type_of(key), escaped(key.help));
+      table += fmt::format("| `{}` | {} | {} |\n", key.name, type_of(key), in_cell(key.help));
   return shared.empty() ? table : fmt::format("{}\nAnd as of the whole report: {}.\n", table, shared);
 }
 
@@ -89,14 +84,14 @@ std::string sections_of(const ObjectSpec& object, std::vector<Section>& known) {
   return text;
 }
 
-constexpr const char* introduction = R"md(# The report
+constexpr const char* introduction_to_reports = R"md(# The report
 
 <!-- Written by report_page(); a test compares. Do not edit. -->
 
 `signorini solve` writes `report.json`. This prints the force on the first obstacle and the largest pressure there:
 
 ```sh
-python3 -c 'import json; c = json.load(open("out/ball_on_plane/report.json"))["contact"][0]; print(c["force"], c["max_pressure"])'
+python3 -c 'import json; c = json.load(open("out/ball_axisymmetric/report.json"))["contact"][0]; print(c["force"], c["max_pressure"])'
 ```
 
 - Numbers are in full precision. One that is not finite is `null`.
@@ -170,7 +165,7 @@ Json schema_of(const ObjectSpec& object) {
 
 std::string report_page() {
   std::vector<Section> known;
-  std::string text = introduction + keys_table(report::report_spec(), true);
+  std::string text = introduction_to_reports + keys_table(report::report_spec(), true);
   text += sections_of(report::report_spec(), known);
   text += "\n## The report of `signorini qp`\n\n`--report FILE` writes one without a scene:\n\n";
   text += keys_table(report::qp_spec(), false);

@@ -12,11 +12,12 @@
 namespace signorini {
 namespace {
 
-struct Format {
+struct SurfaceFormat {
   std::string_view name;
   PolygonSoup (*read)(std::string_view content, std::string_view place);
 };
-constexpr Format formats[] = {{"off", read_off}, {"obj", read_obj}, {"stl", read_stl}, {"ply", read_ply}};
+constexpr SurfaceFormat surface_formats[] = {
+    {"off", read_off}, {"obj", read_obj}, {"stl", read_stl}, {"ply", read_ply}};
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string extension = file.extension().string().substr(file.has_extension() ? 1 : 0);
@@ -27,7 +28,7 @@ std::string lower_extension(const std::filesystem::path& file) {
 }  // namespace
 
 PolygonSoup parse_surface(std::string_view content, std::string_view format, std::string_view place) {
-  for (const Format& known : formats) {
+  for (const SurfaceFormat& known : surface_formats) {
     if (known.name != format) continue;
     PolygonSoup soup = known.read(content, place);
     if (soup.faces.empty()) input_error(place, "no faces; expected a surface of triangles or polygons");

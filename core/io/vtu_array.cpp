@@ -32,17 +32,17 @@ std::vector<T> convert(const std::string& bytes, bool swapped) {
   return numbers;
 }
 
-struct Type {
+struct ArrayType {
   const char* name;
   std::size_t bytes;
   bool integer;
 };
-constexpr Type types[] = {{"Float64", 8, false}, {"Float32", 4, false}, {"Int64", 8, true},  {"Int32", 4, true},
-                          {"UInt8", 1, true},    {"Int8", 1, true},     {"UInt32", 4, true}, {"UInt64", 8, true},
-                          {"Int16", 2, true},    {"UInt16", 2, true}};
+constexpr ArrayType array_types[] = {
+    {"Float64", 8, false}, {"Float32", 4, false}, {"Int64", 8, true},  {"Int32", 4, true}, {"UInt8", 1, true},
+    {"Int8", 1, true},     {"UInt32", 4, true},   {"UInt64", 8, true}, {"Int16", 2, true}, {"UInt16", 2, true}};
 
 template <class T>
-std::vector<T> convert(const Type& type, const std::string& bytes, bool swapped) {
+std::vector<T> convert(const ArrayType& type, const std::string& bytes, bool swapped) {
   const std::string_view name = type.name;
   if (name == "Float64") return convert<double, T>(bytes, swapped);
   if (name == "Float32") return convert<float, T>(bytes, swapped);
@@ -63,7 +63,7 @@ class ArrayReader {
 
   template <class T>
   std::vector<T> read() const {
-    const Type type = stored_type();
+    const ArrayType type = stored_type();
     if (std::is_same_v<T, Offset> && !type.integer)
       fail(fmt::format("has type {}, expected an integer type", type.name));
     const std::string_view how = array_.attribute("format").as_string("ascii");
@@ -88,9 +88,9 @@ class ArrayReader {
   }
   [[noreturn]] void truncated() const { fail("ends too early or is damaged"); }
 
-  Type stored_type() const {
+  ArrayType stored_type() const {
     const std::string_view name = array_.attribute("type").as_string();
-    for (const Type& type : types)
+    for (const ArrayType& type : array_types)
       if (name == type.name) return type;
     fail(fmt::format("has type '{}', expected Float64, Int64, ...", name));
   }
@@ -125,12 +125,12 @@ class ArrayReader {
                                      : from_bytes<std::uint64_t>(bytes->data(), format_.swapped);
   }
 
-  void check_size(std::uint64_t found, const Type& type) const {
+  void check_size(std::uint64_t found, const ArrayType& type) const {
     if (found % type.bytes != 0 || found / type.bytes != static_cast<std::uint64_t>(expected_))
       fail(fmt::format("has {} bytes, expected {} numbers of {} bytes", found, expected_, type.bytes));
   }
 
-  std::string bytes(VtuBytes source, const Type& type) const {
+  std::string bytes(VtuBytes source, const ArrayType& type) const {
     if (format_.compressed) return unpack(source, type);
     const std::uint64_t n = header(source);
     check_size(n, type);
@@ -139,7 +139,7 @@ class ArrayReader {
     return std::move(*data);
   }
 
-  std::string unpack(VtuBytes& source, const Type& type) const {
+  std::string unpack(VtuBytes& source, const ArrayType& type) const {
     const std::uint64_t blocks = header(source);
     if (blocks == 0) return {};
     const std::uint64_t block_size = header(source), partial = header(source);

@@ -28,9 +28,6 @@ constexpr double left_of_parts = 0.01;
 constexpr double least_quadratic_cover = 0.1;
 // Nodes with less of the area of a face stand for nothing but rounding: corners of quadratic elements on the axis.
 constexpr double least_node = 1e-12;
-// Cosine of the angle to a node's normal up to which faces count in how much of the node is covered: 60 degrees, less
-// rounding. (Those around an edge see something else.)
-constexpr double facing = 0.5 - 1e-9;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double no_entry = 1e-14;
 

@@ -8,4 +8,8 @@ enum class Pairing {
   closest,  ///< the mean normal of the master where a slave face sees it: towards its closest point
 };
 
+/// Cosine of the angle to a node's normal up to which faces count as what it presses with, or as what is in front of
+/// it: 60 degrees, less rounding. (Those around an edge see something else.)
+inline constexpr double facing = 0.5 - 1e-9;
+
 }  // namespace signorini

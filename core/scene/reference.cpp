@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/markdown.hpp"
 #include "core/input/expression.hpp"
 #include "core/scene/examples.hpp"
 #include "core/scene/scene.hpp"
@@ -45,12 +46,6 @@ const char* type_name(KeyType type) {
 
 namespace {
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '|' ? std::string("\\|") : std::string(1, c);
-  return result;
-}
-
 std::string default_of(const KeySpec& key) {
   if (!key.fallback) return "required";
   if (!*key.fallback) return "";
@@ -61,14 +56,14 @@ std::string default_of(const KeySpec& key) {
 std::string note_of(const KeySpec& key) {
   if (key.later.empty()) return "";
   if (key.later == every_value) return " *Not yet available.*";
-  return fmt::format(" *Not yet available: {}.*", escaped(key.later));
+  return fmt::format(" *Not yet available: {}.*", in_cell(key.later));
 }
 
 std::string keys_table(std::span<const KeySpec> keys) {
   std::string text = "| key | type | default | range | |\n| --- | --- | --- | --- | --- |\n";
   for (const KeySpec& key : keys)
     text += fmt::format("| `{}` | {} | {} | {} | {}.{} |\n", key.name, type_name(key.type), default_of(key),
-                        escaped(key.range), key.help, note_of(key));
+                        in_cell(key.range), key.help, note_of(key));
   return text;
 }
 
@@ -89,7 +84,7 @@ std::string functions() {
   return text;
 }
 
-constexpr const char* introduction = R"md(# Scenes
+constexpr const char* introduction_to_scenes = R"md(# Scenes
 
 <!-- Written by scene_reference(); a test compares. Do not edit. -->
 
@@ -144,7 +139,7 @@ std::string example_of(std::string_view table) {
 }  // namespace
 
 std::string scene_reference() {
-  std::string text = fmt::format(introduction, functions(), example_of(""), keys_table(top_keys()));
+  std::string text = fmt::format(introduction_to_scenes, functions(), example_of(""), keys_table(top_keys()));
   for (const TableSpec& table : table_specs()) {
     const std::string name = table.listed ? fmt::format("[[{}]]", table.name) : fmt::format("[{}]", table.name);
     text += fmt::format("\n## `{}`\n\n{}\n\n{}{}{}", name, table.help, example_of(table.name), keys_table(table.keys),

@@ -24,7 +24,7 @@ struct Converter {
   }
   Result operator()(const Scene::SurfaceShape& s) const {
     try {
-      return geometry::engine().surface(s.file.string(), s.crease);
+      return geometry::engine<3>().surface(s.file.string(), s.crease);
     } catch (const Error& error) {
       throw Error(error.status(), fmt::format("{}: {}", origin, error.what()));
     }

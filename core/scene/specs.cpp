@@ -39,7 +39,7 @@ constexpr KeySpec body[] = {
      "target edge length of the coarsest mesh; required for every shape but rectangle and box"},
 };
 
-constexpr KeySpec block[] = {
+constexpr KeySpec block_keys[] = {
     {"from", point, nullptr, "", "", "the corner with the smallest coordinates"},
     {"to", point, nullptr, "", "", "the opposite corner"},
     {"cells", integers, nullptr, "[1, 1000000]", "", "number of cells of the coarsest mesh in each direction"},
@@ -48,7 +48,7 @@ constexpr KeySpec round[] = {
     {"center", point, nullptr, "", "", "centre"},
     {"radius", number, nullptr, "(0, inf)", "", "radius"},
 };
-constexpr KeySpec polygon[] = {{"points", points, nullptr, "", "", "corners, in order"}};
+constexpr KeySpec polygon_keys[] = {{"points", points, nullptr, "", "", "corners, in order"}};
 constexpr KeySpec cylinder[] = {
     {"center", point, nullptr, "", "", "centre, half way up"},
     {"radius", number, nullptr, "(0, inf)", "", "radius"},
@@ -58,11 +58,12 @@ constexpr KeySpec solid[] = {
     {"file", file, nullptr, "", "", "a closed surface in OFF, OBJ, STL or PLY, filled with tetrahedra"}};
 
 constexpr ShapeSpec shapes[] = {
-    {"rectangle", 2, "structured; parts `left`, `right`, `bottom`, `top`", block},
+    {"rectangle", 2, "structured; parts `left`, `right`, `bottom`, `top`", block_keys},
     {"disk", 2, "part `boundary`", round},
     {"half_disk", 2, "the lower half of a disk; parts `flat`, `curved`", round},
-    {"polygon", 2, "parts `edge0`, `edge1` and so on", polygon},
-    {"box", 3, "structured; parts `left`, `right`, `front`, `back`, `bottom`, `top` for x-, x+, y-, y+, z-, z+", block},
+    {"polygon", 2, "parts `edge0`, `edge1` and so on", polygon_keys},
+    {"box", 3, "structured; parts `left`, `right`, `front`, `back`, `bottom`, `top` for x-, x+, y-, y+, z-, z+",
+     block_keys},
     {"ball", 3, "part `boundary`", round},
     {"half_ball", 3, "the lower half of a ball; parts `flat`, `curved`", round},
     {"cylinder", 3, "along z; parts `bottom`, `top`, `side`", cylinder},

@@ -8,6 +8,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rounding.hpp"
 #include "core/solver/admissible.hpp"
@@ -36,7 +37,7 @@ Summary Iteration<B>::run(const Monitor& monitor, int before) {
   summary_.level_unknowns = unknowns();
   for (Index p = 0; p < problem_.A.size(); ++p)
     for (int k = 0; k < B; ++k) trace_ += problem_.A.diagonal(p)[k * B + k];
-  for (const double v : problem_.constraints.last) largest_before_ = std::max(largest_before_, std::abs(v));
+  largest_before_ = max_norm(problem_.constraints.last);
   if (problem_.following) problem_.following->withdraw();
   reference_ = residual_at_projected_zero();
   if (problem_.following) problem_.following->apply();

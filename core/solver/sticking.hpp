@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/dot.hpp"
 #include "core/solver/discrete_problem.hpp"
 #include "core/solver/prolongation.hpp"
 
@@ -26,9 +27,7 @@ void rest_where_prescribed(DiscreteProblem<B>& problem) {
   constexpr double rounding = 1e-12;  // of the numbers that motions are differences of
   Constraints<B>& c = problem.constraints;
   if (c.tangential.empty()) return;
-  double size = 0;
-  for (const auto* numbers : {&c.last, &problem.start})
-    for (const double v : *numbers) size = std::max(size, std::abs(v));
+  const double size = std::max(max_norm(c.last), max_norm(problem.start));
   for (std::size_t slot = 0; slot < c.tangential.size(); ++slot) {
     const Index p = c.vector[slot];
     const bool jump = problem.jumps && std::ranges::binary_search(problem.jumps->vector, p);

@@ -124,8 +124,9 @@ TEST_F(CommandLine, ListShowsComponentsWithOptionsAndFiles) {
   EXPECT_THAT(signorini({"list", "unsymmetric"}).out, HasSubstr("umfpack "));
   const Ended libraries = signorini({"list", "libraries"});
   EXPECT_THAT(libraries.out, AllOf(HasSubstr("libsignorini_core.so"), HasSubstr("licence: BSD-3-Clause\n"),
-                                   HasSubstr("libsignorini_geometry.so"), HasSubstr("licence: GPL-3.0-or-later"),
-                                   HasSubstr("licence: GPL-2.0-or-later"), HasSubstr("LGPL-2.1-only OR MPL-1.1")));
+                                   HasSubstr("libsignorini_plane.so"), HasSubstr("libsignorini_geometry.so"),
+                                   HasSubstr("licence: GPL-3.0-or-later"), HasSubstr("licence: GPL-2.0-or-later"),
+                                   HasSubstr("LGPL-2.1-only OR MPL-1.1")));
   EXPECT_THAT(signorini({"list", "obstacles"}).out,
               AllOf(HasSubstr("licence: BSD-3-Clause"), HasSubstr("from libsignorini_obstacle_coulomb.so"),
                     HasSubstr("\n  in " SIGNORINI_BINARY_DIR "/lib/signorini/plugins\n")));

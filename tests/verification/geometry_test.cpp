@@ -93,8 +93,8 @@ TEST(Geometry, RingGrowsIntoItsBore) {
 
 TEST(Geometry, AnImportedHalfBallIsTheOneThatTheProgramMeshes) {
   const TemporaryFolder folder;
-  const Mesh<3> mesh = geometry::engine().mesh(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1, true}),
-                                               [](const Point<3>&) { return 0.3; });
+  const Mesh<3> mesh = geometry::engine<3>().mesh(geometry::Shape3(geometry::Ball{{0, 0, 0}, 1, true}),
+                                                  [](const Point<3>&) { return 0.3; });
   const std::string rest = "order = 1\nyoung = 1\npoisson = 0.3\n";
   SceneText scene{.body = "shape = \"half_ball\"\ncenter = [0, 0, 0]\nradius = 1\nsize = 0.3\n" + rest,
                   .fixes = {"on = \"flat\"\nvalue = [0, 0, -0.02]"},

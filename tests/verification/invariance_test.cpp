@@ -16,7 +16,7 @@ namespace {
 
 Mesh<2> square() { return rectangle({-1, -1}, {1, 1}, {6, 6}); }
 Mesh<3> half_ball() {
-  return geometry::engine().mesh(geometry::Ball{{0, 0, 0}, 1, true}, [](const Point<3>&) { return 0.4; });
+  return geometry::engine<3>().mesh(geometry::Ball{{0, 0, 0}, 1, true}, [](const Point<3>&) { return 0.4; });
 }
 
 /// What a scene is written with: the mesh file, and where vectors, lengths and moduli go.

@@ -1,7 +1,5 @@
-#include <CGAL/exceptions.h>
-
 #include "core/geometry/cgal/checks.hpp"
-#include "core/geometry/cgal/planar.hpp"
+#include "core/geometry/cgal/guarded.hpp"
 #include "core/geometry/cgal/round.hpp"
 #include "core/geometry/cgal/solid.hpp"
 #include "core/geometry/cgal/surface_distance.hpp"
@@ -40,32 +38,8 @@ SolidDomain domain_of(const Solid& solid) {
 
 Mesh<3> mesh_of(const Solid& solid, const Size<3>& size) { return tetrahedralize(domain_of(solid), size); }
 
-/// The condition that failed, or the first line of what CGAL says instead of one.
-std::string reason(const CGAL::Failure_exception& failure) {
-  const std::string text = failure.expression().empty() ? failure.message() : failure.expression();
-  return text.substr(0, text.find('\n'));
-}
-
-/// Calls `work`; what CGAL finds itself unable to do, and what does not fit memory, becomes the user's error.
-template <class Work>
-auto guarded(const char* what, const Work& work) {
-  try {
-    return work();
-  } catch (const CGAL::Failure_exception& failure) {
-    throw ShapeError(what, "",
-                     fmt::format("failed for this geometry ({}); expected one without degenerate details, or another "
-                                 "size",
-                                 reason(failure)));
-  } catch (const std::bad_alloc&) {
-    throw ShapeError(what, "", "out of memory; expected a larger size");
-  }
-}
-
-class CgalEngine : public Engine {
+class CgalEngine : public Engine<3> {
  public:
-  Mesh<2> mesh(const Shape2& shape, const Size<2>& size) const override {
-    return guarded("meshing", [&] { return triangulate(shape, size); });
-  }
   Mesh<3> mesh(const Shape3& shape, const Size<3>& size) const override {
     return guarded("meshing", [&] { return std::visit([&](const auto& s) { return mesh_of(s, size); }, shape); });
   }
@@ -78,7 +52,7 @@ class CgalEngine : public Engine {
 
 }  // namespace signorini::geometry
 
-extern "C" __attribute__((visibility("default"))) const signorini::geometry::Engine* signorini_geometry_engine() {
+extern "C" __attribute__((visibility("default"))) const signorini::geometry::Engine<3>* signorini_geometry_engine() {
   static const signorini::geometry::CgalEngine engine;
   return &engine;
 }

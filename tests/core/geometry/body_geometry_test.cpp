@@ -17,7 +17,7 @@ using geometry::Surfaces;
 
 template <int D, class Shape>
 Mesh<D> meshed(const Shape& shape, double size) {
-  Mesh<D> mesh = geometry::engine().mesh(shape, test::constant<D>(size));
+  Mesh<D> mesh = geometry::engine<D>().mesh(shape, test::constant<D>(size));
   separate_curved_faces(mesh);
   return mesh;
 }

@@ -6,9 +6,10 @@
 namespace signorini {
 namespace {
 
+template <int D>
 std::string plugin_error_of(const std::string& library) {
   try {
-    geometry::load_engine(library);
+    geometry::load_engine<D>(library);
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), Exit::plugin);
     return error.what();
@@ -17,14 +18,20 @@ std::string plugin_error_of(const std::string& library) {
   return {};
 }
 
-TEST(Engine, IsLoadedOnce) { EXPECT_EQ(&geometry::engine(), &geometry::engine()); }
+TEST(Engine, IsLoadedOnce) {
+  EXPECT_EQ(&geometry::engine<2>(), &geometry::engine<2>());
+  EXPECT_EQ(&geometry::engine<3>(), &geometry::engine<3>());
+}
 
 TEST(Engine, NamesTheLibraryThatIsMissing) {
-  EXPECT_THAT(plugin_error_of("/none/libsignorini_geometry.so"), testing::HasSubstr("/none/libsignorini_geometry.so"));
+  EXPECT_THAT(plugin_error_of<3>("/none/libsignorini_geometry.so"),
+              testing::HasSubstr("/none/libsignorini_geometry.so"));
 }
 
 TEST(Engine, RejectsAnotherLibrary) {
-  EXPECT_THAT(plugin_error_of(SIGNORINI_BINARY_DIR "/lib/libsignorini_core.so"),
+  EXPECT_THAT(plugin_error_of<2>(SIGNORINI_BINARY_DIR "/lib/libsignorini_geometry.so"),
+              testing::HasSubstr("signorini_plane_engine"));
+  EXPECT_THAT(plugin_error_of<3>(SIGNORINI_BINARY_DIR "/lib/libsignorini_core.so"),
               testing::HasSubstr("signorini_geometry_engine"));
 }
 

@@ -13,7 +13,7 @@ using std::numbers::pi;
 using testing::AllOf;
 using testing::HasSubstr;
 
-Mesh<2> mesh(const geometry::Shape2& shape, double h) { return engine().mesh(shape, test::constant<2>(h)); }
+Mesh<2> mesh(const geometry::Shape2& shape, double h) { return engine<2>().mesh(shape, test::constant<2>(h)); }
 
 std::string complaint(const geometry::Shape2& shape, double h = 0.1) {
   return test::input_error_of([&] { mesh(shape, h); });
@@ -91,7 +91,7 @@ TEST(Planar, SharpAnglesAndThinSidesComeToAnEnd) {
 
 TEST(Planar, TheSizeFieldGradesTheMesh) {
   const auto size = [](const Point<2>& p) { return 0.01 + 0.1 * std::hypot(p[0], p[1] + 1); };
-  const Mesh<2> m = engine().mesh(geometry::Shape2(Disk{{0, 0}, 1}), size);
+  const Mesh<2> m = engine<2>().mesh(geometry::Shape2(Disk{{0, 0}, 1}), size);
   test::expect_consistent(m);
   const auto ring = [](double from, double to) {
     return [=](const Point<2>& p) {
@@ -113,7 +113,7 @@ TEST(Planar, SizesBeyondTheRadiusGiveTheCoarsestMesh) {
 TEST(Planar, TheSameInputGivesTheSameMesh) {
   const auto size = [](const Point<2>& p) { return 0.02 + 0.1 * std::abs(p[0]); };
   const geometry::Shape2 shape = l_shape;
-  EXPECT_TRUE(test::equal(engine().mesh(shape, size), engine().mesh(shape, size)));
+  EXPECT_TRUE(test::equal(engine<2>().mesh(shape, size), engine<2>().mesh(shape, size)));
 }
 
 TEST(Planar, AChangeOfUnitsScalesTheMesh) {
@@ -163,7 +163,7 @@ TEST(PlanarErrors, OfTheSizeComeThrough) {
     if (++calls > 300) input_error("scene.toml:3", "no size here");
     return 0.05;
   };
-  const auto message = test::input_error_of([&] { engine().mesh(geometry::Shape2(Disk{{0, 0}, 1}), size); });
+  const auto message = test::input_error_of([&] { engine<2>().mesh(geometry::Shape2(Disk{{0, 0}, 1}), size); });
   EXPECT_EQ(message, "scene.toml:3: no size here");
 }
 

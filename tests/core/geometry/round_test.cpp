@@ -10,7 +10,7 @@ using std::numbers::pi;
 using testing::AllOf;
 using testing::HasSubstr;
 
-Mesh<3> mesh(const geometry::Shape3& shape, double h) { return engine().mesh(shape, test::constant<3>(h)); }
+Mesh<3> mesh(const geometry::Shape3& shape, double h) { return engine<3>().mesh(shape, test::constant<3>(h)); }
 
 std::string complaint(const geometry::Shape3& shape, double h = 0.1) {
   return test::input_error_of([&] { mesh(shape, h); });
@@ -97,7 +97,7 @@ TEST(Round, FlatAndSlenderCylindersAreFilled) {
 TEST(Round, TheSizeFieldGradesTheMesh) {
   const auto distance = [](const Point<3>& p) { return std::hypot(p[0], p[1], p[2] + 1); };
   const auto size = [=](const Point<3>& p) { return 0.02 + 0.2 * distance(p); };
-  const Mesh<3> m = engine().mesh(geometry::Shape3(Ball{{0, 0, 0}, 1, true}), size);
+  const Mesh<3> m = engine<3>().mesh(geometry::Shape3(Ball{{0, 0, 0}, 1, true}), size);
   test::expect_consistent(m);
   test::expect_on_curves(m);
   const auto shell = [=](double from, double to) {
@@ -117,7 +117,8 @@ TEST(Round, SizesBeyondTheRadiusGiveACoarseMesh) {
 
 TEST(Round, TheSameInputGivesTheSameMesh) {
   const auto size = [](const Point<3>& p) { return 0.2 + 0.1 * std::abs(p[0] - 1); };
-  for (const auto& shape : shapes) EXPECT_TRUE(test::equal(engine().mesh(shape, size), engine().mesh(shape, size)));
+  for (const auto& shape : shapes)
+    EXPECT_TRUE(test::equal(engine<3>().mesh(shape, size), engine<3>().mesh(shape, size)));
 }
 
 TEST(RoundErrors, NameWhatIsWrongWithTheShape) {
@@ -154,7 +155,7 @@ TEST(RoundErrors, OfTheSizeComeThrough) {
       if (p[0] > 1.7) input_error("scene.toml:3", "no size here");
       return 0.2;
     };
-    EXPECT_EQ(test::input_error_of([&] { engine().mesh(shape, size); }), "scene.toml:3: no size here");
+    EXPECT_EQ(test::input_error_of([&] { engine<3>().mesh(shape, size); }), "scene.toml:3: no size here");
   }
 }
 

@@ -70,7 +70,7 @@ Distance at(const DistanceFunction& shape, const Vector3d& p) {
 }
 
 std::unique_ptr<DistanceFunction> smooth(const Surface& surface, double crease = geometry::default_crease) {
-  return geometry::engine().surface(test::TemporaryFile("smooth.off", surface.off()).path(), crease);
+  return geometry::engine<3>().surface(test::TemporaryFile("smooth.off", surface.off()).path(), crease);
 }
 
 TEST(SmoothSurface, OfASphereConvergesInDistanceAndNormal) {
@@ -102,7 +102,7 @@ TEST(SmoothSurface, OfASphereConvergesInDistanceAndNormal) {
 
 TEST(SmoothSurface, ACubeKeepsEdgesAndCornersAndItsDistanceIsThatOfTheTriangles) {
   const auto shape = smooth(test::cube(-1, 1)),
-             facets = geometry::engine().surface(test::TemporaryFile("cube.off", test::cube(-1, 1).off()).path());
+             facets = geometry::engine<3>().surface(test::TemporaryFile("cube.off", test::cube(-1, 1).off()).path());
   std::mt19937 random(9);
   std::uniform_real_distribution<double> number(-1.6, 1.6);
   for (int i = 0; i < 500; ++i) {

@@ -18,7 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 Mesh<3> mesh(const TemporaryFile& file, double h) {
-  return engine().mesh(geometry::Shape3(Solid{file.path()}), test::constant<3>(h));
+  return engine<3>().mesh(geometry::Shape3(Solid{file.path()}), test::constant<3>(h));
 }
 
 std::string complaint(const TemporaryFile& file, double h = 0.3) {
@@ -258,7 +258,7 @@ TEST(Solid, RealSurfacesAreFilled) {
   for (const char* name : {"spot.obj", "fandisk.obj", "rocker-arm.obj"}) {
     const std::string file = std::string(folder) + "/" + name;
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing";
-    const auto surface = engine().surface(file);
+    const auto surface = engine<3>().surface(file);
     double extent = 0;  // of the bounding box, from the file's own vertices
     Point<3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     std::ifstream lines(file);
@@ -269,7 +269,7 @@ TEST(Solid, RealSurfacesAreFilled) {
           high[k] = std::max(high[k], p[k]);
         }
     extent = length<3>(difference<3>(high, low));
-    const Mesh<3> m = engine().mesh(geometry::Shape3(Solid{file}), test::constant<3>(0.04 * extent));
+    const Mesh<3> m = engine<3>().mesh(geometry::Shape3(Solid{file}), test::constant<3>(0.04 * extent));
     test::expect_consistent(m);
     EXPECT_GT(test::smallest_angle(m), 1) << name;
     for (const Face<3>& face : m.boundary)
@@ -282,8 +282,9 @@ TEST(Solid, RealSurfacesAreFilled) {
 }
 
 TEST(SolidErrors, NameWhatIsWrongWithTheFile) {
-  EXPECT_THAT(test::input_error_of([] { engine().mesh(geometry::Shape3(Solid{"/none.off"}), test::constant<3>(1)); }),
-              HasSubstr("/none.off: no such surface file"));
+  EXPECT_THAT(
+      test::input_error_of([] { engine<3>().mesh(geometry::Shape3(Solid{"/none.off"}), test::constant<3>(1)); }),
+      HasSubstr("/none.off: no such surface file"));
   EXPECT_THAT(complaint(TemporaryFile("text.off", "no surface")), HasSubstr("line 1: found 'no', expected 'OFF'"));
   EXPECT_THAT(complaint(TemporaryFile("cube.xyz", cube(0, 1).off())), HasSubstr("expected OFF, OBJ, STL or PLY"));
   EXPECT_THAT(complaint(TemporaryFile("empty.off", "OFF\n0 0 0\n")), HasSubstr("expected"));
@@ -328,7 +329,7 @@ TEST(SolidErrors, AnInterruptEndsTheMeshingInItsQueriesToo) {
       if (count > last) throw Error(Exit::interrupted, "interrupted");
       return 0.2;
     };
-    engine().mesh(geometry::Shape3(Solid{file.path()}), size);
+    engine<3>().mesh(geometry::Shape3(Solid{file.path()}), size);
     return count;
   };
   const int all = repetitions(std::numeric_limits<int>::max());
@@ -379,7 +380,7 @@ TEST(SolidErrors, AnInterruptEndsTheProtectionOfSharpEdges) {
     return 0.3;
   };
   try {
-    engine().mesh(geometry::Shape3(Solid{file.path()}), size);
+    engine<3>().mesh(geometry::Shape3(Solid{file.path()}), size);
     ADD_FAILURE() << "not interrupted";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), Exit::interrupted);

@@ -50,7 +50,8 @@ class Placed {
  public:
   Placed(const Surface& surface, const Place& place)
       : place_(place),
-        distance_(geometry::engine().surface(test::TemporaryFile("placed.off", place.moved(surface).off()).path())) {}
+        distance_(geometry::engine<3>().surface(test::TemporaryFile("placed.off", place.moved(surface).off()).path())) {
+  }
 
   double value(const Vector3d& p) const { return at(p).value / place_.scale; }
   Vector3d normal(const Vector3d& p) const { return place_.turn.transpose() * Vector3d(at(p).normal); }
@@ -195,7 +196,7 @@ TEST(SurfaceNormals, AboveAPitSeenFromItsAxisAreAlongItAndItsBottomIsTheDistance
 
 TEST(SurfaceNormals, FacetsOfACylinderAreOffItByTheirSagittaAndThoseOfACubeByNone) {
   const auto sagitta = [](const Surface& surface, const Vector3d& p) {
-    const auto distance = geometry::engine().surface(test::TemporaryFile("facets.off", surface.off()).path());
+    const auto distance = geometry::engine<3>().surface(test::TemporaryFile("facets.off", surface.off()).path());
     return dynamic_cast<const geometry::FacetedDistance&>(*distance).sagitta_at(p.data());
   };
   for (const int sides : {16, 40}) {

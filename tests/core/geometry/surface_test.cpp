@@ -44,20 +44,20 @@ double cube_distance(const Point<3>& p) {
 
 TEST(Surface, DistanceToACubeIsExactInsideAndOut) {
   for (const Surface& s : {cube(-1, 1), cube(-1, 1).reversed()}) {
-    const auto surface = engine().surface(TemporaryFile("cube.off", s.off()).path());
+    const auto surface = engine<3>().surface(TemporaryFile("cube.off", s.off()).path());
     for (const Point<3>& p : random_points(-2, 2, 3000)) EXPECT_NEAR(at(*surface, p).value, cube_distance(p), 1e-14);
   }
 }
 
 TEST(Surface, SignsAreRightNextToEdgesAndCorners) {
-  const auto surface = engine().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
   for (const Point<3>& d : random_points(-1e-6, 1e-6, 3000))
     for (const Point<3>& p : {Point<3>{1 + d[0], 1 + d[1], 1 + d[2]}, Point<3>{1 + d[0], -1 + d[1], d[2]}})
       EXPECT_NEAR(at(*surface, p).value, cube_distance(p), 1e-15);
 }
 
 TEST(Surface, NormalsAreTheGradientOfTheDistance) {
-  const auto surface = engine().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
   constexpr double step = 1e-5;
   for (const Point<3>& p : random_points(1.1, 2, 300)) {
     const Distance d = at(*surface, p);
@@ -73,7 +73,7 @@ TEST(Surface, NormalsAreTheGradientOfTheDistance) {
 }
 
 TEST(Surface, NormalsOnTheSurfacePointOutwards) {
-  const auto surface = engine().surface(TemporaryFile("cube.off", cube(-1, 1).reversed().off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("cube.off", cube(-1, 1).reversed().off()).path());
   EXPECT_THAT(at(*surface, {0.3, 0.1, 1}).normal, testing::ElementsAre(0, 0, 1));
   EXPECT_THAT(at(*surface, {0.3, -1, 0.2}).normal, testing::ElementsAre(0, -1, 0));
   const Distance corner = at(*surface, {1, 1, 1});
@@ -83,7 +83,7 @@ TEST(Surface, NormalsOnTheSurfacePointOutwards) {
 TEST(Surface, InsideOfAHollowCubeIsItsMaterial) {
   Surface hollow = cube(-2, 2);
   hollow.add(cube(-1, 1));
-  const auto surface = engine().surface(TemporaryFile("hollow.off", hollow.off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("hollow.off", hollow.off()).path());
   EXPECT_NEAR(at(*surface, {0, 0, 0.5}).value, 0.5, 1e-15);
   EXPECT_NEAR(at(*surface, {0, 0, 1.25}).value, -0.25, 1e-15);
   EXPECT_THAT(at(*surface, {0, 0, 1.25}).normal, testing::ElementsAre(0, 0, -1));
@@ -117,7 +117,7 @@ TEST(Surface, ShellsThatCrossBoundWhatIsInsideOfAny) {
     for (const bool turned : {false, true}) {
       Surface both = turned ? box_between(block.low, block.high).reversed() : box_between(block.low, block.high);
       both.add(box_between(bar.low, bar.high));
-      const auto surface = engine().surface(TemporaryFile("both.off", both.off()).path());
+      const auto surface = engine<3>().surface(TemporaryFile("both.off", both.off()).path());
       for (const Point<3>& p : random_points(-4, 4, 500)) {
         const double expected = std::min(box_distance(p, block.low, block.high), box_distance(p, bar.low, bar.high));
         const double found = at(*surface, p).value;
@@ -154,7 +154,7 @@ TEST(Surface, AnArrowIsInsideItsShaft) {
       arrow.triangles.push_back({last, first + i, first + k});
       arrow.triangles.push_back({last + 1, second + k, second + i});
     }
-    const auto surface = engine().surface(TemporaryFile("arrow.off", arrow.off()).path());
+    const auto surface = engine<3>().surface(TemporaryFile("arrow.off", arrow.off()).path());
     EXPECT_NEAR(at(*surface, {0.201, 5, 0}).value, 0.001, 0.001);
     EXPECT_LT(at(*surface, {0, 5, 0}).value, -0.18);
     EXPECT_LT(at(*surface, {0, 9.6, 0}).value, 0);
@@ -176,11 +176,11 @@ TEST(Surface, WhatTouchesItsOwnWallKeepsItsInside) {
     cavity.points.push_back(p);
   cavity.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   hollow.add(cavity);
-  const auto in_spike = engine().surface(TemporaryFile("spiked.off", spiked.off()).path());
+  const auto in_spike = engine<3>().surface(TemporaryFile("spiked.off", spiked.off()).path());
   EXPECT_GT(at(*in_spike, {0, 0, 0.9}).value, 0);
   EXPECT_LT(at(*in_spike, {0.9, 0.9, -0.9}).value, 0);
   EXPECT_GT(at(*in_spike, {1.5, 0, 0}).value, 0);
-  const auto in_hollow = engine().surface(TemporaryFile("hollow.off", hollow.off()).path());
+  const auto in_hollow = engine<3>().surface(TemporaryFile("hollow.off", hollow.off()).path());
   EXPECT_GT(at(*in_hollow, {0, 0, 0}).value, 0);
   EXPECT_LT(at(*in_hollow, {0.9, 0.9, 0.9}).value, 0);
   EXPECT_GT(at(*in_hollow, {1.5, 0, 0}).value, 0);
@@ -190,7 +190,7 @@ TEST(Surface, WhatTouchesItsOwnWallKeepsItsInside) {
 TEST(Surface, ShellsWithinEachOtherAreInTurns) {
   Surface nested = cube(-1, 1);
   nested.add(cube(-3, 3)).add(cube(-2, 2));
-  const auto surface = engine().surface(TemporaryFile("nested.off", nested.off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("nested.off", nested.off()).path());
   for (const auto& [x, expected] :
        {std::pair(0.5, -0.5), std::pair(1.25, 0.25), std::pair(2.25, -0.25), std::pair(3.25, 0.25)})
     EXPECT_NEAR(at(*surface, {x, 0, 0}).value, expected, 1e-14);
@@ -207,8 +207,8 @@ Surface roof(double slope) {
 
 TEST(Surface, AnOpenSurfaceHasTheSidesOfItsFacesEvenAtASharpEdge) {
   for (const double slope : {-3.0, -0.2, 0.0, 0.2, 3.0}) {
-    const auto surface = engine().surface(TemporaryFile("roof.off", roof(slope).off()).path());
-    const auto turned = engine().surface(TemporaryFile("turned.off", roof(slope).reversed().off()).path());
+    const auto surface = engine<3>().surface(TemporaryFile("roof.off", roof(slope).off()).path());
+    const auto turned = engine<3>().surface(TemporaryFile("turned.off", roof(slope).reversed().off()).path());
     for (const Point<3>& p : random_points(-1, 1, 1000)) {
       const bool above = p[2] > slope * std::abs(p[0]);
       EXPECT_EQ(at(*surface, p).value > 0, above);
@@ -222,7 +222,7 @@ TEST(Surface, AnOpenSurfaceHasTheSidesOfItsFacesAtAPeak) {
   Surface peak;  // a pyramid without its base, steep and pointing upwards
   peak.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 5}};
   peak.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-  const auto surface = engine().surface(TemporaryFile("peak.off", peak.off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("peak.off", peak.off()).path());
   for (Point<3> p : random_points(-0.5, 0.5, 1000)) {
     p[2] += 5;
     const bool outside = std::max(std::abs(p[0]), std::abs(p[1])) > (5 - p[2]) / 5;
@@ -231,7 +231,7 @@ TEST(Surface, AnOpenSurfaceHasTheSidesOfItsFacesAtAPeak) {
 }
 
 TEST(Surface, IsTheSameFromManyThreads) {
-  const auto surface = engine().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
   const auto points = random_points(-2, 2, 4000);
   std::vector<std::vector<double>> values(4);
   {
@@ -248,7 +248,7 @@ TEST(Surface, IsTheSameFromManyThreads) {
 }
 
 TEST(Surface, RejectsPointsThatAreNotFinite) {
-  const auto surface = engine().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
+  const auto surface = engine<3>().surface(TemporaryFile("cube.off", cube(-1, 1).off()).path());
   for (const double bad : {std::nan(""), infinity}) {
     Status status;
     const double p[3] = {0, bad, 0};
@@ -258,7 +258,7 @@ TEST(Surface, RejectsPointsThatAreNotFinite) {
 }
 
 TEST(Surface, NamesAFileThatIsMissing) {
-  EXPECT_THAT(test::input_error_of([] { engine().surface("/none.stl"); }), testing::HasSubstr("/none.stl"));
+  EXPECT_THAT(test::input_error_of([] { engine<3>().surface("/none.stl"); }), testing::HasSubstr("/none.stl"));
 }
 
 }  // namespace

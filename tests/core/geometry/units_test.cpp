@@ -42,7 +42,7 @@ TEST(Units, OfRoundShapesInThePlane) {
     for (const double h : {0.1, 0.03})
       expect_same<2>(
           [=](double l, const Point<2>& shift) {
-            return engine().mesh(geometry::Shape2(geometry::Disk{shift, 0.7 * l, half}), graded<2>(h, l, shift));
+            return engine<2>().mesh(geometry::Shape2(geometry::Disk{shift, 0.7 * l, half}), graded<2>(h, l, shift));
           },
           {3.3, -2.1});
 }
@@ -54,7 +54,7 @@ TEST(Units, OfPolygons) {
           geometry::Polygon polygon{{{-0.9, -0.7}, {1.1, -0.7}, {1.3, 0.2}, {-0.7, 0.9}}};
           for (auto& p : polygon.points)
             for (std::size_t k = 0; k < 2; ++k) p[k] = shift[k] + l * p[k];
-          return engine().mesh(geometry::Shape2(polygon), graded<2>(h, l, shift));
+          return engine<2>().mesh(geometry::Shape2(polygon), graded<2>(h, l, shift));
         },
         {3.3, -2.1});
 }
@@ -64,7 +64,7 @@ TEST(Units, OfBalls) {
     for (const double h : {0.2, test::nightly(0.05, 0.1)})
       expect_same<3>(
           [=](double l, const Point<3>& shift) {
-            return engine().mesh(geometry::Shape3(geometry::Ball{shift, 0.7 * l, half}), graded<3>(h, l, shift));
+            return engine<3>().mesh(geometry::Shape3(geometry::Ball{shift, 0.7 * l, half}), graded<3>(h, l, shift));
           },
           {3.3, -2.1, 0.6});
 }
@@ -72,7 +72,8 @@ TEST(Units, OfBalls) {
 TEST(Units, OfCylinders) {
   expect_same<3>(
       [=](double l, const Point<3>& shift) {
-        return engine().mesh(geometry::Shape3(geometry::Cylinder{shift, 0.7 * l, 1.9 * l}), graded<3>(0.1, l, shift));
+        return engine<3>().mesh(geometry::Shape3(geometry::Cylinder{shift, 0.7 * l, 1.9 * l}),
+                                graded<3>(0.1, l, shift));
       },
       {3.3, -2.1, 0.6});
 }
@@ -86,7 +87,7 @@ TEST(Units, OfSolids) {
           for (auto& p : moved.points)
             for (std::size_t k = 0; k < 3; ++k) p[k] = shift[k] + l * p[k];
           const test::TemporaryFile file("solid.off", moved.off());
-          return engine().mesh(geometry::Shape3(geometry::Solid{file.path()}), graded<3>(0.2, l, shift));
+          return engine<3>().mesh(geometry::Shape3(geometry::Solid{file.path()}), graded<3>(0.2, l, shift));
         },
         {3.3, -2.1, 0.6});
 }

@@ -1,4 +1,4 @@
-#include "core/geometry/cgal/polygon.hpp"
+#include "core/geometry/cgal/plane/polygon.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2.h>

@@ -1,11 +1,11 @@
-#include "core/geometry/cgal/outline.hpp"
+#include "core/geometry/cgal/plane/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/geometry/cgal/checks.hpp"
-#include "core/geometry/cgal/polygon.hpp"
+#include "core/geometry/cgal/plane/polygon.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {

@@ -1,5 +1,5 @@
 // Constrained Delaunay refinement in the plane (CGAL Mesh_2) with a position-dependent size.
-#include "core/geometry/cgal/planar.hpp"
+#include "core/geometry/cgal/plane/planar.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_criteria_2.h>
@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "core/geometry/cgal/checks.hpp"
-#include "core/geometry/cgal/outline.hpp"
 #include "core/geometry/cgal/own_units.hpp"
+#include "core/geometry/cgal/plane/outline.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/curve.hpp"
 #include "core/mesh/simplex.hpp"
