@@ -22,11 +22,24 @@ Bends<D> permuted(const Bends<D>& bends, const std::array<int, D + 1>& was) {
   return out;
 }
 
-/// Of a child that red refinement makes: that of the same quadratic map.
-///
-/// Along a step w in barycentric coordinates, of sum zero, the map's second difference is a quadratic form q(w), and
-/// the midpoint of an edge is off by its value. Known on the edges of the father, it is
+/// By how much the middle of an edge within an element is off the straight one. Along a step w in barycentric
+/// coordinates, of sum zero, the second difference of the element's quadratic map is a quadratic form q(w), and the
+/// midpoint is off by its value. Known on the edges of the element, it is
 /// q(w) = -sum over its edges ij of w_i w_j q(e_j - e_i).
+/// @param from, to the edge's ends in barycentric coordinates of the element
+template <int D>
+Point<D> bend_of(const Bends<D>& bends, const std::array<double, D + 1>& from, const std::array<double, D + 1>& to) {
+  constexpr auto edges = simplex_edges<D>();
+  Point<D> out{};
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [i, j] = edges[e];
+    const double weight = -(to[i] - from[i]) * (to[j] - from[j]);
+    for (int d = 0; d < D; ++d) out[d] += weight * bends[e][d];
+  }
+  return out;
+}
+
+/// Of a child that red refinement makes: that of the same quadratic map.
 template <int D>
 Bends<D> bends_of_child(const Bends<D>& father, std::size_t child) {
   constexpr auto edges = simplex_edges<D>();
@@ -40,14 +53,8 @@ Bends<D> bends_of_child(const Bends<D>& father, std::size_t child) {
   };
   Bends<D> out{};
   const auto& corner = RedRefinement<D>::children[child];
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    const auto from = barycentric(corner[edges[k][0]]), to = barycentric(corner[edges[k][1]]);
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      const auto [i, j] = edges[e];
-      const double weight = -(to[i] - from[i]) * (to[j] - from[j]);
-      for (int d = 0; d < D; ++d) out[k][d] += weight * father[e][d];
-    }
-  }
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    out[k] = bend_of<D>(father, barycentric(corner[edges[k][0]]), barycentric(corner[edges[k][1]]));
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "core/mesh/cubic_patch.hpp"
 
+#include <algorithm>
+
 #include "core/mesh/simplex.hpp"
 
 namespace signorini {
@@ -59,6 +61,28 @@ typename CubicPatch<D>::Derivatives CubicPatch<D>::derivatives(const std::array<
         --orders[b];
       }
     }
+  }
+  return out;
+}
+
+// By blossoms: the polar form, symmetric and linear in three points, which is the surface where they are one. Control
+// points are its values at corners (Farin, Curves and Surfaces for CAGD, sections 4.4 and 17.3).
+template <int D>
+CubicPatch<D> CubicPatch<D>::part(const std::array<std::array<double, D>, D>& corner) const {
+  constexpr auto all = exponents();
+  CubicPatch out;
+  for (std::size_t k = 0; k < size; ++k) {
+    std::array<int, 3> points;  // corners, each as often as the exponent says
+    for (int i = 0, n = 0; i < D; ++i)
+      for (int times = 0; times < all[k][i]; ++times) points[n++] = i;
+    for (int a = 0; a < D; ++a)
+      for (int b = 0; b < D; ++b)
+        for (int c = 0; c < D; ++c) {
+          std::array<int, D> exponent{};
+          for (const int i : {a, b, c}) ++exponent[i];
+          const auto at = static_cast<std::size_t>(std::ranges::find(all, exponent) - all.begin());
+          add<D>(out.control[k], corner[points[0]][a] * corner[points[1]][b] * corner[points[2]][c], control[at]);
+        }
   }
   return out;
 }

@@ -39,6 +39,9 @@ struct CubicPatch {
     std::array<std::array<Point<D>, D>, D> second{};  ///< likewise
   };
   Derivatives derivatives(const std::array<double, D>& barycentric) const;
+  /// The same surface over a part of the flat face.
+  /// @param corner of the part, in barycentric coordinates
+  CubicPatch part(const std::array<std::array<double, D>, D>& corner) const;
 };
 
 /// The straight one between corners.

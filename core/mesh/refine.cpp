@@ -11,9 +11,9 @@
 #include "core/base/release.hpp"
 #include "core/mesh/bends.hpp"
 #include "core/mesh/boundary.hpp"
-#include "core/mesh/curve.hpp"
 #include "core/mesh/layers.hpp"
 #include "core/mesh/mirror.hpp"
+#include "core/mesh/placement.hpp"
 #include "core/mesh/red_refinement.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/subsimplices.hpp"
@@ -275,52 +275,13 @@ class Refiner {
 
   /// Where a new vertex on one or two boundary faces belongs.
   Point<D> place(Index v, const std::array<Index, 2>& faces) const {
-    std::vector<const Curve<D>*> shapes;
-    std::vector<Flat<D>> planes;
-    Index patch = -1;
-    for (const Index f : faces) {
-      if (f < 0) continue;
-      const Index number = coarse_.boundary[f].curve;
-      const Curve<D>* curve = number < 0 ? nullptr : &coarse_.curves[number];
-      if (!curve)
-        planes.push_back(plane_of(coarse_.boundary[f]));
-      else if (curve->is_shape() && std::ranges::count(shapes, curve) == 0)
-        shapes.push_back(curve);
-      else if (curve->kind == Curve<D>::Kind::patches)
-        patch = f;
-    }
+    Placement<D> placement(coarse_);
+    for (const Index f : faces)
+      if (f >= 0) placement.add(f);
     const Point<D>& middle = fine_.points[v];
-    for (const Mirror& mirror : coarse_.mirrors)
-      if (lies_on<D>(mirror, middle)) planes.push_back(plane_of(mirror));
-    if (shapes.empty()) return patch < 0 ? middle : on_patch(v, patch);
-    const Point<D> alone = project<D>(*shapes[0], middle);
-    if (shapes.size() + planes.size() == 1) return alone;
+    if (!placement.shapes()) return placement.patch() < 0 ? middle : on_patch(v, placement.patch());
     const auto [a, b] = refinement_.parents[v];
-    const double reach = length<D>(difference<D>(coarse_.points[a], coarse_.points[b]));
-    if (shapes.size() == 1 &&
-        std::abs(dot(difference<D>(alone, planes[0].point), planes[0].normal)) <= tie * tie * reach)
-      return alone;
-    return project<D>(shapes, planes, middle, reach);
-  }
-
-  static Flat<D> plane_of(const Mirror& mirror) {
-    Flat<D> out{};
-    out.point[mirror.axis] = mirror.at;
-    out.normal[mirror.axis] = 1;
-    return out;
-  }
-
-  Flat<D> plane_of(const Face<D>& face) const {
-    const auto& p = coarse_.points;
-    const Point<D> u = difference<D>(p[face.vertices[1]], p[face.vertices[0]]);
-    Flat<D> out{p[face.vertices[0]], {}};
-    if constexpr (D == 2)
-      out.normal = {u[1], -u[0]};
-    else
-      out.normal = cross(u, difference<D>(p[face.vertices[2]], p[face.vertices[0]]));
-    const double size = length<D>(out.normal);
-    for (double& x : out.normal) x /= size;
-    return out;
+    return placement.on_shapes(middle, length<D>(difference<D>(coarse_.points[a], coarse_.points[b])));
   }
 
   /// At the middle of an edge of coarse face f, which is the middle of one of a patch's.

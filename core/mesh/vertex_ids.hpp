@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "core/mesh/mesh.hpp"
@@ -27,6 +27,11 @@ class VertexIds {
   /// Per vertex of a mesh that has come out of one with the ids `coarse`.
   std::vector<VertexId> refined(std::span<const VertexId> coarse, const Refinement& refinement);
 
+  /// That of an edge; new where no mesh has had it.
+  VertexId midpoint(VertexId a, VertexId b);
+  /// The same where it is known, else -1.
+  VertexId known_midpoint(VertexId a, VertexId b) const;
+
   /// The ends of the edge that the vertex is the midpoint of; on the coarsest mesh itself twice.
   std::array<VertexId, 2> parents(VertexId id) const {
     return id < coarsest_ ? std::array{id, id} : ends_[static_cast<std::size_t>(id - coarsest_)];
@@ -35,7 +40,14 @@ class VertexIds {
  private:
   VertexId coarsest_;
   std::vector<std::array<VertexId, 2>> ends_;  // of the midpoints
-  std::map<std::array<VertexId, 2>, VertexId> midpoint_;
+  using Edge = std::array<VertexId, 2>;  // ascending
+  struct Hash {
+    std::size_t operator()(const Edge& edge) const noexcept {
+      return (static_cast<std::size_t>(edge[0]) * 0x9e3779b97f4a7c15u ^ static_cast<std::size_t>(edge[1])) *
+             0xff51afd7ed558ccdu;
+    }
+  };
+  std::unordered_map<Edge, VertexId, Hash> midpoint_;
 };
 
 }  // namespace signorini
