@@ -188,17 +188,19 @@ double ActiveSetIteration<B>::remaining_error(bool changed) {
   return move < last ? move / (1 - move / last) : infinity;
 }
 
-// The start may be a body that touches nothing; with all bounds active there may be something to hold it.
+// What nothing holds stays next to where it is with a shift. Without one the start may be a body that touches nothing:
+// with all bounds active there may be something to hold it, however weakly, and it comes to rest anywhere.
 template <int B>
 bool ActiveSetIteration<B>::minimise(bool changed) {
   if ((!changed || factorise()) && solve_free()) return true;
-  if (steps_ == 1 && active_ != all_bounded()) {
+  if (shift_if_singular_ > 0) {
+    if (shift_ > 0) return false;
+    shift_ = shift_if_singular_;
+    seen_.clear();
+  } else {
+    if (steps_ > 1 || active_ == all_bounded()) return false;
     active_ = all_bounded();
-    if (factorise() && solve_free()) return true;
   }
-  if (shift_ > 0 || shift_if_singular_ == 0) return false;
-  shift_ = shift_if_singular_;
-  seen_.clear();
   return factorise() && solve_free();
 }
 

@@ -109,5 +109,16 @@ TEST(ShiftedActiveSets, NeedNothingThatHoldsTheFreeComponents) {
   EXPECT_THAT(falling.reason, testing::HasSubstr("nothing holds"));
 }
 
+// Whatever holds them where all bounds are active: they stay next to the start, and do not come to rest far away.
+TEST(ShiftedActiveSets, LeaveWhatNothingHoldsWhereItIs) {
+  DiscreteProblem<1> problem = floating(-0.25, infinity);
+  problem.constraints.lower = {-1000, -1000};
+  std::vector<double> x;
+  const Summary balanced = by_shifted_sets(problem, x);
+  EXPECT_TRUE(balanced.converged()) << balanced.reason;
+  EXPECT_NEAR(x[1] - x[0], 0.25, 1e-14);
+  EXPECT_LT(std::abs(x[0]), 1);
+}
+
 }  // namespace
 }  // namespace signorini::test
