@@ -8,6 +8,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/coincidence_set.hpp"
 #include "core/fem/force_split.hpp"
 #include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
@@ -457,11 +458,11 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     node.area = (std::max(node.covered, node.least_covered) + node.taken) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
-    if (!in_body) continue;
-    if (node.contact) summary.area += node.area;
-    totals.add(node);
+    if (in_body) totals.add(node);
   }
-  if (!in_body) {
+  if (in_body) {
+    if constexpr (B == 1) summary.area = coincidence_set(nodes, obstacle, state.nodes);
+  } else {
     const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, start, state.nodes);
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;

@@ -52,7 +52,7 @@ template <int B>
 struct ContactSummary {
   Index nodes = 0;  ///< in contact along one direction or several; so are the other numbers of nodes
   /// Measure of the contact, up to its edge within faces: see recover_pressure(); only forces larger than 1e-8 of the
-  /// largest one count. Of a scalar obstacle without faces the sum of the areas of the vertices in contact.
+  /// largest one count. Of a scalar obstacle without faces see coincidence_set().
   double area = 0;
   std::array<double, B> force{};  ///< total
   double max_pressure = 0;        ///< the largest ContactNode::recovered

@@ -170,26 +170,29 @@ TEST(Contact, WhatPressesAtHeldVerticesIsTheObstaclesAndIsSaidToBeUndetermined) 
   }
 }
 
-// -u'' = -1 on (0, 1), u >= -psi: by hand, in a strip of squares.
+// -u'' = -10 on (0, 1), u >= -psi: by hand, in a strip of squares. The set ends at nodes, between them, or anywhere.
 TEST(Contact, ScalarForceBalancesTheLoadOverTheCoincidenceSet) {
-  const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {20, 1});
-  Model<1> model;
-  model.fixes = {fix<1>("left", {Field(0.0)}), fix<1>("right", {Field(0.0)})};
-  model.loads = {{{}, {-10.0}}};
-  const double depth = 0.2;  // u = -5 x (2 a - x), a = sqrt(depth / 5) = 0.2, contact on (0.2, 0.8)
-  model.obstacles = {term<1>([=](const SurfaceVertex&) { return bound<1>({1}, -depth, infinity); }, {})};
-  const auto discrete = discretize(mesh, model);
-  const auto x = solve_bounded(discrete.problem);
-  const auto state = contact_state(mesh, model, discrete, x);
-  EXPECT_NEAR(state.obstacles[0].area, 0.6, 0.05 + 1e-12);
-  EXPECT_NEAR(state.obstacles[0].force[0], 6, 1e-10);
-  double volume = 0;
-  for (const auto& node : state.nodes) {
-    volume += node.area;
-    EXPECT_NEAR(node.gap, x[node.vertex] + depth, 1e-15);
-    EXPECT_TRUE(node.contact || node.pressure == 0);
+  for (const int cells : {20, 21, 22, 23, 24, 27}) {
+    SCOPED_TRACE(cells);
+    const Mesh<2> mesh = rectangle({0, 0}, {1, 1}, {cells, 1});
+    Model<1> model;
+    model.fixes = {fix<1>("left", {Field(0.0)}), fix<1>("right", {Field(0.0)})};
+    model.loads = {{{}, {-10.0}}};
+    const double depth = 0.2;  // u = -5 x (2 a - x), a = sqrt(depth / 5) = 0.2, contact on (0.2, 0.8)
+    model.obstacles = {term<1>([=](const SurfaceVertex&) { return bound<1>({1}, -depth, infinity); }, {})};
+    const auto discrete = discretize(mesh, model);
+    const auto x = solve_bounded(discrete.problem);
+    const auto state = contact_state(mesh, model, discrete, x);
+    EXPECT_NEAR(state.obstacles[0].area, 0.6, 1.0 / (cells * cells));
+    EXPECT_NEAR(state.obstacles[0].area, state.obstacles[0].force[0] / 10, 1e-10);
+    double volume = 0;
+    for (const auto& node : state.nodes) {
+      volume += node.area;
+      EXPECT_NEAR(node.gap, x[node.vertex] + depth, 1e-15);
+      EXPECT_TRUE(node.contact || node.pressure == 0);
+    }
+    EXPECT_NEAR(volume, 1 - 1.0 / cells, 1e-12);  // without the fixed ends
   }
-  EXPECT_NEAR(volume, 18.0 / 20 + 1.0 / 20, 1e-12);  // without the fixed ends
 }
 
 // As rounding leaves it where the solution meets the obstacle without any force.

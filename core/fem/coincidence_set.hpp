@@ -1,0 +1,19 @@
+#pragma once
+#include <vector>
+
+#include "core/fem/contact.hpp"
+
+namespace signorini {
+
+/// The measure of the set on which a function rests on a scalar obstacle that acts on the whole body.
+///
+/// What presses there is a density that does not fall to zero at the edge, as pressures between surfaces do, but ends
+/// with a jump: so a node at the edge has so much of its area in the set as its force is of the density farther inside
+/// over all of that area. That is off by about the square of the mesh width, where counting nodes is off by a third of
+/// the width. Where all nodes in contact are at the edge, or nothing presses farther inside, nodes in contact count in
+/// full.
+/// @param obstacle those of its nodes count, which come by ascending vertex, with their areas and pressures
+template <int D>
+double coincidence_set(const Nodes<D>& nodes, Index obstacle, const std::vector<ContactNode<1>>& contact);
+
+}  // namespace signorini
