@@ -15,6 +15,7 @@ template <int K, int N = 1>
 struct Sample {
   std::array<double, K> x;
   std::array<double, N> value;
+  double weight = 1;  ///< of the square of what a fit leaves of it
 };
 
 /// Coefficients of polynomials of this degree in K variables.
@@ -50,7 +51,7 @@ class PolynomialFit {
     for (const auto& sample : samples) {
       const Row here = row(sample.x);
       for (int i = 0; i < terms; ++i)
-        for (int j = 0; j < terms; ++j) H[i][j] += here[i] * here[j];
+        for (int j = 0; j < terms; ++j) H[i][j] += sample.weight * here[i] * here[j];
     }
     factors_ = PivotedFactors<terms>(H);
     decides_ = factors_.definite(dependent);
@@ -64,7 +65,7 @@ class PolynomialFit {
     for (const auto& sample : samples_) {
       const Row here = row(sample.x);
       for (int i = 0; i < terms; ++i)
-        for (int n = 0; n < N; ++n) moments_[i][n] += here[i] * sample.value[n];
+        for (int n = 0; n < N; ++n) moments_[i][n] += sample.weight * here[i] * sample.value[n];
     }
   }
 
@@ -82,8 +83,34 @@ class PolynomialFit {
     if (summed_up_)
       for (int i = 0; i < terms; ++i) add(weights[i], moments_[i]);
     else
-      for (const auto& sample : samples_) add(product(weights, row(sample.x)), sample.value);
+      for (const auto& sample : samples_) add(sample.weight * product(weights, row(sample.x)), sample.value);
     return out;
+  }
+
+  /// What independent errors of the samples, as large as what is left of them beside the polynomials, do to the values
+  /// at a place. Only after sum_up(), where the samples decide these and are more than coefficients.
+  std::array<double, N> error(const std::array<double, K>& x) const {
+    std::array<Row, N> coefficients;
+    for (int n = 0; n < N; ++n) {
+      Row moments;
+      for (int i = 0; i < terms; ++i) moments[i] = moments_[i][n];
+      coefficients[n] = factors_.solve(moments);
+    }
+    const Row influence = factors_.solve(row(x));
+    std::array<double, N> left{};
+    double amplified = 0, sum = 0;
+    for (const auto& sample : samples_) {
+      const Row there = row(sample.x);
+      const double part = sample.weight * product(there, influence);
+      amplified += part * part, sum += sample.weight;
+      for (int n = 0; n < N; ++n) {
+        const double off = sample.value[n] - product(there, coefficients[n]);
+        left[n] += sample.weight * off * off;
+      }
+    }
+    const auto count = static_cast<double>(samples_.size());
+    for (double& square : left) square = std::sqrt(square / sum * count / (count - terms) * amplified);
+    return left;
   }
 
  private:
@@ -116,15 +143,29 @@ bool enough_for_quadratic(const std::vector<Sample<K, N>>& samples) {
   return std::ssize(samples) >= polynomial_terms(K, 2) + K;
 }
 
+/// A value, and what independent errors of the samples may do to it.
+struct FittedValue {
+  double value, error;
+};
+
 /// The value at the place itself: quadratic where there are samples enough, else linear where there is one more than
 /// coefficients.
 template <int K>
-std::optional<double> fitted_value(const std::vector<Sample<K>>& samples) {
-  const auto only = [](const auto& values) { return values ? std::optional((*values)[0]) : std::nullopt; };
+std::optional<FittedValue> fitted_value_and_error(const std::vector<Sample<K>>& samples) {
+  const auto found = [&]<int Degree>(PolynomialFit<Degree, K> fit) -> std::optional<FittedValue> {
+    fit.sum_up();
+    const auto value = fit.at({});
+    return value ? std::optional(FittedValue{(*value)[0], fit.error({})[0]}) : std::nullopt;
+  };
   if (enough_for_quadratic(samples))
-    if (const auto values = PolynomialFit<2, K>(samples).at({})) return only(values);
-  if (samples.size() > polynomial_terms(K, 1)) return only(PolynomialFit<1, K>(samples).at({}));
+    if (const auto value = found(PolynomialFit<2, K>(samples))) return value;
+  if (samples.size() > polynomial_terms(K, 1)) return found(PolynomialFit<1, K>(samples));
   return {};
+}
+template <int K>
+std::optional<double> fitted_value(const std::vector<Sample<K>>& samples) {
+  const auto found = fitted_value_and_error(samples);
+  return found ? std::optional(found->value) : std::nullopt;
 }
 
 }  // namespace signorini

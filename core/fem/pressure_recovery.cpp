@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/fem/element.hpp"
 #include "core/fem/fit_limits.hpp"
@@ -13,6 +14,7 @@
 namespace signorini {
 namespace {
 
+constexpr double scatter = 0.01;  // of a pressure: what it may be off by because samples scatter
 constexpr double at_edge =
     0.3;  // of the next pressure inside is what a mean at the edge may have without any of its own
 constexpr double steep = 1.05;           // from a node near the end of the other body to the next: pressures peak there
@@ -34,6 +36,7 @@ class Recovery {
       inside_.push_back(faces.inside(k));
       at_middle_.push_back(faces.node(k).pressure);
     }
+    of_squares_ = !all_inside();
     if (nodes.order() == 2) take_off_curvature();
   }
 
@@ -93,17 +96,22 @@ class Recovery {
 
  private:
   /// Nodes inside the contact within some rings of neighbours.
-  std::vector<typename PressedFaces<D, B>::Reached> neighbourhood(Index from) const {
-    const int wanted = inside_[from] ? rings : rings_beyond;
+  std::vector<typename PressedFaces<D, B>::Reached> neighbourhood(Index from, int wanted) const {
     return faces_.around(from, {wanted, most_rings, enough<D>}, [&](Index k) -> bool { return inside_[k]; });
   }
 
-  std::vector<Sample<D - 1>> samples(Index k) const {
-    return samples_.around(k, neighbourhood(k), [&](const auto& s) {
+  /// Squares of pressures where the contact has an edge. Without one there is no reason for these, whose mean is above
+  /// the square of the pressures' where these scatter.
+  std::vector<Sample<D - 1>> samples(Index k, int wanted) const {
+    return samples_.around(k, neighbourhood(k, wanted), [&](const auto& s) {
       const double pressure = inside_[k] ? at_middle_[s.node] : faces_.node(s.node).pressure;
-      return pressure * pressure;
+      return of_squares_ ? pressure * pressure : pressure;
     });
   }
+  std::vector<Sample<D - 1>> samples(Index k) const { return samples(k, inside_[k] ? rings : rings_beyond); }
+
+  double square_of(double fitted) const { return of_squares_ ? fitted : fitted * std::abs(fitted); }
+  double pressure_of(double fitted) const { return std::sqrt(std::max(square_of(fitted), 0.0)); }
 
   /// Of quadratic elements, whose forces are good enough for it: those of linear ones are too large by about as much.
   /// Away from the edge: next to it the polynomials change from node to node.
@@ -178,11 +186,11 @@ class Recovery {
   double curvature(Index k) const {
     const auto some = samples(k);
     if (!enough_for_quadratic(some)) return 0;
-    PolynomialFit<2, D - 1> squares(some);
-    squares.sum_up();
+    PolynomialFit<2, D - 1> fit(some);
+    fit.sum_up();
     const auto pressure = [&](const Place& x) {
-      const auto square = squares.at(x);
-      return square ? std::sqrt(std::max(square->front(), 0.0)) : 0;
+      const auto found = fit.at(x);
+      return found ? pressure_of(found->front()) : 0;
     };
     const ContactNode<B>& node = faces_.node(k);
     const TangentPlane<D> plane = samples_.plane_at(k);
@@ -237,7 +245,39 @@ class Recovery {
   std::optional<double> fitted(Index k) const {
     const auto some = samples(k);
     if (!inside_[k] && (some.size() < enough<D> || (tells(k) && rises(k)))) return {};
-    return fitted_value(some);
+    const auto found = inside_[k] ? fitted_to_more(k, some) : fitted_value(some);
+    return found ? std::optional(square_of(*found)) : std::nullopt;
+  }
+
+  /// The forces on nodes scatter where the other body's faces are larger: of several neighbourhoods the one from which
+  /// the pressure is known best. They grow up to where they meet the edge, towards which pressures are no polynomials.
+  std::optional<double> fitted_to_more(Index k, std::vector<Sample<D - 1>> some) const {
+    std::optional<FittedValue> best;
+    for (int wanted = rings;; some = faded(samples(k, wanted), wanted)) {
+      const auto here = fitted_value_and_error(some);
+      if (!here) break;
+      if (!best || here->error < best->error) best = here;
+      if (best->error <= (of_squares_ ? 2 : 1) * scatter * std::abs(best->value)) break;
+      if (++wanted > most_rings || meets_edge(k, wanted)) break;
+    }
+    return best ? std::optional(best->value) : std::nullopt;
+  }
+
+  /// Samples count the less the farther off they are, to nothing in the next ring: else what scatters in waves, as
+  /// forces do from face to face of the other body, is seen or not as the number of rings has it.
+  static std::vector<Sample<D - 1>> faded(std::vector<Sample<D - 1>> some, int rings_of_it) {
+    const auto square = [](const Place& x) { return std::inner_product(x.begin(), x.end(), x.begin(), 0.0); };
+    double farthest = 0;
+    for (const auto& sample : some) farthest = std::max(farthest, square(sample.x));
+    const double next_ring = farthest * (1 + 1.0 / rings_of_it) * (1 + 1.0 / rings_of_it);
+    for (auto& sample : some) sample.weight = std::pow(1 - square(sample.x) / next_ring, 2);
+    return some;
+  }
+
+  bool meets_edge(Index k, int wanted) const {
+    return std::ranges::any_of(neighbourhood(k, wanted), [&](const auto& reached) {
+      return std::ranges::any_of(faces_.around(reached.node), [&](Index other) -> bool { return !inside_[other]; });
+    });
   }
 
   double limited(Index k, double pressure) const {
@@ -334,6 +374,7 @@ class Recovery {
   const SurfaceSamples<D, B> samples_;
   std::vector<bool> inside_;
   std::vector<double> at_middle_;  // the pressure at the middle of each node's basis function
+  bool of_squares_ = true;         // are fits
   std::vector<double> square_;     // of the pressure, per node; it goes on beyond the edge
 };
 

@@ -11,7 +11,8 @@ namespace signorini {
 /// polynomials over three rings of neighbours (at the edge five), by least squares. Why squares? At the edge of smooth
 /// contact the pressure ends like a square root; its square goes through zero there like a straight line. Only nodes
 /// count whose neighbours are all in contact: the others feel the edge, and what is fitted goes on to them and to the
-/// edge.
+/// edge. Where no node is at an edge, the values themselves are fitted. Where they scatter about the fit, so that what
+/// it finds may be off by more than 1 %, up to six rings are looked at, as long as these meet no edge.
 ///
 /// Sets ContactNode::recovered of an obstacle's nodes, and ContactNode::traction from it
 /// (core/fem/traction_recovery.hpp). The pressure lies between the least and 1.25 times the largest of the means at the

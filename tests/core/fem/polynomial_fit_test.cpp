@@ -54,5 +54,26 @@ TEST(PolynomialFit, IsTheSameSummedUpAndAtEveryPlace) {
   }
 }
 
+/// The square of the value's error, in the mean.
+TEST(PolynomialFit, KnowsWhatErrorsOfSamplesDo) {
+  test::Random random(11);
+  constexpr int trials = 2000;
+  for (const std::size_t count : {5u, 9u, 25u}) {
+    double known = 0, found = 0;  // squares
+    for (int trial = 0; trial < trials; ++trial) {
+      std::vector<Sample<1>> samples;
+      for (std::size_t k = 0; k < count; ++k) {
+        const double x = random.between(-1, 2);
+        samples.push_back({{x}, 3 - x + 2 * x * x + 0.1 * random.between(-1, 1)});
+      }
+      PolynomialFit<2, 1> fit(samples);
+      fit.sum_up();
+      known += fit.error({0})[0] * fit.error({0})[0];
+      found += ((*fit.at({0}))[0] - 3) * ((*fit.at({0}))[0] - 3);
+    }
+    EXPECT_NEAR(known / found, 1, 0.2) << count;
+  }
+}
+
 }  // namespace
 }  // namespace signorini
