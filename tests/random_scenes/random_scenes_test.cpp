@@ -103,10 +103,11 @@ std::string wrong_pile(Random& random, const Stack<D>& pile, const View<D>& view
   return different(one, other, view);
 }
 
-/// Hertz's formulas are for half spaces; meshes add the rest, of the area about half a face around it.
+/// Hertz's formulas are for half spaces; meshes add the rest.
 constexpr double of_peak = 0.03;
+/// The edge of the contact is known up to half a face; around a disk errors of both signs leave a third of that.
 template <int D>
-constexpr double of_area = D == 2 ? 0.05 : 0.12;
+constexpr double of_area = D == 2 ? Round<D>::face_at_edge / 2 : 2 * Round<D>::face_at_edge / 2 / 3;
 
 template <int D>
 std::string wrong_round(const Round<D>& round, const View<D>& view, const Outcome& outcome) {

@@ -29,6 +29,10 @@ struct Round {
   double peak() const { return (D == 2 ? 4 / pi : 1.5) * force() / area(); }
 
   static constexpr double pi = 3.14159265358979323846;
+  // Of the mesh, over the half width: of faces in the middle of the contact, more per way from there, refinements.
+  static constexpr double face_in_middle = 0.4, growth = 0.25;
+  static constexpr int refinements = D == 2 ? 2 : 1;
+  static constexpr double face_at_edge = (face_in_middle + growth) / (1 << refinements);
 };
 
 template <int D>
@@ -58,10 +62,10 @@ std::string text_of(const Round<D>& round, const View<D>& view, const Way& way) 
   };
   const auto body = [&](const char* name, const std::string& shape, double middle, double radius, const Material& m) {
     return fmt::format(
-        "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = {}\nradius = {:.17g}\nsize = \"{:.17g} + 0.25*sqrt(x^2 + "
+        "[[body]]\nname = \"{}\"\nshape = \"{}\"\ncenter = {}\nradius = {:.17g}\nsize = \"{:.17g} + {}*sqrt(x^2 + "
         "{}^2{})\"\nyoung = {:.17g}\npoisson = {:.17g}\n",
-        name, shape, up(middle), radius, 0.4 * round.half_width * view.length, D == 2 ? "y" : "z",
-        D == 2 ? "" : " + y^2", m.young * view.stress, m.poisson);
+        name, shape, up(middle), radius, Round<D>::face_in_middle * round.half_width * view.length, Round<D>::growth,
+        D == 2 ? "y" : "z", D == 2 ? "" : " + y^2", m.young * view.stress, m.poisson);
   };
   const std::string upper = body("upper", D == 2 ? "half_disk" : "half_ball", R, R, round.material),
                     lower = elastic ? body("lower", D == 2 ? "disk" : "ball", -other, other, round.other) : "";
@@ -88,7 +92,7 @@ std::string text_of(const Round<D>& round, const View<D>& view, const Way& way) 
                          up(round.on == On::hollow ? other : -other), other, round.on == On::hollow);
   }
   if (round.by_symmetry) out += D == 2 ? "[symmetry]\nx = 0\n" : "[symmetry]\nx = 0\ny = 0\n";
-  return out + fmt::format("[refine]\nuniform = {}\n", D == 2 ? 2 : 1) + solver_text(way);
+  return out + fmt::format("[refine]\nuniform = {}\n", Round<D>::refinements) + solver_text(way);
 }
 
 }  // namespace signorini::test
