@@ -44,8 +44,9 @@ class Recovery {
     for (Index k = 0; k < faces_.size(); ++k) {
       if (!tells(k)) continue;
       ContactNode<B>& node = faces_.node(k);
-      square_[k] = fitted(k).value_or(node.pressure * node.pressure);
-      node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)));
+      const auto found = fitted(k);
+      square_[k] = found ? found->square : node.pressure * node.pressure;
+      node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)), found && found->of > rings ? found->of : 1);
       if (const double least = at_least(k); least > 0) square_[k] = std::max(square_[k], least * least);
     }
     for (Index k = 0; k < faces_.size(); ++k)
@@ -235,32 +236,38 @@ class Recovery {
       least = std::min(least, there), largest = std::max(largest, there);
     }
     if (count > 0) {
-      const auto square = fitted(k);
-      const double found = square ? std::sqrt(std::max(*square, 0.0)) : sum / count;
+      const auto inside = fitted(k);
+      const double found = inside ? std::sqrt(std::max(inside->square, 0.0)) : sum / count;
       node.recovered = std::clamp(found, least, largest);
     }
     square_[k] = node.recovered * node.recovered;
   }
 
-  std::optional<double> fitted(Index k) const {
+  struct Fitted {
+    double square;
+    int of = rings;  ///< rings of neighbours
+  };
+  std::optional<Fitted> fitted(Index k) const {
     const auto some = samples(k);
-    if (!inside_[k] && (some.size() < enough<D> || (tells(k) && rises(k)))) return {};
-    const auto found = inside_[k] ? fitted_to_more(k, some) : fitted_value(some);
-    return found ? std::optional(square_of(*found)) : std::nullopt;
+    if (inside_[k]) return fitted_to_more(k, some);
+    if (some.size() < enough<D> || (tells(k) && rises(k))) return {};
+    const auto found = fitted_value(some);
+    return found ? std::optional(Fitted{square_of(*found)}) : std::nullopt;
   }
 
   /// The forces on nodes scatter where the other body's faces are larger: of several neighbourhoods the one from which
   /// the pressure is known best. They grow up to where they meet the edge, towards which pressures are no polynomials.
-  std::optional<double> fitted_to_more(Index k, std::vector<Sample<D - 1>> some) const {
+  std::optional<Fitted> fitted_to_more(Index k, std::vector<Sample<D - 1>> some) const {
+    std::optional<Fitted> out;
     std::optional<FittedValue> best;
     for (int wanted = rings;; some = faded(samples(k, wanted), wanted)) {
       const auto here = fitted_value_and_error(some);
       if (!here) break;
-      if (!best || here->error < best->error) best = here;
+      if (!best || here->error < best->error) best = here, out = {square_of(here->value), wanted};
       if (best->error <= (of_squares_ ? 2 : 1) * scatter * std::abs(best->value)) break;
       if (++wanted > most_rings || meets_edge(k, wanted)) break;
     }
-    return best ? std::optional(best->value) : std::nullopt;
+    return out;
   }
 
   /// Samples count the less the farther off they are, to nothing in the next ring: else what scatters in waves, as
@@ -280,13 +287,17 @@ class Recovery {
     });
   }
 
-  double limited(Index k, double pressure) const {
+  /// By the means around, of as many rings as it was found from where these are more than usual.
+  double limited(Index k, double pressure, int of) const {
     double least = faces_.node(k).pressure, largest = least;
-    for (const Index other : faces_.around(k)) {
+    const auto add = [&](Index other) {
       const double mean = faces_.pressed(other) ? faces_.node(other).pressure : 0;
       least = std::min(least, mean);
       largest = std::max(largest, mean);
-    }
+    };
+    std::ranges::for_each(faces_.around(k), add);
+    if (of > rings)
+      for (const auto& reached : neighbourhood(k, of)) add(reached.node);
     return std::clamp(pressure, std::max(least, at_least(k)), excess * largest);
   }
 
@@ -307,8 +318,8 @@ class Recovery {
     for (const Index other : faces_.around(k))
       if (faces_.pressed(other)) sum += square_[other], ++count, punched = punched || rises(other);
     if (count == 0) return -hardly_covered_beside(k);
-    const auto value = fitted(k);
-    if (value && !punched && *value <= falls * sum / count) return *value;
+    const auto found = fitted(k);
+    if (found && !punched && found->square <= falls * sum / count) return found->square;
     const double reach = faces_.reach(k);
     return -sum / count * std::min((1 - reach) / reach, most_of_square);
   }
