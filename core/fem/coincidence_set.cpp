@@ -8,9 +8,9 @@ namespace {
 
 /// What presses on the nodes at the edge of the set, as it is farther inside.
 template <int D>
-class Edge {
+class EdgeOfSet {
  public:
-  Edge(const Nodes<D>& nodes, Index obstacle, const std::vector<ContactNode<1>>& contact)
+  EdgeOfSet(const Nodes<D>& nodes, Index obstacle, const std::vector<ContactNode<1>>& contact)
       : nodes_(nodes), contact_(contact), number_(static_cast<std::size_t>(nodes.size()), none) {
     for (std::size_t k = 0; k < contact.size(); ++k)
       if (contact[k].obstacle == obstacle && contact[k].contact) number_[contact[k].vertex] = static_cast<Index>(k);
@@ -86,7 +86,7 @@ class Edge {
 
 template <int D>
 double coincidence_set(const Nodes<D>& nodes, Index obstacle, const std::vector<ContactNode<1>>& contact) {
-  const Edge<D> edge(nodes, obstacle, contact);
+  const EdgeOfSet<D> edge(nodes, obstacle, contact);
   double sum = 0;
   for (const ContactNode<1>& node : contact)
     if (node.obstacle == obstacle && node.contact) sum += edge.part(node) * node.area;
