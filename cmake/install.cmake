@@ -1,6 +1,7 @@
 # The targets signorini::core (the library), signorini::sdk (what a plugin is built with), signorini::amg and signorini::c
-# (the solver for matrices of other codes, in C++ and in C), signorini::driver (scenes), and the installed tree, whose layout is that of the build
-# tree: bin/, lib/, lib/signorini/plugins/.
+# (the solver for matrices of other codes, in C++ and in C), signorini::driver (scenes), signorini::conformance (what is
+# asked of plugins), and the installed tree, whose layout is that of the build tree: bin/, lib/, lib/signorini/plugins/,
+# share/signorini/templates/.
 include(CMakePackageConfigHelpers)
 
 # Where Eigen aligns would depend on the processor's flags of each build; pinned, it agrees between all of them.
@@ -15,13 +16,13 @@ target_include_directories(signorini_settings INTERFACE $<INSTALL_INTERFACE:${CM
 set_target_properties(signorini_settings PROPERTIES EXPORT_NAME settings)
 set_target_properties(signorini_core PROPERTIES EXPORT_NAME core)
 set_target_properties(signorini_sdk PROPERTIES EXPORT_NAME sdk)
-foreach(part amg c driver methods smoothers transfer)
+foreach(part amg c conformance driver methods smoothers transfer)
   add_library(signorini::${part} ALIAS signorini_${part})
   set_target_properties(signorini_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/signorini)
-install(TARGETS signorini_settings signorini_core signorini_sdk signorini_amg signorini_c signorini_driver signorini_methods signorini_smoothers signorini_transfer
+install(TARGETS signorini_settings signorini_core signorini_sdk signorini_amg signorini_c signorini_conformance signorini_driver signorini_methods signorini_smoothers signorini_transfer
   EXPORT signorini COMPONENT sdk)
 install(EXPORT signorini NAMESPACE signorini:: FILE signoriniTargets.cmake DESTINATION ${package} COMPONENT sdk)
 configure_package_config_file(cmake/signoriniConfig.cmake.in ${PROJECT_BINARY_DIR}/signoriniConfig.cmake
@@ -31,6 +32,7 @@ install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
 install(DIRECTORY core driver methods ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
   COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE PATTERN cairo EXCLUDE)
+install(FILES conformance/check.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/conformance COMPONENT sdk)
 install(FILES amg/black_box.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)
 # Once more where it was before it had a folder of its own.
 foreach(folder c amg)
@@ -47,7 +49,7 @@ install(TARGETS signorini_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} C
 if(SIGNORINI_GPL)
   install(TARGETS signorini_plane signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 endif()
-install(FILES LICENSE docs/abi.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT sdk)
+install(FILES LICENSE docs/abi.md docs/plugins.md docs/plugin_energies.md docs/plugin_check.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT sdk)
 if(TARGET signorini)
   file(RELATIVE_PATH libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(signorini PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
@@ -55,5 +57,6 @@ if(TARGET signorini)
   install(FILES apps/signorini/signorini.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
   install(FILES apps/signorini/completion.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
     RENAME signorini COMPONENT program)
+  install(DIRECTORY apps/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT program)
   install(FILES docs/report.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT program)
 endif()

@@ -176,6 +176,71 @@ void add_list(CLI::App& app, Arguments& arguments) {
   command->footer(list_exit_status);
 }
 
+constexpr const char* plugin_exit_status =
+    "Exit status:\n"
+    "  0    every check passed\n"
+    "  1    wrong usage\n"
+    "  2    bad input: no such file, or options that the plugin refuses or lacks\n"
+    "  5    a check failed, or the plugin could not be loaded\n"
+    "  130  interrupted (Ctrl-C)";
+
+constexpr const char* plugin_check_notes =
+    "It knows nothing but the compiled library, and asks it at random places, in copies of the process with a limited "
+    "time: what hangs or crashes is told as what is wrong. A failed check says what was expected, what was found, the "
+    "simplest example of it, and the page of the documentation to read. Options that the plugin needs get values "
+    "within their ranges where they are not set.\n\n";
+
+constexpr const char* plugin_new_notes =
+    "Kinds:\n"
+    "  box              bounds along directions\n"
+    "  functional       a scalar energy with a kink\n"
+    "  friction         contact with a rigid shape, and a law of friction\n"
+    "  between-bodies   contact of two elastic bodies\n"
+    "The folder must not be there yet. Its README.md has the two commands that build and check what is in it.\n\n"
+    "Exit status:\n"
+    "  0    written\n"
+    "  1    wrong usage, such as a name that is none\n"
+    "  2    the folder cannot be written, or is there already";
+
+void add_plugin_check(CLI::App& plugin, Arguments& arguments) {
+  PluginCheckArguments& check = arguments.plugin_check;
+  auto* command = plugin.add_subcommand("check", "ask a compiled plugin for what every plugin has to do");
+  command->add_option("FILE", check.file, "the library, libsignorini_obstacle_ID.so")->required();
+  command
+      ->add_option("--set", check.settings,
+                   "an option of the plugin or a key of [[obstacle]], such as friction=0.3 or shape=sphere; may be "
+                   "repeated")
+      ->type_name("OPTION=VALUE")
+      ->allow_extra_args(false)
+      ->check(
+          [](const std::string& found) { return found.find('=') == std::string::npos ? "expected OPTION=VALUE" : ""; });
+  command->add_flag("--no-solves", check.no_solves, "solve no scenes with it, which takes most of the time");
+  command->add_flag("--json", check.json, "print the checks as JSON");
+  command->footer(std::string(plugin_check_notes) + plugin_exit_status);
+}
+
+void add_plugin_new(CLI::App& plugin, Arguments& arguments) {
+  PluginNewArguments& create = arguments.plugin_new;
+  auto* command = plugin.add_subcommand("new", "write a plugin to begin with, its build, test, scene and README");
+  command->add_option("NAME", create.name, "of the obstacle type: lower-case letters, digits and _")->required();
+  command->add_option("DIR", create.folder, "folder to be made; default: NAME in the current folder");
+  command->add_option("--kind", create.kind, "what it begins with, see below")
+      ->type_name("KIND")
+      ->default_str(create.kind)
+      ->check(one_of(plugin_kinds()));
+  command->footer(plugin_new_notes);
+}
+
+void add_plugin(CLI::App& app, Arguments& arguments) {
+  auto* command = app.add_subcommand("plugin", "begin an obstacle plugin of your own, and check one");
+  command->require_subcommand(1);
+  command->footer(
+      "`signorini plugin check --help` and `signorini plugin new --help` explain both; docs/plugins.md how "
+      "plugins are written.");
+  add_plugin_check(*command, arguments);
+  add_plugin_new(*command, arguments);
+}
+
 void add_help(CLI::App& app, Arguments& arguments) {
   HelpArguments& help = arguments.help;
   auto* command = app.add_subcommand("help", "explain a command, a table of scenes or one of their keys");
@@ -201,14 +266,38 @@ std::unique_ptr<CLI::App> command_line(Arguments& arguments) {
   add_check(*app, arguments);
   add_qp(*app, arguments);
   add_list(*app, arguments);
+  add_plugin(*app, arguments);
   add_help(*app, arguments);
   add_words(*app, arguments);
   return app;
 }
 
+std::string full_name(const CLI::App& command) {
+  const CLI::App* above = command.get_parent();
+  return above ? full_name(*above) + " " + command.get_name() : command.get_name();
+}
+
 std::string help_of(const CLI::App& command) {
-  const std::string name = command.get_parent() ? "signorini " + command.get_name() : command.get_name();
-  return command.get_formatter()->make_help(&command, name, CLI::AppFormatMode::Normal);
+  return command.get_formatter()->make_help(&command, full_name(command), CLI::AppFormatMode::Normal);
+}
+
+const CLI::App* find_command(const CLI::App& program, std::string_view name) {
+  const std::size_t space = std::min(name.find(' '), name.size());
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_name() == name.substr(0, space))
+      return space == name.size() ? command : find_command(*command, name.substr(space + 1));
+  return nullptr;
+}
+
+std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
+  std::vector<const CLI::App*> out;
+  for (const CLI::App* command :
+       program.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); })) {
+    const std::vector<const CLI::App*> below = shown_commands(*command);
+    if (below.empty()) out.push_back(command);
+    out.insert(out.end(), below.begin(), below.end());
+  }
+  return out;
 }
 
 }  // namespace signorini

@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/signorini/commands.hpp"
 
@@ -11,6 +13,8 @@ namespace signorini {
 struct Arguments {
   SolveArguments solve;
   QpArguments qp;
+  PluginCheckArguments plugin_check;
+  PluginNewArguments plugin_new;
   HelpArguments help;
   std::string list_kinds, words_after;
 };
@@ -21,6 +25,15 @@ std::unique_ptr<CLI::App> command_line(Arguments& arguments);
 
 /// What --help prints, of the program or one of its commands.
 std::string help_of(const CLI::App& command);
+
+/// The command of a name, as "plugin check"; null: there is none.
+const CLI::App* find_command(const CLI::App& program, std::string_view name);
+
+/// The commands below one that are shown, each before those below it; without those that others are below.
+std::vector<const CLI::App*> shown_commands(const CLI::App& program);
+
+/// As it is called: "signorini plugin check".
+std::string full_name(const CLI::App& command);
 
 /// The manual page, for man.
 std::string manual_page(const CLI::App& program);

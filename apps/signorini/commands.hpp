@@ -40,6 +40,27 @@ void list_command(const std::string& kinds);
 /// What `signorini list` can be asked for.
 const std::vector<std::string>& listable_kinds();
 
+/// `signorini plugin check`.
+struct PluginCheckArguments {
+  std::filesystem::path file;
+  std::vector<std::string> settings;  ///< "friction=0.3"
+  bool no_solves = false, json = false;
+};
+
+/// Error(Exit::plugin) where the plugin fails a check.
+void plugin_check_command(const PluginCheckArguments& arguments);
+
+/// `signorini plugin new`.
+struct PluginNewArguments {
+  std::string name, kind = "box";
+  std::filesystem::path folder;  ///< empty: the name, in the current folder
+};
+
+void plugin_new_command(const PluginNewArguments& arguments);
+
+/// What `signorini plugin new` can begin with.
+const std::vector<std::string>& plugin_kinds();
+
 /// `signorini help`.
 struct HelpArguments {
   std::string name;  ///< of a command, a table or a key; empty: the program

@@ -14,14 +14,12 @@
 namespace signorini {
 namespace {
 
-const CLI::App* find_command(const CLI::App& program, const std::string& name) {
-  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; }))
-    if (command->get_name() == name) return command;
-  return nullptr;
-}
-
-std::vector<const CLI::App*> shown_commands(const CLI::App& program) {
-  return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+/// The first words of what may be called.
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); }))
+    names.push_back(command->get_name());
+  return names;
 }
 
 std::vector<std::string> shown_options(const CLI::App& command) {
@@ -121,7 +119,7 @@ std::string pages(const std::string& name, const std::vector<PluginKey>& of_plug
                          const std::vector<PluginKey>& of_plugins) {
   std::vector<std::string> known;
   for (const Entry& type : types) known.push_back(type.id);
-  for (const CLI::App* command : shown_commands(program)) known.push_back(command->get_name());
+  for (const std::string& command : command_names(program)) known.push_back(command);
   for (const TableSpec& table : table_specs()) known.emplace_back(table.name);
   for (const KeyPlace& place : key_places()) known.emplace_back(place.key->name), known.push_back(place.path());
   for (const PluginKey& key : of_plugins) known.emplace_back(key.option.name), known.push_back(key.path());
@@ -165,14 +163,16 @@ void words_command(const CLI::App& program, const std::string& after) {
     return all;
   };
   if (after == "set") return print(keys(true));
-  if (after.empty() || after == "help")
-    for (const CLI::App* command : shown_commands(program)) fmt::print("{}\n", command->get_name());
+  if (after.empty() || after == "help") print(command_names(program));
   if (after == "help") {
     for (const TableSpec& table : table_specs()) fmt::print("{}\n", table.name);
     print(keys(false));
   }
   if (after == "list") print(listable_kinds());
-  if (const CLI::App* command = after.empty() ? &program : find_command(program, after)) print(shown_options(*command));
+  if (after == "plugin new --kind") print(plugin_kinds());
+  const CLI::App* command = after.empty() ? &program : find_command(program, after);
+  if (command && command != &program) print(command_names(*command));
+  if (command) print(shown_options(*command));
 }
 
 }  // namespace signorini

@@ -27,20 +27,30 @@ int flushed(int status) {
   return report_error("standard output: cannot be written: is the disk full?", Exit::input);
 }
 
-/// What is wrong with the first argument, if it is no option and no command.
-std::string unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
+/// What is wrong with the first argument, if it is no option and no command; after a command that others are below,
+/// with the second one.
+std::string unknown_command(const CLI::App& app, int argc, char** argv, int at = 1) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  if (argc <= at || argv[at][0] == '-' || commands.empty()) return {};
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return {};
-  return fmt::format("there is no command '{}'{}; see 'signorini --help'", argv[1], did_you_mean(argv[1], names));
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == argv[at]) return unknown_command(*command, argc, argv, at + 1);
+    names.push_back(command->get_name());
+  }
+  return fmt::format("there is no command '{}{}'{}; see '{} --help'", at > 1 ? app.get_name() + " " : "", argv[at],
+                     did_you_mean(argv[at], names), full_name(app));
+}
+
+/// The command that was given, or the program.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app : innermost(*commands.front());
 }
 
 /// What is wrong with options that nobody knows, if that is wrong with the arguments.
 std::string unknown_option(const CLI::App& app) {
-  const auto commands = app.get_subcommands();
   std::vector<std::string> names;
-  for (const CLI::Option* option : (commands.empty() ? &app : commands.front())->get_options())
+  for (const CLI::Option* option : innermost(app).get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   for (const std::string& found : app.remaining(true)) {
     const std::string option = found.substr(0, found.find('='));
@@ -52,8 +62,7 @@ std::string unknown_option(const CLI::App& app) {
 /// --help, --version
 int print_asked(const CLI::App& app, const CLI::ParseError& asked) {
   if (dynamic_cast<const CLI::CallForHelp*>(&asked)) {
-    const auto commands = app.get_subcommands();
-    print_fitted(help_of(commands.empty() ? app : *commands.front()));
+    print_fitted(help_of(innermost(app)));
     return 0;
   }
   return app.exit(asked);
@@ -75,6 +84,10 @@ int run(int argc, char** argv) {
   if (app->got_subcommand("check")) check_command(arguments.solve.scene, arguments.solve.overrides);
   if (app->got_subcommand("qp")) qp_command(arguments.qp);
   if (app->got_subcommand("list")) list_command(arguments.list_kinds);
+  if (const CLI::App& given = innermost(*app); full_name(given) == "signorini plugin check")
+    plugin_check_command(arguments.plugin_check);
+  else if (full_name(given) == "signorini plugin new")
+    plugin_new_command(arguments.plugin_new);
   if (app->got_subcommand("help")) help_command(*app, arguments.help);
   if (app->got_subcommand("words")) words_command(*app, arguments.words_after);
   return 0;

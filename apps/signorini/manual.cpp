@@ -58,7 +58,7 @@ std::string options_of(const CLI::App& command) {
 }
 
 std::string synopsis(const CLI::App& command) {
-  std::string line = fmt::format("signorini {} [options]", command.get_name());
+  std::string line = full_name(command) + " [options]";
   for (const CLI::Option* option : command.get_options())
     if (option->get_positional() && !option->get_group().empty())
       line += fmt::format(fmt::runtime(option->get_required() ? " {}" : " [{}]"), option->get_single_name());
@@ -93,8 +93,7 @@ std::string manual_page(const CLI::App& program) {
       "obstacle and contact problems by monotone multigrid\n.SH SYNOPSIS\n",
       version);
   std::string commands;
-  for (const CLI::App* command :
-       program.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); })) {
+  for (const CLI::App* command : shown_commands(program)) {
     page += fmt::format(".B {}\n.br\n", escaped(synopsis(*command)));
     commands += fmt::format(".SS {}\n{}\n{}{}", escaped(synopsis(*command)), escaped(command->get_description()),
                             options_of(*command), paragraphs(command->get_footer()));
