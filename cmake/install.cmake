@@ -16,13 +16,14 @@ target_include_directories(signorini_settings INTERFACE $<INSTALL_INTERFACE:${CM
 set_target_properties(signorini_settings PROPERTIES EXPORT_NAME settings)
 set_target_properties(signorini_core PROPERTIES EXPORT_NAME core)
 set_target_properties(signorini_sdk PROPERTIES EXPORT_NAME sdk)
-foreach(part amg c conformance driver methods smoothers transfer)
+foreach(part amg c conformance driver estimators methods smoothers transfer)
   add_library(signorini::${part} ALIAS signorini_${part})
   set_target_properties(signorini_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/signorini)
-install(TARGETS signorini_settings signorini_core signorini_sdk signorini_amg signorini_c signorini_conformance signorini_driver signorini_methods signorini_smoothers signorini_transfer
+install(TARGETS signorini_settings signorini_core signorini_sdk signorini_amg signorini_c signorini_conformance
+  signorini_driver signorini_estimators signorini_methods signorini_smoothers signorini_transfer
   EXPORT signorini COMPONENT sdk)
 install(EXPORT signorini NAMESPACE signorini:: FILE signoriniTargets.cmake DESTINATION ${package} COMPONENT sdk)
 configure_package_config_file(cmake/signoriniConfig.cmake.in ${PROJECT_BINARY_DIR}/signoriniConfig.cmake
@@ -30,7 +31,7 @@ configure_package_config_file(cmake/signoriniConfig.cmake.in ${PROJECT_BINARY_DI
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/signoriniConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/signoriniConfig.cmake ${PROJECT_BINARY_DIR}/signoriniConfigVersion.cmake
   cmake/signorini_plugin.cmake cmake/signorini_plugin.map DESTINATION ${package} COMPONENT sdk)
-install(DIRECTORY core driver methods ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
+install(DIRECTORY core driver estimators methods ${PROJECT_BINARY_DIR}/include/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini
   COMPONENT sdk FILES_MATCHING PATTERN "*.hpp" PATTERN cgal EXCLUDE PATTERN cairo EXCLUDE)
 install(FILES conformance/check.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/conformance COMPONENT sdk)
 install(FILES amg/black_box.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/signorini/amg COMPONENT sdk)

@@ -18,10 +18,12 @@
 #include "driver/balance_warnings.hpp"
 #include "driver/build_model.hpp"
 #include "driver/contact_warnings.hpp"
+#include "driver/error_estimate.hpp"
 #include "driver/problem.hpp"
 #include "driver/strain_warnings.hpp"
 #include "driver/touching_bodies.hpp"
 #include "driver/turned_friction.hpp"
+#include "estimators/certificate.hpp"
 
 namespace signorini {
 namespace {
@@ -233,8 +235,31 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
     report.bodies.front().summary = report.summary;
   }
   times_.output += watch.elapsed();
+  algebraic_error_ = report.summary.algebraic_error;
+  add_estimate(report);
   solver_.take_back(model_, std::move(solution.discretization));
   return report;
+}
+
+template <int D, int B>
+Estimate BodyRun<D, B>::estimate(bool cheap) const {
+  CertificateOptions<B> options{{}, algebraic_error_};
+  if (B > 1 && !cheap) options.solve = rough_solve<B>(registry_);
+  return certificate<D, B>(nodes(), model_, results_.u, options);
+}
+
+template <int D, int B>
+void BodyRun<D, B>::add_estimate(StepReport& report) {
+  estimate_of_element_.clear();
+  const std::string& asked = scene_.solver.estimate;
+  if (asked == "false" || !report.summary.converged()) return;
+  progress_.phase("estimating the error");
+  const Stopwatch watch;
+  const bool cheap = asked == "cheap" || (asked == "auto" && B == 3);
+  Estimate found = of_whole(estimate(cheap), report.bodies.front().copies);
+  found.seconds = watch.elapsed();
+  estimate_of_element_ = std::move(found.of_element);
+  report.estimate = std::move(found);
 }
 
 template class BodyRun<2, 1>;

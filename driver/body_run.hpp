@@ -13,6 +13,7 @@
 #include "driver/nested_solver.hpp"
 #include "driver/progress.hpp"
 #include "driver/results.hpp"
+#include "estimators/estimate.hpp"
 
 namespace signorini {
 
@@ -62,6 +63,10 @@ class BodyRun {
   std::vector<double> solution() const { return nodes().at_vertices(results_.u, B); }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
   std::vector<Stress> stress() const;
+  /// Bounds of the energy error of the last step, whether or not the scene asks for them.
+  Estimate estimate(bool cheap = false) const;
+  /// The shares of elements in that of the last step; empty: there is none.
+  const std::vector<double>& estimate_of_element() const { return estimate_of_element_; }
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return solver_.by_matrix(); }
   /// See Driver::forget_matrices().
@@ -71,6 +76,7 @@ class BodyRun {
   Model<B> model(const LoadStep& step) const;
   Solution<B> solve(const Model<B>& model, const LoadStep& step);
   Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
+  void add_estimate(StepReport& report);
 
   const Scene& scene_;
   std::size_t body_;
@@ -88,6 +94,8 @@ class BodyRun {
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;
+  double algebraic_error_ = 0;  // of the last solve
+  std::vector<double> estimate_of_element_;
 };
 
 }  // namespace signorini

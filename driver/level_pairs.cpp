@@ -14,7 +14,7 @@ namespace {
 
 /// Elements that bodies slip past each other before they find each other anew: a little more than a quarter, so that
 /// rounding does not decide where they are moved by just that.
-constexpr double far = 0.2501;
+constexpr double far_slip = 0.2501;
 
 }  // namespace
 
@@ -109,7 +109,7 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
         const Pairs first = pair_bodies<D>(nodes, model, collect_fixes(nodes, model));
         slip = slip_past(nodes, model, k, *first, *first, u);
       }
-      if (!(length<D>(difference<D>(slip.mean, shift[k])) > far * slip.length)) continue;
+      if (!(length<D>(difference<D>(slip.mean, shift[k])) > far_slip * slip.length)) continue;
       shift[k] = slip.mean;
       moved = true;
     }

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <utility>
 
+#include "driver/error_estimate.hpp"
+
 namespace signorini {
 namespace {
 
@@ -78,8 +80,11 @@ Summary merged(const std::vector<BodyReport>& bodies) {
 }  // namespace
 
 StepReport merged(const Scene& scene, std::vector<StepReport> bodies) {
+  std::vector<std::optional<EstimateReport>> estimates;
+  for (const StepReport& body : bodies) estimates.push_back(body.estimate);
   StepReport all = std::move(bodies.front());
   if (bodies.size() == 1) return all;
+  all.estimate = added_up(estimates);
   for (auto next = bodies.begin() + 1; next != bodies.end(); ++next) {
     append(all.contact, std::move(next->contact));
     append(all.probes, std::move(next->probes));

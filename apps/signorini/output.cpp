@@ -136,16 +136,22 @@ std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& r
   return fields;
 }
 
+std::vector<VtuField> cell_fields(const std::vector<double>& estimate) {
+  if (estimate.empty()) return {};
+  return {{"energy_error", 1, estimate}};
+}
+
 std::string body_suffix(std::size_t body, std::size_t bodies) { return bodies > 1 ? fmt::format("_body{}", body) : ""; }
 
 template <int D>
-void SolutionFiles::add(const Nodes<D>& nodes, const std::vector<VtuField>& fields, const Report& report,
-                        std::size_t body, const VtuPacking& packing) {
+void SolutionFiles::add(const Nodes<D>& nodes, const std::vector<VtuField>& fields,
+                        const std::vector<VtuField>& of_elements, const Report& report, std::size_t body,
+                        const VtuPacking& packing) {
   several_ = bodies_ > 1 || report.has_steps();
   const std::string step = report.has_steps() ? fmt::format("_{:03}", steps() + 1) : "";
   const std::string name = "solution" + body_suffix(body, bodies_) + step + ".vtu";
   const bool solved = report.last().summary.converged() && !(report.interrupted && !report.has_steps());
-  write_vtu(files_.stage(name), nodes.mesh(), fields, {}, packing, nodes.order(), {{"converged", solved}});
+  write_vtu(files_.stage(name), nodes.mesh(), fields, of_elements, packing, nodes.order(), {{"converged", solved}});
   entries_.push_back({report.last().t, name, static_cast<int>(body)});
 }
 
@@ -265,9 +271,9 @@ SIGNORINI_OUTPUT(3, 1)
 SIGNORINI_OUTPUT(2, 2)
 SIGNORINI_OUTPUT(3, 3)
 
-template void SolutionFiles::add(const Nodes<2>&, const std::vector<VtuField>&, const Report&, std::size_t,
-                                 const VtuPacking&);
-template void SolutionFiles::add(const Nodes<3>&, const std::vector<VtuField>&, const Report&, std::size_t,
-                                 const VtuPacking&);
+template void SolutionFiles::add(const Nodes<2>&, const std::vector<VtuField>&, const std::vector<VtuField>&,
+                                 const Report&, std::size_t, const VtuPacking&);
+template void SolutionFiles::add(const Nodes<3>&, const std::vector<VtuField>&, const std::vector<VtuField>&,
+                                 const Report&, std::size_t, const VtuPacking&);
 
 }  // namespace signorini

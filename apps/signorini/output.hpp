@@ -26,6 +26,9 @@ template <int D, int B>
 std::vector<VtuField> point_fields(const Nodes<D>& nodes, const Results<D, B>& results,
                                    const std::vector<Stress>& stress, ContactFields contact);
 
+/// In the elements: shares of the upper bound of the energy error, where it was estimated.
+std::vector<VtuField> cell_fields(const std::vector<double>& estimate);
+
 /// "_body1" for the names of files, where there are several bodies; else nothing.
 std::string body_suffix(std::size_t body, std::size_t bodies);
 
@@ -38,8 +41,8 @@ class SolutionFiles {
   /// @param report up to the step that is added
   /// @param body number of the body, the last of each step being the last one
   template <int D>
-  void add(const Nodes<D>& nodes, const std::vector<VtuField>& fields, const Report& report, std::size_t body,
-           const VtuPacking& packing);
+  void add(const Nodes<D>& nodes, const std::vector<VtuField>& fields, const std::vector<VtuField>& of_elements,
+           const Report& report, std::size_t body, const VtuPacking& packing);
   /// That were added.
   std::size_t steps() const { return entries_.size() / bodies_; }
   void finish() const;

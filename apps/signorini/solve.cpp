@@ -15,6 +15,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/io/output_place.hpp"
 #include "driver/driver.hpp"
+#include "driver/error_estimate.hpp"
 #include "driver/numbers.hpp"
 #include "driver/touching_bodies.hpp"
 
@@ -103,7 +104,7 @@ class ResultFiles {
         vtu_.add(run.nodes(),
                  point_fields(run.nodes(), run.results(), fields_[body].stress,
                               scene().output.pictures ? contact : std::move(contact)),
-                 driver_.report(), body, {worthwhile, scene().solver.threads});
+                 cell_fields(run.estimate_of_element()), driver_.report(), body, {worthwhile, scene().solver.threads});
       });
   }
 
@@ -156,6 +157,7 @@ void print_result(const Console& console, const Report& report, const std::vecto
     fmt::print("elements{}: {}\n", last.bodies.size() > 1 ? fmt::format(" of {}", body.name) : "",
                elements_text(body.order, body.order_chosen));
   for (const ContactReport& contact : last.contact) print_contact(contact);
+  if (last.estimate) fmt::print("{}\n", error_text(*last.estimate));
   for (const ProbeReport& probe : last.probes) fmt::print("{}: ({:.9g})\n", probe.name, fmt::join(probe.value, ", "));
   const Times& time = report.time;
   fmt::print(

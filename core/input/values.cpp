@@ -125,9 +125,11 @@ std::string to_text(const RawValue& raw, std::string_view range) {
 
 std::string to_choice(const RawValue& raw, std::string_view range) {
   const auto* integer = std::get_if<std::int64_t>(&raw.value);
-  if (!integer) return to_text(raw, range);
-  if (!Range(range).contains(std::to_string(*integer))) wrong_type(raw, Range(range).expected("a text"));
-  return std::to_string(*integer);
+  const auto* flag = std::get_if<bool>(&raw.value);
+  if (!integer && !flag) return to_text(raw, range);
+  std::string text = integer ? std::to_string(*integer) : *flag ? "true" : "false";
+  if (!Range(range).contains(text)) wrong_type(raw, Range(range).expected("a text"));
+  return text;
 }
 
 Field to_field(const RawValue& raw, std::string_view range) {

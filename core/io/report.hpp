@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/estimate_report.hpp"
 #include "core/io/warning.hpp"
 #include "core/mesh/mesh.hpp"
 #include "core/solver/summary.hpp"
@@ -117,6 +118,7 @@ struct StepReport {
   std::vector<BalanceReport> balance;           ///< of each body
   std::vector<BodyReport> bodies;               ///< `summary` is what they have in common, see merged()
   std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
+  std::optional<EstimateReport> estimate;       ///< of the error of the mesh; nothing where it was not asked for
 };
 
 /// A step, or part of one, that was not solved as a whole.

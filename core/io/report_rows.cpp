@@ -372,6 +372,48 @@ std::vector<Row<Report>> of_last(const std::vector<Row<StepReport>>& rows) {
 }  // namespace
 
 template <>
+struct Table<EstimateParts> {
+  static constexpr const char* name = "estimate_parts";
+  static std::vector<Row<EstimateParts>> rows() {
+    using P = EstimateParts;
+    return {member("discretisation", &P::discretisation, "of the finite elements"),
+            member("algebra", &P::algebra, "of the solver, as it estimates that itself"),
+            member("contact", &P::contact, "what obstacles push times the distance to them"),
+            member("oscillation", &P::oscillation, "of loads that are not constant in elements"),
+            member("geometry", &P::geometry, "of the mesh's boundary; null: not known"),
+            member("friction", &P::friction, "of friction; null: not known")};
+  }
+};
+
+template <>
+struct Table<EstimateReport> {
+  static constexpr const char* name = "estimate";
+  static std::vector<Row<EstimateReport>> rows() {
+    using E = EstimateReport;
+    return {member("lower", &E::lower, "what the solution's energy is at least above the true one"),
+            member("upper", &E::upper, "and at most"),
+            {{"relative_lower", Kind::number, "the same, relative to `energy` of this object"},
+             [](const E& e) -> Json { return e.relative_lower(); }},
+            {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
+            member("energy", &E::energy, "that of deformation, 1/2 a(v, v)"),
+            member("guaranteed", &E::guaranteed, "whether the true number surely lies between, but for rounding"),
+            member("reasons", &E::reasons, "why not, in sentences"),
+            object("parts", &E::parts, "what `upper` consists of"),
+            member("seconds", &E::seconds, "the time that it took")};
+  }
+};
+
+namespace {
+
+Row<StepReport> estimate() {
+  return {{"estimate", Kind::object, "bounds of the energy error, see how_good.md; null: not asked for", true, false,
+           &object_spec<EstimateReport>},
+          [](const StepReport& s) { return s.estimate ? as_object(*s.estimate) : Json(nullptr); }};
+}
+
+}  // namespace
+
+template <>
 struct Table<StepReport> {
   static constexpr const char* name = "step";
   static std::vector<Row<StepReport>> rows() {
@@ -388,6 +430,7 @@ struct Table<StepReport> {
     std::vector<Row<Summary>> own = figures();
     own.erase(own.begin());  // unknowns are the same in all of them
     add(all, of_summary(own));
+    all.push_back(estimate());
     add(all, of_summary(work()));
     return all;
   }
@@ -516,6 +559,7 @@ struct Table<Report> {
               {{"warning_ids", Kind::texts, "what kinds these are, one by one: ids of warnings.md"},
                [](const Report& r) { return warnings(r, [](const Warning& w) { return Json(w.id); }); }}});
     add(all, of_last(of_summary(figures())));
+    add(all, of_last({estimate()}));
     add(all, middle());
     add(all, of_last(of_summary({levels()})));
     add(all, of_last(of_summary(work())));
@@ -542,8 +586,6 @@ struct Table<Report> {
     using R = Report;
     return {objects("steps", &R::steps, "all steps, or parts of them; the keys beside are those of the last one"),
             objects("failed_steps", &R::failed, "what was cut in two and solved in parts"),
-            {{"estimate", Kind::nothing, "of the error of the mesh: no estimator runs in this version"},
-             [](const R&) { return Json(nullptr); }},
             object("time", &R::time, "seconds, and on what they were spent"),
             member("peak_memory_mb", &R::peak_memory_mb, "the largest memory, in 2^20 bytes"),
             {{"assemblies", Kind::object, "how often something was computed, over all levels and steps", false, false,

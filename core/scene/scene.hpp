@@ -141,6 +141,7 @@ struct Scene {
     std::string bodies = "jumps";    ///< that touch each other: jumps or dirichlet-neumann
     std::string hierarchy = "auto";  ///< coarser levels: meshes, matrix (all algebraic), or auto: the latter where
                                      ///< cells are stretched
+    std::string estimate = "false";  ///< of the error of the mesh: false, true, auto or cheap
     Source source;
   };
 

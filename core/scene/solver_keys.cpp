@@ -29,6 +29,10 @@ constexpr OptionRow<Solver> of_scenes[] = {
     {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh", false,
      "Below the coarsest mesh it comes from the next algebraic level. Coarser meshes that have a start themselves get "
      "one cycle for scalar problems, at most five for elastic bodies."},
+    {"estimate", &Solver::estimate, "false | true | auto | cheap",
+     "bounds of the energy error of the mesh, in the report and in a line at the end; cheap: in less time and less "
+     "sharp for elastic bodies; auto: cheap for elastic bodies in space",
+     false, "See docs/how_good.md."},
 };
 
 // As TOML: 1e-8, not 1e-08.
@@ -59,6 +63,8 @@ constexpr KeyType type_of(bool) { return KeyType::boolean; }
 constexpr KeyType type_of(int) { return KeyType::integer; }
 constexpr KeyType type_of(double) { return KeyType::number; }
 KeyType type_of(const std::string&) { return KeyType::text; }
+/// A text that may be written as a flag, too.
+bool is_flag_or_word(const char* range) { return std::string_view(range).find("true |") != std::string_view::npos; }
 
 /// The keys with their defaults, which no table of constants holds.
 struct Keys {
@@ -72,7 +78,8 @@ struct Keys {
       std::visit(
           [&](auto member) {
             defaults.push_back(written(fresh.*member));
-            all.push_back({row.name, type_of(fresh.*member), defaults.back().c_str(), row.range, "", row.help});
+            const KeyType type = is_flag_or_word(row.range) ? KeyType::choice : type_of(fresh.*member);
+            all.push_back({row.name, type, defaults.back().c_str(), row.range, "", row.help});
           },
           row.member);
   }
@@ -91,7 +98,11 @@ const Keys& keys() {
 void read(const TableReader& reader, const char* key, bool& value) { value = reader.flag(key); }
 void read(const TableReader& reader, const char* key, int& value) { value = reader.integer(key); }
 void read(const TableReader& reader, const char* key, double& value) { value = reader.number(key); }
-void read(const TableReader& reader, const char* key, std::string& value) { value = reader.text(key); }
+void read(const TableReader& reader, const char* key, std::string& value) {
+  const auto spec =
+      std::ranges::find_if(solver_keys(), [&](const KeySpec& one) { return std::string_view(one.name) == key; });
+  value = spec->type == KeyType::choice ? reader.choice(key) : reader.text(key);
+}
 
 template <class Options>
 void read_all(const TableReader& reader, std::span<const OptionRow<Options>> rows, Options& options) {

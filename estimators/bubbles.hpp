@@ -1,0 +1,59 @@
+#pragma once
+#include <vector>
+
+#include "estimators/flux.hpp"
+#include "estimators/true_problem.hpp"
+
+namespace signorini {
+
+/// A correction of a finite element function u by bubbles b = 4 phi_a phi_b of edges, B coefficients for each, that
+/// keeps to what is prescribed and, between nodes, to the right side of obstacles.
+template <int D, int B>
+class Bubbles {
+ public:
+  /// Keeps references.
+  Bubbles(const TrueProblem<D, B>& problem, const std::vector<double>& u);
+
+  /// The least correction that makes u admissible between nodes. Returns whether there is one.
+  bool lift();
+  /// One projected Gauss-Seidel sweep over all edges, or over those that lift() has moved. Returns the energy won: what
+  /// J is less than before.
+  double sweep(bool lifted_only = false);
+
+  /// J(u + correction) - J(u).
+  double energy() const;
+
+  const std::vector<double>& coefficients() const { return c_; }
+  bool any() const { return any_; }
+
+  /// The coefficients of the gradient of the correction: sum over vertices x of phi_x out[x].
+  std::array<Gradient<D, B>, D + 1> gradients(Index e) const;
+
+ private:
+  struct Local {
+    std::array<double, B> residual{};
+    std::array<double, B * B> stiffness{};
+  };
+  Local local(Index edge) const;
+  std::array<double, B> minimiser(Index edge, const Local& local, Index a, Index b) const;
+  std::array<double, 2> range(Index edge, Index a, Index b) const;
+  std::array<Index, 2> ends(Index edge) const;
+
+  const TrueProblem<D, B>& problem_;
+  const std::vector<double>& u_;
+  std::vector<double> c_;
+  std::vector<bool> lifted_;
+  bool any_ = false;
+};
+
+/// Distances of u from the bounds of its vertices along their direction: direction . u - lower, upper - direction . u.
+template <int D, int B>
+std::array<double, 2> distances(const TrueProblem<D, B>& problem, const std::vector<double>& u, Index p) {
+  const auto* bound = problem.gaps.at_vertex(p);
+  if (!bound) return {infinity, infinity};
+  double v = 0;
+  for (int i = 0; i < B; ++i) v += bound->direction[i] * u[Offset{p} * B + i];
+  return {v - bound->lower, bound->upper - v};
+}
+
+}  // namespace signorini

@@ -1,0 +1,146 @@
+#include "estimators/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "estimators/balance.hpp"
+#include "estimators/base_stress.hpp"
+#include "estimators/contact_forces.hpp"
+#include "estimators/misfit.hpp"
+
+namespace signorini {
+namespace {
+
+/// Of the largest force: what counts as equilibrium.
+constexpr double balanced = 1e-9;
+
+template <int D, int B>
+class Certificate {
+ public:
+  Certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+              const CertificateOptions<B>& options)
+      : nodes_(nodes), model_(model), u_(u), options_(options), problem_(nodes, model, u), lifted_(problem_, u) {}
+
+  Estimate compute() {
+    if (!lifted_.lift()) problem_.reasons.add("what is prescribed keeps the body from the right side between nodes");
+    if (lifted_.any()) lifted_.sweep(true);
+    out_.lifted = lifted_.energy();
+    Bubbles<D, B> swept = lifted_;
+    out_.lower = swept.sweep();
+    out_.energy = energy();
+    bound_from_above(swept);
+    out_.guaranteed = problem_.reasons.none();
+    out_.reasons = problem_.reasons.all;
+    return std::move(out_);
+  }
+
+ private:
+  Gradient<D, B> gradient_of_u(Index e) const {
+    return gradient<D, B>(problem_.element[e].gradient, problem_.mesh.elements[e], u_);
+  }
+  std::array<Gradient<D, B>, D + 1> flux_of_u(Index e) const {
+    std::array<Gradient<D, B>, D + 1> out;
+    out.fill(flux(problem_.material[e], gradient_of_u(e)));
+    return out;
+  }
+  std::array<Gradient<D, B>, D + 1> flux_of_v(Index e) const {
+    if (!lifted_.any()) return flux_of_u(e);
+    std::array<Gradient<D, B>, D + 1> out = lifted_.gradients(e);
+    for (auto& g : out) {
+      add(1, gradient_of_u(e), g);
+      g = flux(problem_.material[e], g);
+    }
+    return out;
+  }
+
+  double energy() const {
+    double sum = 0;
+    for (Index e = 0; e < problem_.elements(); ++e) {
+      const Gradient<D, B> g = gradient_of_u(e);
+      sum += problem_.element[e].measure / 2 * contract(g, flux(problem_.material[e], g));
+    }
+    return sum;
+  }
+
+  /// Moments of a flux in equilibrium, near that of u, or of what is better than that.
+  FaceNumbers moments(const Bubbles<D, B>& swept, const ContactForces<D, B>& contact) {
+    if constexpr (B == D) {
+      BaseStress<D> stress(problem_, model_, u_, swept);
+      if (options_.solve && !stress.correct(nodes_, contact, options_.solve))
+        problem_.reasons.add("the corrective solve failed, so that the upper bound is not sharp");
+      return equilibrated_moments<D, B>(
+          problem_, [&](Index e) { return stress(e); }, contact);
+    } else {
+      return equilibrated_moments<D, B>(
+          problem_, [this](Index e) { return flux_of_u(e); }, contact);
+    }
+  }
+
+  void bound_from_above(const Bubbles<D, B>& swept) {
+    const Contact<D, B> contact = contact_of(problem_, u_, lifted_);
+    FaceNumbers values = moments(swept, contact.forces);
+    moments_to_values<D, B>(values);
+    if constexpr (B == D) balance_whole(problem_, contact.forces, values);
+    balance_along_tree(problem_, contact.forces, values);
+    const ElementFlux<D, B> of_v = [this](Index e) { return flux_of_v(e); };
+    constexpr int steps = 2;
+    std::vector<double> misfit = reduce_misfit(problem_, Misfit<D, B>(problem_, of_v), steps, values);
+    add_up(std::move(misfit), contact.work);
+    out_.imbalance = largest_imbalance(problem_, contact.forces, values);
+    if (!(out_.imbalance <= balanced))
+      problem_.reasons.add(fmt::format("forces of {:.1g} of the largest one remain without balance", out_.imbalance));
+  }
+
+  /// 1/2 sum of (d_T + osc_T)^2 with d_T^2 / 2 the misfit: what a load does whose mean over the element is zero.
+  void add_up(std::vector<double> misfit, const std::vector<double>& work) {
+    double of_misfit = 0, with_oscillation = 0;
+    for (std::size_t e = 0; e < misfit.size(); ++e) {
+      const double oscillation = problem_.oscillation.empty() ? 0 : problem_.oscillation[e];
+      const double d = std::sqrt(2 * std::max(0.0, misfit[e])) + oscillation;
+      of_misfit += misfit[e];
+      with_oscillation += d * d / 2;
+      misfit[e] = d * d / 2 + work[e];
+    }
+    EstimateParts& parts = out_.parts;
+    parts.contact = std::accumulate(work.begin(), work.end(), 0.0);
+    parts.oscillation = with_oscillation - of_misfit;
+    parts.algebra = std::min(of_misfit, options_.algebraic_error * options_.algebraic_error * out_.energy);
+    parts.discretisation = of_misfit - parts.algebra;
+    out_.upper = with_oscillation + parts.contact;
+    out_.of_element = std::move(misfit);
+  }
+
+  const Nodes<D>& nodes_;
+  const Model<B>& model_;
+  const std::vector<double>& u_;
+  const CertificateOptions<B>& options_;
+  TrueProblem<D, B> problem_;
+  Bubbles<D, B> lifted_;  // with u: v
+  Estimate out_;
+};
+
+}  // namespace
+
+template <int D, int B>
+Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                     const CertificateOptions<B>& options) {
+  Estimate none;
+  none.lower = none.upper = std::numeric_limits<double>::quiet_NaN();
+  none.reasons = not_certified<D, B>(nodes, model);
+  if (!none.reasons.empty()) return none;
+  return Certificate<D, B>(nodes, model, u, options).compute();
+}
+
+template Estimate certificate(const Nodes<2>&, const Model<1>&, const std::vector<double>&,
+                              const CertificateOptions<1>&);
+template Estimate certificate(const Nodes<3>&, const Model<1>&, const std::vector<double>&,
+                              const CertificateOptions<1>&);
+template Estimate certificate(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
+                              const CertificateOptions<2>&);
+template Estimate certificate(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
+                              const CertificateOptions<3>&);
+
+}  // namespace signorini

@@ -1,0 +1,214 @@
+#include "estimators/contact_forces.hpp"
+
+#include <cmath>
+
+#include "estimators/small_solve.hpp"
+
+namespace signorini {
+namespace {
+
+/// At the vertices: what is left of the loads, and how stiff the body is there.
+template <int D, int B>
+struct AtVertices {
+  std::vector<std::array<double, B>> residual;
+  std::vector<std::array<double, B * B>> stiffness;
+  std::vector<FixedDirections<B>> fixed;
+
+  AtVertices(const TrueProblem<D, B>& problem, const std::vector<double>& u)
+      : residual(problem.mesh.points.size()), stiffness(problem.mesh.points.size()), fixed(problem.mesh.points.size()) {
+    for (Index e = 0; e < problem.elements(); ++e) {
+      const Simplex<D>& v = problem.mesh.elements[e];
+      const LinearElement<D>& element = problem.element[e];
+      std::array<Gradient<D, B>, D + 1> s;
+      s.fill(flux(problem.material[e], gradient<D, B>(element.gradient, v, u)));
+      const auto of_element = element_residuals<D, B>(problem, e, s, {});
+      for (int a = 0; a <= D; ++a) {
+        const auto k = stiffness_of(problem.material[e], element.gradient[a], element.gradient[a]);
+        for (int i = 0; i < B; ++i) residual[v[a]][i] += of_element[a][i];
+        for (int i = 0; i < B * B; ++i) stiffness[v[a]][i] += element.measure * k[i];
+      }
+    }
+    for (const OuterFace<D, B>& outer : problem.outer) {
+      const auto v = face_vertices<D>(problem.mesh, problem.incidence.sides[outer.face]);
+      for (int k = 0; k < D; ++k) {
+        for (int i = 0; i < B; ++i) residual[v[k]][i] -= outer.load[k][i];
+        for (int n = 0; n < outer.fixed.count; ++n) fixed[v[k]].add(outer.fixed.direction[n], 0, 0);
+      }
+    }
+  }
+};
+
+/// What an obstacle exerts along its direction, positive from the lower bound: where it pushes more than the way to the
+/// bound would cost, as active sets decide.
+template <int D, int B>
+double force_at(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, const std::vector<double>& u, Index p) {
+  const auto* bound = problem.gaps.at_vertex(p);
+  if (!bound) return 0;
+  std::array<double, B> n = bound->direction;
+  project(at.fixed[p], n);
+  const double free = dot(n, bound->direction);
+  if (!(free > same_direction)) return 0;
+  const double force = dot(n, at.residual[p]) / free;
+  double stiffness = 0;
+  for (int i = 0; i < B; ++i)
+    for (int j = 0; j < B; ++j) stiffness += bound->direction[i] * at.stiffness[p][i * B + j] * bound->direction[j];
+  const auto [below, above] = distances(problem, u, p);
+  if (force > stiffness * below || -force > stiffness * above) return force;
+  return 0;
+}
+
+/// Coefficients, at vertices and edges, of the distance of v from one of its bounds.
+template <int D, int B>
+class Bounded {
+ public:
+  Bounded(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles)
+      : problem_(problem), u_(u), bubbles_(bubbles) {}
+
+  double at_vertex(Index p, bool upper) const { return distances(problem_, u_, p)[upper]; }
+  double at_edge(Index e, bool upper) const {
+    const auto* bound = problem_.gaps.at_edge(e);
+    if (!bound) return 0;
+    double c = 0;
+    for (int i = 0; i < B; ++i) c += bound->direction[i] * bubbles_.coefficients()[Offset{e} * B + i];
+    return upper ? bound->upper - c : c - bound->lower;
+  }
+  /// Over an element, with the mean 4 / ((D + 1) (D + 2)) of a bubble.
+  double mean(Index e, bool upper) const {
+    double sum = 0;
+    constexpr int edges = Incidence<D>::edges_per_element;
+    for (const Index p : problem_.mesh.elements[e]) sum += at_vertex(p, upper) / (D + 1);
+    for (int k = 0; k < edges; ++k)
+      sum += at_edge(problem_.incidence.edge[Offset{e} * edges + k], upper) * 4 / ((D + 1) * (D + 2));
+    return sum;
+  }
+
+ private:
+  const TrueProblem<D, B>& problem_;
+  const std::vector<double>& u_;
+  const Bubbles<D, B>& bubbles_;
+};
+
+/// In the body: more to elements that are in contact as a whole, where a force does no work.
+template <int D, int B>
+void divide_in_body(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
+                    Contact<D, B>& out) {
+  constexpr double sharpness = 0.1;
+  const Incidence<D>& incidence = problem.incidence;
+  out.forces.in_element.assign(problem.element.size() * (D + 1), 0);
+  std::vector<double> weight, gap;
+  for (Index p = 0; p < problem.mesh.vertices(); ++p) {
+    if (force[p] == 0) continue;
+    const Offset first = incidence.first_at_vertex[p], last = incidence.first_at_vertex[p + 1];
+    gap.clear(), weight.clear();
+    double largest = 0, sum = 0;
+    for (Offset k = first; k < last; ++k) {
+      gap.push_back(std::max(0.0, distance.mean(incidence.at_vertex[k], force[p] < 0)));
+      largest = std::max(largest, gap.back());
+    }
+    for (Offset k = first; k < last; ++k) {
+      const double near = largest > 0 ? sharpness / (sharpness + gap[k - first] / largest) : 1;
+      weight.push_back(near * problem.element[incidence.at_vertex[k]].measure);
+      sum += weight.back();
+    }
+    for (Offset k = first; k < last; ++k) {
+      const Index e = incidence.at_vertex[k];
+      const auto a = std::ranges::find(problem.mesh.elements[e], p) - problem.mesh.elements[e].begin();
+      const double share = force[p] * weight[k - first] / sum;
+      out.forces.in_element[Offset{e} * (D + 1) + a] = share;
+      out.work[e] += std::fabs(share) * gap[k - first];
+    }
+  }
+}
+
+template <int D>
+double integral_over_face(const std::array<double, D>& p, const std::array<double, D>& vertex,
+                          const std::array<double, D*(D - 1) / 2>& edge) {
+  constexpr auto ends = simplex_edges<D - 1>();
+  double sum = 0, of_p = 0;
+  for (const double v : p) of_p += v;
+  for (int k = 0; k < D; ++k) sum += (of_p + p[k]) * vertex[k] / (D * (D + 1));
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    sum += 4 * (of_p + p[ends[k][0]] + p[ends[k][1]]) * edge[k] / (D * (D + 1) * (D + 2));
+  return sum;
+}
+
+template <int D, int B>
+double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer, const std::array<Index, D>& v,
+                    const std::array<double, D>& p, const Bounded<D, B>& distance) {
+  constexpr auto of_face = simplex_edges<D - 1>();
+  constexpr auto of_element = simplex_edges<D>();
+  const Index e = problem.incidence.sides[outer.face].element[0];
+  const Simplex<D>& corner = problem.mesh.elements[e];
+  double work = 0;
+  for (const bool upper : {false, true}) {
+    std::array<double, D> pushes, vertex;
+    for (int k = 0; k < D; ++k) pushes[k] = std::max(0.0, upper ? -p[k] : p[k]);
+    if (std::ranges::all_of(pushes, [](double push) { return push == 0; })) continue;
+    for (int k = 0; k < D; ++k) vertex[k] = distance.at_vertex(v[k], upper);
+    std::array<double, D*(D - 1) / 2> edge{};
+    for (std::size_t k = 0; k < of_face.size(); ++k)
+      for (std::size_t m = 0; m < of_element.size(); ++m) {
+        const std::array ends{corner[of_element[m][0]], corner[of_element[m][1]]};
+        if (sorted(ends) == sorted(std::array{v[of_face[k][0]], v[of_face[k][1]]}))
+          edge[k] =
+              distance.at_edge(problem.incidence.edge[static_cast<std::size_t>(e) * of_element.size() + m], upper);
+      }
+    work += length<D>(outer.normal) * integral_over_face<D>(pushes, vertex, edge);
+  }
+  return work;
+}
+
+/// On faces: a linear pressure.
+template <int D, int B>
+void press_on_faces(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
+                    Contact<D, B>& out) {
+  std::vector<double> area(force.size());
+  for (const OuterFace<D, B>& outer : problem.outer)
+    if (outer.contact)
+      for (const Index v : face_vertices<D>(problem.mesh, problem.incidence.sides[outer.face]))
+        area[v] += length<D>(outer.normal) / D;
+  out.forces.on_face.resize(problem.outer.size());
+  for (std::size_t n = 0; n < problem.outer.size(); ++n) {
+    const OuterFace<D, B>& outer = problem.outer[n];
+    if (!outer.contact) continue;
+    const auto& sides = problem.incidence.sides[outer.face];
+    const auto v = face_vertices<D>(problem.mesh, sides);
+    const double measure = length<D>(outer.normal);
+    std::array<double, D> p;
+    for (int k = 0; k < D; ++k) p[k] = force[v[k]] / area[v[k]];
+    for (int k = 0; k < D; ++k)
+      for (int m = 0; m < D; ++m)
+        if (const auto* bound = problem.gaps.at_vertex(v[m]))
+          for (int i = 0; i < B; ++i)
+            out.forces.on_face[n][k][i] += measure * (1 + (k == m)) / (D * (D + 1)) * p[m] * bound->direction[i];
+    out.work[sides.element[0]] += work_on_face<D, B>(problem, outer, v, p, distance);
+  }
+}
+
+}  // namespace
+
+template <int D, int B>
+Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles) {
+  Contact<D, B> out;
+  out.work.assign(problem.element.size(), 0);
+  if (!problem.gaps.any()) return out;
+  const AtVertices<D, B> at(problem, u);
+  std::vector<double> force(problem.mesh.points.size());
+  for (Index p = 0; p < problem.mesh.vertices(); ++p) force[p] = force_at(problem, at, u, p);
+  const Bounded<D, B> distance(problem, u, bubbles);
+  if (problem.gaps.in_body)
+    divide_in_body(problem, force, distance, out);
+  else
+    press_on_faces(problem, force, distance, out);
+  return out;
+}
+
+#define SIGNORINI_INSTANTIATE(D, B) \
+  template Contact<D, B> contact_of(const TrueProblem<D, B>&, const std::vector<double>&, const Bubbles<D, B>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

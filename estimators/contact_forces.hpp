@@ -1,0 +1,20 @@
+#pragma once
+#include "estimators/bubbles.hpp"
+#include "estimators/face_moments.hpp"
+
+namespace signorini {
+
+/// What obstacles exert on a finite element function, found from the residual at vertices, as forces that satisfy the
+/// conditions of the true problem: never pulling, in the body divided among the elements around a vertex, on faces as
+/// the linear pressure p = sum over i of (L_i / int phi_i) phi_i.
+template <int D, int B>
+struct Contact {
+  ContactForces<D, B> forces;
+  std::vector<double> work;  ///< per element: int p (v - bound), v with its bubbles; what contact adds to the bound
+};
+
+/// @param bubbles of v, as lift() and sweep() leave them
+template <int D, int B>
+Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles);
+
+}  // namespace signorini

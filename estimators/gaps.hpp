@@ -1,0 +1,38 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "core/fem/model.hpp"
+#include "core/fem/nodes.hpp"
+#include "estimators/incidence.hpp"
+#include "estimators/reasons.hpp"
+
+namespace signorini {
+
+/// What obstacles demand of a function: lower <= direction . v <= upper in the body, or on the faces they act on.
+/// Bounds between vertices are quadratic in each element: their values at vertices, and coefficients of the bubbles b =
+/// 4 phi_a phi_b of edges. A quadratic function is not negative where no Bernstein coefficient is: those of an edge are
+/// (w_a + w_b) / 2 + 2 w_ab, with w_ab that of the bubble.
+template <int D, int B>
+struct Gaps {
+  struct Bound {
+    std::array<double, B> direction;
+    double lower, upper;  ///< of an edge those of the bubble's coefficient of `direction . v` alone
+  };
+
+  std::vector<Index> of_vertex, of_edge;  ///< numbers of bounds, -1: none
+  std::vector<Bound> bounds;              ///< bounds of vertices; of edges coefficients of lower and upper
+  bool in_body = false;                   ///< they hold in all of the body
+  std::vector<Index> faces;               ///< else: on these outer faces, numbers in Mesh::boundary
+
+  bool any() const { return !bounds.empty(); }
+  const Bound* at_vertex(Index p) const { return any() && of_vertex[p] >= 0 ? &bounds[of_vertex[p]] : nullptr; }
+  const Bound* at_edge(Index e) const { return any() && of_edge[e] >= 0 ? &bounds[of_edge[e]] : nullptr; }
+};
+
+/// @param boundary the face of the mesh that each boundary face is
+/// @param reasons is told where bounds are not quadratic, or directions not one and the same
+template <int D, int B>
+Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons);
+
+}  // namespace signorini

@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+
+#include "estimators/certificate.hpp"
+
+namespace signorini {
+
+template <int D, int B>
+std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& model) {
+  std::vector<std::string> reasons;
+  if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
+  if (nodes.order() != 1) reasons.emplace_back("quadratic elements are not covered, linear ones are: order = 1");
+  if (model.plane == Plane::axisymmetric) reasons.emplace_back("bodies of revolution are not covered");
+  for (const ObstacleTerm<B>& term : model.obstacles)
+    if (term.obstacle->functional())
+      reasons.push_back(term.obstacle->friction()
+                            ? fmt::format("friction ({}) is not covered", term.origin)
+                            : fmt::format("the energy that an obstacle adds ({}) is not covered", term.origin));
+  if (model.obstacles.size() > 1) reasons.emplace_back("several obstacles of one body are not covered");
+  if (nodes.size() != nodes.mesh().vertices()) reasons.emplace_back("meshes that are glued together are not covered");
+  return reasons;
+}
+
+template std::vector<std::string> not_certified(const Nodes<2>&, const Model<1>&);
+template std::vector<std::string> not_certified(const Nodes<3>&, const Model<1>&);
+template std::vector<std::string> not_certified(const Nodes<2>&, const Model<2>&);
+template std::vector<std::string> not_certified(const Nodes<3>&, const Model<3>&);
+
+}  // namespace signorini

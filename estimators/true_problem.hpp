@@ -1,0 +1,64 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/fem/element.hpp"
+#include "core/fem/fixes.hpp"
+#include "core/fem/material.hpp"
+#include "core/fem/model.hpp"
+#include "core/fem/nodes.hpp"
+#include "estimators/gaps.hpp"
+#include "estimators/incidence.hpp"
+#include "estimators/reasons.hpp"
+
+namespace signorini {
+
+/// What acts on a face where the mesh ends. Where nothing is prescribed the flux through it is that of `load`.
+template <int D, int B>
+struct OuterFace {
+  Index face;                                   ///< in Incidence::sides
+  Point<D> normal{};                            ///< outward, as long as the face is large
+  FixedDirections<B> fixed;                     ///< directions along which the solution is prescribed
+  bool contact = false;                         ///< an obstacle acts on it
+  std::array<std::array<double, B>, D> load{};  ///< integrals of the given flux times the face's hat functions
+
+  bool held() const { return fixed.count == B; }
+  bool open() const { return fixed.count == 0; }
+};
+
+/// The boundary value problem whose solution is compared with a finite element function: all that integrals over
+/// elements, faces and edges need to know of it, and the reasons why what is computed here is not the model's problem
+/// itself. Linear elements.
+template <int D, int B>
+struct TrueProblem {
+  /// @param u the function, B per node: values that are prescribed are compared with it
+  TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u);
+
+  const Mesh<D>& mesh;
+  Incidence<D> incidence;
+  std::vector<LinearElement<D>> element;      ///< measures and gradients
+  std::vector<Material<B>> material;          ///< per element
+  std::vector<std::array<double, B>> source;  ///< per element: the mean of the body force or source
+  /// D + 1 per element: integrals of the source times each hat function; empty: those of its mean.
+  std::vector<std::array<double, B>> source_moment;
+  std::vector<std::array<double, B>> edge_load;  ///< per edge: integral of all loads times its bubble
+  std::vector<double> oscillation;  ///< per element: its part of the oscillation in the energy norm; empty: none
+  std::vector<OuterFace<D, B>> outer;
+  std::vector<Index> outer_of_face;            ///< per face, -1: inside
+  std::vector<FixedDirections<B>> edge_fixes;  ///< directions in which edges on held faces may not move
+  std::vector<Index> edge_fix;                 ///< per edge: which of them, -1: none
+  Gaps<D, B> gaps;
+  Reasons reasons;
+
+  Index elements() const { return static_cast<Index>(element.size()); }
+  /// Integral of the source times the hat function of vertex a of an element.
+  std::array<double, B> moment(Index e, int a) const {
+    if (!source_moment.empty()) return source_moment[Offset{e} * (D + 1) + a];
+    std::array<double, B> out = source[e];
+    for (double& f : out) f *= element[e].measure / (D + 1);
+    return out;
+  }
+};
+
+}  // namespace signorini
