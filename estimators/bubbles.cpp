@@ -1,6 +1,7 @@
 #include "estimators/bubbles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimators/small_solve.hpp"
 
@@ -40,7 +41,7 @@ bool Bubbles<D, B>::lift() {
     const auto [a, b] = ends(e);
     const auto [lower, upper] = range(e, a, b);
     const double by = std::clamp(0.0, std::min(lower, upper), std::max(lower, upper));
-    if (by == 0) continue;
+    if (std::fabs(by) <= problem_.gaps.rounding) continue;
     std::array<double, B> n = bound->direction;
     if (problem_.edge_fix[e] >= 0) project(problem_.edge_fixes[problem_.edge_fix[e]], n);
     const double along = dot(n, bound->direction);

@@ -17,6 +17,16 @@ namespace {
 /// Of the largest force: what counts as equilibrium.
 constexpr double balanced = 1e-9;
 
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+Estimate no_numbers(std::vector<std::string> reasons) {
+  Estimate none;
+  none.lower = none.upper = not_known;
+  none.parts = {not_known, not_known, not_known, not_known, not_known, not_known};
+  none.reasons = std::move(reasons);
+  return none;
+}
+
 template <int D, int B>
 class Certificate {
  public:
@@ -25,6 +35,7 @@ class Certificate {
       : nodes_(nodes), model_(model), u_(u), options_(options), problem_(nodes, model, u), lifted_(problem_, u) {}
 
   Estimate compute() {
+    if (problem_.reasons.refused) return no_numbers(problem_.reasons.all);
     if (!lifted_.lift()) problem_.reasons.add("what is prescribed keeps the body from the right side between nodes");
     if (lifted_.any()) lifted_.sweep(true);
     out_.lifted = lifted_.energy();
@@ -68,8 +79,10 @@ class Certificate {
   /// Moments of a flux in equilibrium, near that of u, or of what is better than that.
   FaceNumbers moments(const Bubbles<D, B>& swept, const ContactForces<D, B>& contact) {
     if constexpr (B == D) {
+      const ElementFlux<D, B> of_u = [this](Index e) { return flux_of_u(e); };
+      if (!options_.solve) return equilibrated_moments<D, B>(problem_, of_u, contact);
       BaseStress<D> stress(problem_, model_, u_, swept);
-      if (options_.solve && !stress.correct(nodes_, contact, options_.solve))
+      if (!stress.correct(nodes_, contact, options_.solve))
         problem_.reasons.add("the corrective solve failed, so that the upper bound is not sharp");
       return equilibrated_moments<D, B>(
           problem_, [&](Index e) { return stress(e); }, contact);
@@ -105,6 +118,7 @@ class Certificate {
       misfit[e] = d * d / 2 + work[e];
     }
     EstimateParts& parts = out_.parts;
+    if (problem_.reasons.geometry_unknown) parts.geometry = not_known;
     parts.contact = std::accumulate(work.begin(), work.end(), 0.0);
     parts.oscillation = with_oscillation - of_misfit;
     parts.algebra = std::min(of_misfit, options_.algebraic_error * options_.algebraic_error * out_.energy);
@@ -127,10 +141,8 @@ class Certificate {
 template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                      const CertificateOptions<B>& options) {
-  Estimate none;
-  none.lower = none.upper = std::numeric_limits<double>::quiet_NaN();
-  none.reasons = not_certified<D, B>(nodes, model);
-  if (!none.reasons.empty()) return none;
+  std::vector<std::string> reasons = not_certified<D, B>(nodes, model);
+  if (!reasons.empty()) return no_numbers(std::move(reasons));
   return Certificate<D, B>(nodes, model, u, options).compute();
 }
 

@@ -8,8 +8,8 @@
 
 namespace signorini {
 
-/// Solves A x = b of a problem without obstacles, whose prescribed values are zero, to a residual of about a hundredth.
-/// False: it could not.
+/// Solves A x = b of a problem without obstacles, whose prescribed values are zero, roughly: to a residual of
+/// about 1e-4. False: it could not.
 template <int B>
 using LinearSolve = std::function<bool(const DiscreteProblem<B>& problem, std::vector<double>& x)>;
 

@@ -12,6 +12,8 @@
 namespace signorini {
 namespace {
 
+constexpr double rounding = 1e-13;  // of the largest number, for differences of bounds
+
 /// Asks one obstacle at vertices, at the middles of edges, and at points that tell whether it is quadratic between.
 template <int D, int B>
 class Asked {
@@ -95,8 +97,8 @@ class Asked {
     Status status;
     term_.obstacle->assemble(points_.data(), points_.size(), found_.data(), status);
     const bool one = std::ranges::all_of(found_, [](const LocalConstraint<B>& c) { return c.directions <= 1; });
-    if (!status.ok()) reasons.add(fmt::format("{} cannot be asked between nodes", term_.origin));
-    if (!one) reasons.add(fmt::format("{} bounds several directions", term_.origin));
+    if (!status.ok()) reasons.refuse(fmt::format("{} cannot be asked between nodes", term_.origin));
+    if (!one) reasons.refuse(fmt::format("{} bounds several directions", term_.origin));
     return status.ok() && one;
   }
 
@@ -107,7 +109,7 @@ class Asked {
       if (!first) first = &c;
       for (int i = 0; i < B; ++i)
         if (std::fabs(c.direction[0][i] - first->direction[0][i]) > same_value)
-          return reasons.add(fmt::format(
+          return reasons.add_geometry(fmt::format(
               "{} pushes along directions that change from place to place: between nodes that of their mean "
               "takes its place",
               term_.origin));
@@ -128,6 +130,8 @@ class Asked {
         for (const double bound : {c.lower[0], c.upper[0]})
           if (std::isfinite(bound)) largest = std::max(largest, std::fabs(bound));
       }
+    largest = largest_number(largest);
+    out.rounding = rounding * largest;
     double off = 0;
     k = vertices;
     for (Index e = 0; e < incidence_.edges; ++e) {
@@ -146,7 +150,7 @@ class Asked {
       out.bounds.push_back({direction(middle), at_edge(from.lower, to.lower, middle.lower[0], quarter.lower[0]),
                             at_edge(from.upper, to.upper, middle.upper[0], quarter.upper[0])});
     }
-    if (!(off <= same_value * largest_number(largest)))
+    if (!(off <= same_value * largest))
       reasons.add(fmt::format("{} is neither linear nor quadratic between nodes: a quadratic function takes its place",
                               term_.origin));
   }
@@ -180,8 +184,6 @@ template <int D, int B>
 Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons) {
   Gaps<D, B> out;
   if (model.obstacles.empty()) return out;
-  if (model.obstacles.size() > 1)
-    reasons.add("there are several obstacles, and only the first one is taken into account");
   Asked<D, B>(nodes, model, model.obstacles.front(), incidence).ask(out, reasons);
   return out;
 }

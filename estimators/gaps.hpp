@@ -22,6 +22,7 @@ struct Gaps {
 
   std::vector<Index> of_vertex, of_edge;  ///< numbers of bounds, -1: none
   std::vector<Bound> bounds;              ///< bounds of vertices; of edges coefficients of lower and upper
+  double rounding = 0;                    ///< of bounds: what is no more does not count as beyond them
   bool in_body = false;                   ///< they hold in all of the body
   std::vector<Index> faces;               ///< else: on these outer faces, numbers in Mesh::boundary
 
@@ -30,7 +31,7 @@ struct Gaps {
   const Bound* at_edge(Index e) const { return any() && of_edge[e] >= 0 ? &bounds[of_edge[e]] : nullptr; }
 };
 
-/// @param boundary the face of the mesh that each boundary face is
+/// Of a model with no more than one obstacle.
 /// @param reasons is told where bounds are not quadratic, or directions not one and the same
 template <int D, int B>
 Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons);

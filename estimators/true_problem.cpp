@@ -150,7 +150,8 @@ class Builder {
       if (!incidence.sides[faces[f]].outer()) out_.reasons.add("the mesh has boundary faces inside");
       of_boundary_.push_back(add_outer(faces[f]));
       if (mesh_.boundary[f].curve >= 0)
-        out_.reasons.add("the boundary is curved: the bounds are for the polyhedron that the mesh makes of it");
+        out_.reasons.add_geometry(
+            "the boundary is curved: the bounds are for the polyhedron that the mesh makes of it");
     }
     for (Index f = 0; f < incidence.faces(); ++f)
       if (incidence.sides[f].outer() && out_.outer_of_face[f] < 0) on_mirrors_.push_back(add_outer(f));
