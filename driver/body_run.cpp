@@ -34,16 +34,25 @@ void append(Warnings& warnings, Warnings more) { std::move(more.begin(), more.en
 
 template <int D, int B>
 BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress,
-                       Times& times, Warnings& warnings, PromisedMemory* promised)
+                       Times& times, Warnings& warnings, PromisedMemory* promised,
+                       std::shared_ptr<Adaptation<D>> adaptation)
     : scene_(scene),
       body_(body),
       registry_(registry),
       progress_(progress),
       times_(times),
+      adaptation_(std::move(adaptation)),
       hierarchy_([&] {
         const Stopwatch watch;
         progress.phase("meshing");
-        auto hierarchy = build_hierarchy<D>(scene, B, &warnings, progress, body, promised);
+        const auto meshes = [&] {
+          if (!scene.refine.adaptive) return build_hierarchy<D>(scene, B, &warnings, progress, body, promised);
+          if (!adaptation_)
+            adaptation_ = std::make_shared<Adaptation<D>>(coarsest_mesh<D>(scene, body, B, &warnings, progress),
+                                                          scene.refine.uniform);
+          return hierarchy_of<D>(adaptation_->mesh(), 0, scene, B, &warnings, body, promised);
+        };
+        auto hierarchy = meshes();
         times.mesh += watch.elapsed();
         return hierarchy;
       }()),
@@ -51,6 +60,15 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
               nodes_of(hierarchy_, scene.bodies[body].order)) {
   solver_.may_set_elements_aside(hierarchy_);
   append(warnings, scene_warnings(scene, hierarchy_.levels.front(), body));
+}
+
+template <int D, int B>
+std::unique_ptr<BodyRun<D, B>> BodyRun<D, B>::refined(double growth, Warnings& warnings) const {
+  const std::vector<double> u = solution();
+  adaptation_->refine(estimate_of_element_, growth);
+  auto out = std::make_unique<BodyRun>(scene_, body_, registry_, progress_, times_, warnings, nullptr, adaptation_);
+  out->start_from(adaptation_->carried_over(u, B));
+  return out;
 }
 
 template <int D, int B>
@@ -252,7 +270,7 @@ template <int D, int B>
 void BodyRun<D, B>::add_estimate(StepReport& report) {
   estimate_of_element_.clear();
   const std::string& asked = scene_.solver.estimate;
-  if (asked == "false" || !report.summary.converged()) return;
+  if ((asked == "false" && !scene_.refine.adaptive) || !report.summary.converged()) return;
   progress_.phase("estimating the error");
   const Stopwatch watch;
   const bool cheap = asked == "cheap" || (asked == "auto" && B == 3);

@@ -8,6 +8,7 @@
 #include "core/io/report.hpp"
 #include "core/io/warning.hpp"
 #include "core/sdk/stepping.hpp"
+#include "driver/adaptation.hpp"
 #include "driver/dirichlet_neumann.hpp"
 #include "driver/memory.hpp"
 #include "driver/nested_solver.hpp"
@@ -24,8 +25,14 @@ class BodyRun {
   /// Builds the meshes. Keeps references to all but the warnings, to which it adds what is odd about the meshes, and
   /// adds to `times` what everything takes. Error(Exit::input) as read_scene() has them.
   /// @param promised memory of the bodies before it; null: it is alone
+  /// @param adaptation whose present mesh is taken; null: that of the scene
   BodyRun(const Scene& scene, std::size_t body, const Registry& registry, const Progress& progress, Times& times,
-          Warnings& warnings, PromisedMemory* promised = nullptr);
+          Warnings& warnings, PromisedMemory* promised = nullptr, std::shared_ptr<Adaptation<D>> adaptation = nullptr);
+
+  /// The same body on a mesh that is finer where the last solve has its error; starts from its solution. In scenes that
+  /// ask for that.
+  /// @param growth of the number of elements, about
+  std::unique_ptr<BodyRun> refined(double growth, Warnings& warnings) const;
 
   /// Those of all steps, which may be others than before. Error(Exit::input) for one outside the body.
   void find_probes();
@@ -59,6 +66,8 @@ class BodyRun {
   const Nodes<D>& nodes() const { return solver_.nodes(); }
   /// Of the last step, accepted or not, per node.
   const Results<D, B>& results() const { return results_; }
+  /// Of a solution: displacements or values at the nodes, prescribed ones included.
+  std::size_t numbers() const { return static_cast<std::size_t>(nodes().size()) * B; }
   /// Displacements or values of the last step, B per vertex.
   std::vector<double> solution() const { return nodes().at_vertices(results_.u, B); }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
@@ -83,6 +92,7 @@ class BodyRun {
   const Registry& registry_;
   const Progress& progress_;
   Times& times_;
+  std::shared_ptr<Adaptation<D>> adaptation_;  // null: the scene asks for none
   MeshHierarchy<D> hierarchy_;
   Probes<D> probes_;
   NestedSolver<D, B> solver_;

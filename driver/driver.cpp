@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "amg/registration.hpp"
@@ -21,6 +22,9 @@
 
 namespace signorini {
 namespace {
+
+/// Of the unknowns: meshes that are hardly finer are not made.
+constexpr double least_growth = 1.1;
 
 /// See turned_at_newcomers().
 const std::string at_newcomers =
@@ -77,6 +81,14 @@ void Driver::prepare() {
   }
   solved_ = std::move(next);
   if (bodies_.empty()) build_bodies();
+  if (scene_.refine.adaptive) check_adaptive();
+}
+
+void Driver::check_adaptive() const {
+  const auto fail = [&](const std::string& what) { input_error(scene_.refine.source.of("adaptive"), what); };
+  if (bodies() > 1 || !solved_.bodies[0].parts.empty())
+    fail(fmt::format("there are {} bodies, expected one", scene_.bodies.size()));
+  if (scene_.steps.count() > 1) fail(fmt::format("there are {} steps, expected one", scene_.steps.count()));
 }
 
 void Driver::require_body(std::size_t body) const {
@@ -112,13 +124,21 @@ void Driver::build_bodies() {
 const Report& Driver::solve(const std::function<void()>& done) {
   const Stopwatch watch;
   report_.time = {};
+  report_.adaptive.reset();
+  progress_.listen();
+  if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
+  prepare();
+  do solve_steps(done);
+  while (scene_.refine.adaptive && refine(watch.elapsed()));
+  report_.time.total = watch.elapsed();
+  return report_;
+}
+
+void Driver::solve_steps(const std::function<void()>& done) {
   report_.steps.clear();
   report_.failed.clear();
   report_.interrupted = false;
   report_.error.clear();
-  progress_.listen();
-  if (scene_.steps.at.empty()) throw Error(Exit::usage, fmt::format("{}: no steps to solve", report_.scene));
-  prepare();
   report_.warnings = mesh_warnings_;
   const int count = report_.planned_steps = scene_.steps.count();
   try {
@@ -140,8 +160,61 @@ const Report& Driver::solve(const std::function<void()>& done) {
     }
   }
   finish();
-  report_.time.total = watch.elapsed();
-  return report_;
+}
+
+/// Empty: the next mesh is worth having.
+std::string Driver::why_not_refined(const AdaptiveReport& past) const {
+  const Scene::Refine& limits = scene_.refine;
+  const AdaptiveStep& last = past.steps.back();
+  if (std::ssize(past.steps) > limits.max_steps) return fmt::format("refine.max_steps is {}", limits.max_steps);
+  if (last.seconds > limits.max_seconds) return fmt::format("refine.max_seconds is {:g}", limits.max_seconds);
+  if (static_cast<double>(last.unknowns) * least_growth > limits.max_unknowns)
+    return fmt::format("refine.max_unknowns is {}", limits.max_unknowns);
+  return {};
+}
+
+/// Adds what there is now to the report, and goes on to a finer mesh. False: the present one is the last.
+bool Driver::refine(double seconds) {
+  if (!report_.adaptive) report_.adaptive.emplace();
+  AdaptiveReport& past = *report_.adaptive;
+  const StepReport& last = report_.last();
+  if (!report_.converged() || report_.interrupted) {
+    past.reason = "the last mesh is not solved";
+    return false;
+  }
+  const std::optional<EstimateReport>& error = last.estimate;
+  if (!error || !std::isfinite(error->relative_upper()))
+    input_error(scene_.refine.source.of("adaptive"),
+                fmt::format("the energy error has no bound here: {}",
+                            error ? fmt::format("{}", fmt::join(error->reasons, "; ")) : "there is no estimate"));
+  past.steps.push_back({visit(0, [](const auto& run) { return static_cast<Index>(run.mesh().elements.size()); }),
+                        last.summary.level_unknowns.back(), last.summary.iterations, last.summary.energy, error->lower,
+                        error->upper, error->relative_lower(), error->relative_upper(), error->guaranteed, seconds});
+  past.reached = error->relative_upper() <= scene_.refine.tolerance;
+  past.reason = past.reached ? "refine.tolerance is reached" : why_not_refined(past);
+  if (past.reason.empty()) {
+    const double growth =
+        std::min(2.0, scene_.refine.max_unknowns / static_cast<double>(last.summary.level_unknowns.back()));
+    try {
+      Warnings warnings;
+      AnyRun next = std::visit([&](const auto& run) -> AnyRun { return run->refined(growth, warnings); }, bodies_[0]);
+      const std::size_t numbers = std::visit([](const auto& run) { return run->numbers(); }, next);
+      if (numbers > static_cast<std::size_t>(scene_.refine.max_unknowns))
+        throw TooLarge(scene_.refine.source.of("max_unknowns"),
+                       fmt::format("{} numbers, refine.max_unknowns is {}", numbers, scene_.refine.max_unknowns));
+      bodies_[0] = std::move(next);
+      for (Warning& warning : warnings)
+        if (std::ranges::find(mesh_warnings_, warning) == mesh_warnings_.end())
+          mesh_warnings_.push_back(std::move(warning));
+      return true;
+    } catch (const TooLarge& why) {
+      past.reason = fmt::format("the next mesh would be too large: {}", why.complaint());
+    }
+  }
+  if (!past.reached)
+    report_.warnings.push_back(warning<"accuracy-not-reached">(
+        scene_.refine.source.of("tolerance"), error->relative_upper(), scene_.refine.tolerance, past.reason));
+  return false;
 }
 
 void Driver::begin() {

@@ -45,6 +45,7 @@ class Driver {
   /// interrupt or by an error, which is thrown, the report has those that were finished, and is marked so. An interrupt
   /// of a single step is thrown, too; where there was an iterate on the finest mesh the report has it, and is marked
   /// so.
+  /// Where the scene asks for adaptive meshes it is solved on one after the other; what there is then is of the last.
   /// @param done is called after each step or part, when report() and bodies have its results
   const Report& solve(const std::function<void()>& done = {});
   /// Gives the memory of all matrices back, such as before results are written: the next solve assembles them again.
@@ -81,6 +82,10 @@ class Driver {
 
   static const Progress& waiting();
   void prepare();
+  void check_adaptive() const;
+  void solve_steps(const std::function<void()>& done);
+  std::string why_not_refined(const AdaptiveReport& past) const;
+  bool refine(double seconds);
   void require_body(std::size_t body) const;
   void build_bodies();
   void begin();

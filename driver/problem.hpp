@@ -45,4 +45,10 @@ MeshHierarchy<D> build_hierarchy(const Scene& scene, int block, Warnings* warnin
                                  const Progress& progress = Progress(), std::size_t body = 0,
                                  PromisedMemory* promised = nullptr);
 
+/// The same of a coarsest mesh that is there.
+/// @param uniform how often it is refined for linear elements
+template <int D>
+MeshHierarchy<D> hierarchy_of(Mesh<D> coarsest, int uniform, const Scene& scene, int block, Warnings* warnings,
+                              std::size_t body, PromisedMemory* promised);
+
 }  // namespace signorini

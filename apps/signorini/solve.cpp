@@ -148,9 +148,21 @@ void print_steps(const Report& report) {
              report.failed.empty() ? "" : fmt::format("; {} more failed and were cut in two", report.failed.size()));
 }
 
+/// The meshes of a run that refines where its error is.
+void print_meshes(const Console& console, const Report& report) {
+  if (!report.adaptive) return;
+  console.print_row(fmt::format("{:>6} {:>10} {:>10} {:>17} {:>17} {:>9}", "mesh", "unknowns", "iterations",
+                                "error at least", "error at most", "seconds"));
+  for (int number = 1; const AdaptiveStep& mesh : report.adaptive->steps)
+    console.print_row(fmt::format("{:>6} {:>10} {:>10} {:>15.3g} % {:>15.3g} % {:>9.1f}", number++, mesh.unknowns,
+                                  mesh.iterations, 100 * mesh.relative_lower, 100 * mesh.relative_upper, mesh.seconds));
+  fmt::print("refined {} times: {}\n", report.adaptive->steps.size() - 1, report.adaptive->reason);
+}
+
 void print_result(const Console& console, const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
   console.print_title();
+  print_meshes(console, report);
   print_steps(report);
   print_summary(console, last.summary, report.converged(), report.reason());
   for (const BodyReport& body : last.bodies)

@@ -136,6 +136,24 @@ struct GeometryReport {
   Index straightened = 0;  ///< see MeshHierarchy
 };
 
+/// A mesh of a run that refines where its error is.
+struct AdaptiveStep {
+  Index elements = 0;
+  Index unknowns = 0;
+  int iterations = 0;
+  double energy = 0;
+  double lower = 0, upper = 0;                    ///< bounds of the energy error, see EstimateReport
+  double relative_lower = 0, relative_upper = 0;  ///< likewise
+  bool guaranteed = false;
+  double seconds = 0;  ///< since the beginning of the run
+};
+
+struct AdaptiveReport {
+  std::vector<AdaptiveStep> steps;
+  bool reached = false;  ///< the tolerance
+  std::string reason;    ///< why it ended
+};
+
 /// Everything `report.json` says. The tables in report_rows.cpp know its keys.
 struct Report {
   std::string scene, title;
@@ -152,7 +170,8 @@ struct Report {
   /// Before the last step was solved. Those that were finished are there; of a single one the last iterate, if there is
   /// one on the finest mesh.
   bool interrupted = false;
-  std::string error;  ///< the same, by an error: its message. Empty: none
+  std::optional<AdaptiveReport> adaptive{};  ///< of the finest mesh are all other numbers
+  std::string error;                         ///< the same, by an error: its message. Empty: none
 
   /// Whether there are several steps, or were to be: of the scene or parts of its only one.
   bool has_steps() const { return planned_steps > 1 || !failed.empty(); }

@@ -403,6 +403,24 @@ struct Table<EstimateReport> {
   }
 };
 
+template <>
+struct Table<AdaptiveStep> {
+  static constexpr const char* name = "refinement";
+  static std::vector<Row<AdaptiveStep>> rows() {
+    using S = AdaptiveStep;
+    return {member("elements", &S::elements, "of the mesh"),
+            member("unknowns", &S::unknowns, "on it"),
+            member("iterations", &S::iterations, "that the solve took, from the solution before"),
+            member("energy", &S::energy, "that is minimised"),
+            member("lower", &S::lower, "bound of the energy error from below"),
+            member("upper", &S::upper, "and from above"),
+            member("relative_lower", &S::relative_lower, "the same, relative to the energy of deformation"),
+            member("relative_upper", &S::relative_upper, "and from above"),
+            member("guaranteed", &S::guaranteed, "see `estimate`"),
+            member("seconds", &S::seconds, "since the beginning of the run")};
+  }
+};
+
 namespace {
 
 Row<StepReport> estimate() {
@@ -587,6 +605,11 @@ struct Table<Report> {
     return {objects("steps", &R::steps, "all steps, or parts of them; the keys beside are those of the last one"),
             objects("failed_steps", &R::failed, "what was cut in two and solved in parts"),
             object("time", &R::time, "seconds, and on what they were spent"),
+            {{"refinements", Kind::objects, "of an adaptive run: the meshes, one after the other", false, false,
+              &object_spec<AdaptiveStep>},
+             [](const R& r) { return as_objects(r.adaptive ? r.adaptive->steps : std::vector<AdaptiveStep>{}); }},
+            {{"refinement_ended", Kind::text, "why there are no more of them; empty: no adaptive run"},
+             [](const R& r) -> Json { return r.adaptive ? r.adaptive->reason : ""; }},
             member("peak_memory_mb", &R::peak_memory_mb, "the largest memory, in 2^20 bytes"),
             {{"assemblies", Kind::object, "how often something was computed, over all levels and steps", false, false,
               &object_spec<Assemblies>},

@@ -137,6 +137,10 @@ inline constexpr WarningKind warning_kinds[] = {
      "for "
      "small ones{}",
      "over `0.2` in a twentieth of a body", "smaller loads; take results as proportional to them"},
+    {WarningKind::About::result, "accuracy-not-reached",
+     "{}: the upper bound of the energy error is {:.3g} of the energy, not {:g}, which is asked for: {}",
+     "an adaptive run ended before it was as accurate as `refine.tolerance` says",
+     "more `refine.max_unknowns`, `max_steps` or `max_seconds`, or a larger `tolerance`"},
     {WarningKind::About::result, "no-pictures", "no pictures were drawn: {}", "the library for pictures does not load",
      "all other results are there"},
     {WarningKind::About::result, "missing-picture", "a picture is missing: {}", "mostly too little memory",

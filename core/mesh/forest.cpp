@@ -100,8 +100,12 @@ Index Forest<D>::add_children(Index node, Index middle) {
   Node& whole = tree_[node];
   whole.first_child = first;
   for (int side = 0; side < 2; ++side)
-    tree_[first + side] = {half<D>(whole.simplex, side, middle), whole.root, -1, middle,
-                           static_cast<std::int16_t>(whole.generation + 1)};
+    tree_[first + side] = {half<D>(whole.simplex, side, middle),
+                           whole.root,
+                           -1,
+                           middle,
+                           static_cast<std::int16_t>(whole.generation + 1),
+                           whole.wanted};
   for (const Index v : whole.simplex.vertex) --uses_[v];
   for (int side = 0; side < 2; ++side)
     for (const Index v : tree_[first + side].simplex.vertex) ++uses_[v];
@@ -267,6 +271,21 @@ class Forest<D>::Cutting {
 template <int D>
 void Forest<D>::bisect(std::span<const Index> leaves) {
   Cutting(*this).run(leaves);
+}
+
+template <int D>
+void Forest<D>::refine(std::span<const int> cuts) {
+  assert(cuts.size() == leaf_.size());
+  for (std::size_t k = 0; k < leaf_.size(); ++k) {
+    Node& node = tree_[leaf_[k]];
+    node.wanted = static_cast<std::int16_t>(node.generation + cuts[k]);
+  }
+  for (std::vector<Index> some{0}; !some.empty();) {
+    some.clear();
+    for (Index leaf = 0; leaf < leaves(); ++leaf)
+      if (tree_[leaf_[leaf]].generation < tree_[leaf_[leaf]].wanted) some.push_back(leaf);
+    bisect(some);
+  }
 }
 
 template <int D>

@@ -35,6 +35,8 @@ class Forest {
   /// Cuts leaves once, and those around them as often as conformity asks for. New vertices of curved edges are placed
   /// as those of uniform refinement are.
   void bisect(std::span<const Index> leaves);
+  /// The same for all leaves, as often as is said of each, its descendants counted in: none of them has fewer cuts.
+  void refine(std::span<const int> cuts);
   /// Takes out the newest vertices of leaves, each where it is that of all leaves around it, and all of these may go.
   /// @param may_go per leaf
   /// @return how many vertices are gone; a refinement is undone by going on until none is
@@ -54,6 +56,7 @@ class Forest {
     Index first_child = -1;  // the second follows it
     Index newest = -1;       // vertex; roots have none
     std::int16_t generation = 0;
+    std::int16_t wanted = 0;  // generation up to which refine() cuts
   };
   class Cutting;
 

@@ -36,7 +36,8 @@ MadeMesh<D> Forest<D>::mesh() const {
   std::vector<Index> number(points_.size(), -1);
   mesh.elements.reserve(leaf_.size());
   for (const Index node : leaf_) {
-    const auto& [simplex, root, child, newest, generation] = tree_[node];
+    const Bisected<D>& simplex = tree_[node].simplex;
+    const Index root = tree_[node].root;
     Simplex<D> ids = simplex.vertex;
     std::array<Index, D + 1> face = simplex.face;
     if (simplex.mirrored) {

@@ -90,8 +90,10 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
     return table;
   };
   const TableReader refine = reader("refine");
-  refine.flag("adaptive");  // only false passes
-  scene.refine = {refine.integer("uniform"), refine.source()};
+  scene.refine = {refine.integer("uniform"),      refine.source(),
+                  refine.flag("adaptive"),        refine.number("tolerance"),
+                  refine.integer("max_unknowns"), refine.integer("max_steps"),
+                  refine.number("max_seconds")};
   scene.symmetry = read_symmetry(reader("symmetry"));
   scene.steps = read_steps(reader("steps"));
   const TableReader output = reader("output");

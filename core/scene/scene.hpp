@@ -148,6 +148,11 @@ struct Scene {
   struct Refine {
     int uniform = 0;
     Source source;
+    bool adaptive = false;    ///< refine where the error is, until one of the following
+    double tolerance = 0.01;  ///< of the upper bound of the energy error, relative
+    int max_unknowns = 1000000;
+    int max_steps = 30;  ///< meshes beside the first one
+    double max_seconds = 3600;
   };
 
   /// All bodies are symmetric about these planes, and the part on one side is meshed.

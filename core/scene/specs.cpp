@@ -159,10 +159,15 @@ constexpr ShapeSpec rigid_shapes[] = {
 
 constexpr KeySpec refine[] = {
     {"uniform", integer, "0", "[0, 30]", "", "uniform refinements of the coarsest mesh"},
-    {"adaptive", boolean, "false", "false", "true", "refine where the estimated error is large"},
-    {"tolerance", number, "", "(0, 1)", every_value, "relative estimated error"},
-    {"max_unknowns", integer, "", "[1, inf)", every_value, "limit on the number of unknowns"},
-    {"max_steps", integer, "", "[0, inf)", every_value, "limit on the number of adaptive steps"},
+    {"adaptive", boolean, "false", "", "",
+     "solve, estimate the error, cut the elements that have most of it, and solve again, until one of the next four "
+     "keys "
+     "ends that: one body with linear elements, one step"},
+    {"tolerance", number, "0.01", "(0, 1)", "",
+     "adaptive runs end where the upper bound of the energy error is at most this part of the energy"},
+    {"max_unknowns", integer, "1000000", "[1, 2000000000]", "", "or where the next mesh would have more unknowns"},
+    {"max_steps", integer, "30", "[0, 1000]", "", "or after so many refinements"},
+    {"max_seconds", number, "3600", "(0, inf)", "", "or where this time is over"},
     {"estimator", text, "", "", every_value, "an estimator of `signorini list estimators`"},
 };
 
