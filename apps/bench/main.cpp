@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/bench/accuracy/tables.hpp"
+#include "apps/bench/adaptive.hpp"
 #include "apps/bench/again.hpp"
 #include "apps/bench/aggregates.hpp"
 #include "apps/bench/algebraic.hpp"
@@ -190,6 +191,8 @@ const Table tables[] = {
      sized<print_partial_slip>},
     {of_accuracy, "only errors beside seconds, the tables of docs/measured/accuracy.md",
      [](const Arguments& a) { print_accuracy(a.quick, a.only, a.pictures); }},
+    {"--adaptive", "only meshes that are finer where the error is, the tables of docs/measured/adaptive.md",
+     sized<print_adaptive>},
     {"--pressures", "only contact pressures against Hertz, the tables of docs/measured/pressures.md",
      sized<print_pressures>},
     {"--incompressible", "only elements for nearly incompressible material, the tables of docs/measured/rubber.md",
