@@ -9,7 +9,7 @@ namespace {
 /// So many cuts an element gets at once: all of its edges are halved twice. What is expected of further ones is not to
 /// be relied on.
 template <int D>
-constexpr int most_cuts = 2 * D;
+constexpr int cuts_at_once = 2 * D;
 
 /// What is left to each half of an element's share of the error.
 template <int D>
@@ -19,7 +19,7 @@ template <int D>
 int cuts_down_to(double target, double share) {
   if (!(share > target)) return 0;
   const double cuts = std::ceil(std::log(target / share) / std::log(left_to_half<D>));
-  return static_cast<int>(std::min(cuts, double{most_cuts<D>}));
+  return static_cast<int>(std::min(cuts, double{cuts_at_once<D>}));
 }
 
 /// How often each element is cut, so that their number grows by about so much and the largest share left is smallest.
@@ -32,7 +32,7 @@ std::vector<int> cuts(std::span<const double> share, double growth) {
   };
   const double largest = std::ranges::max(share);
   // What is below `low` would be too many, what is above `high` too few.
-  double low = largest * std::pow(left_to_half<D>, most_cuts<D> + 1), high = largest;
+  double low = largest * std::pow(left_to_half<D>, cuts_at_once<D> + 1), high = largest;
   for (int step = 0; step < 60 && low < high; ++step) {
     const double middle = std::sqrt(low * high);
     (elements(middle) > growth * static_cast<double>(share.size()) ? low : high) = middle;

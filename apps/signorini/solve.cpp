@@ -149,20 +149,20 @@ void print_steps(const Report& report) {
 }
 
 /// The meshes of a run that refines where its error is.
-void print_meshes(const Console& console, const Report& report) {
+void print_meshes(const Report& report) {
   if (!report.adaptive) return;
-  console.print_row(fmt::format("{:>6} {:>10} {:>10} {:>17} {:>17} {:>9}", "mesh", "unknowns", "iterations",
-                                "error at least", "error at most", "seconds"));
+  fmt::print("{:>4} {:>10} {:>10} {:>15} {:>15} {:>9}\n", "mesh", "unknowns", "iterations", "error at least", "at most",
+             "seconds");
   for (int number = 1; const AdaptiveStep& mesh : report.adaptive->steps)
-    console.print_row(fmt::format("{:>6} {:>10} {:>10} {:>15.3g} % {:>15.3g} % {:>9.1f}", number++, mesh.unknowns,
-                                  mesh.iterations, 100 * mesh.relative_lower, 100 * mesh.relative_upper, mesh.seconds));
+    fmt::print("{:>4} {:>10} {:>10} {:>13.3g} % {:>13.3g} % {:>9.2f}\n", number++, mesh.unknowns, mesh.iterations,
+               100 * mesh.relative_lower, 100 * mesh.relative_upper, mesh.seconds);
   fmt::print("refined {} times: {}\n", report.adaptive->steps.size() - 1, report.adaptive->reason);
 }
 
 void print_result(const Console& console, const Report& report, const std::vector<std::filesystem::path>& written) {
   const StepReport& last = report.last();
   console.print_title();
-  print_meshes(console, report);
+  print_meshes(report);
   print_steps(report);
   print_summary(console, last.summary, report.converged(), report.reason());
   for (const BodyReport& body : last.bodies)
@@ -227,8 +227,9 @@ std::optional<Error> solve_steps(Driver& driver, StepsTable table, ResultFiles& 
   return Error(Exit::interrupted, last.outcome == Outcome::interrupted ? last.reason : "interrupted");
 }
 
-/// Bodies that are solved one after the other, or in turns, have one table in the end.
+/// Bodies that are solved one after the other, or in turns, and adaptive meshes have one table in the end.
 Live live(const Scene& scene) {
+  if (scene.refine.adaptive) return Live::nothing;
   const bool one = with_touching_bodies(scene).bodies.size() == 1 && scene.solver.bodies != "dirichlet-neumann";
   return one || scene.steps.count() > 1 ? Live::tables : Live::nothing;
 }
