@@ -82,10 +82,10 @@ Warnings balance_warnings(const Scene& scene, const Scene::Body& body, const Nod
     if (loads == 0 && acting > rounding && left > uneven * acting && contact > noticeable * acting)
       warnings.push_back(
           warning<"unbalanced">(report.balance[part].body, left,
-                                fmt::format("{:.2g} acts: some of them are not known; {}", acting,
+                                fmt::format("forces of {:.2g} act: some of these are not known; {}", acting,
                                             report.summary.outcome == Outcome::rounding
-                                                ? "that is what the machine's precision leaves of a mesh and material "
-                                                  "like these"
+                                                ? "that is what the machine's precision leaves with a mesh and a "
+                                                  "material like these"
                                                 : "a smaller tolerance may help")));
     if (!(loads > 0 && left > noticeable * loads)) continue;
     warnings.push_back(

@@ -132,8 +132,8 @@ Warnings pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
         warnings.push_back(warning<"prescribed-slave">(term.origin, fixed.normal, fixed.all,
                                                        "normal: nothing keeps the other body off them"));
       if (term.obstacle->friction() && lost > 0 && lost > fixed.normal)
-        warnings.push_back(
-            warning<"prescribed-slave">(term.origin, lost, fixed.all, "surface: no friction acts there along that"));
+        warnings.push_back(warning<"prescribed-slave">(term.origin, lost, fixed.all,
+                                                       "surface: no friction acts there along what is prescribed"));
     }
   return warnings;
 }

@@ -207,10 +207,11 @@ namespace {
 /// @param alike further places with this expression
 Warning cut_warning(const CutSelection& cut, const std::vector<std::string>& alike, int dimension) {
   std::string off;
-  if (cut.wrong > 0) off += fmt::format(", it does not hold on about {:.2g} of these", cut.wrong);
-  if (cut.missed > 0) off += fmt::format(", and it holds on about {:.2g} besides", cut.missed);
+  if (cut.wrong > 0) off += fmt::format(", though it does not hold on about {:.2g} of these", cut.wrong);
+  if (cut.missed > 0) off += fmt::format(", and it holds on about {:.2g} more", cut.missed);
   return warning<"cut-faces">(cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces",
-                              cut.picked, off, alike.empty() ? "" : fmt::format("; so at {}", fmt::join(alike, ", ")));
+                              cut.picked, off,
+                              alike.empty() ? "" : fmt::format("; the same at {}", fmt::join(alike, ", ")));
 }
 
 /// One for each expression, which may stand in several places.

@@ -8,85 +8,90 @@ namespace signorini {
 /// All that is warned of, in the order of docs/warnings.md. Reports give the ids: none is given another meaning.
 inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::scene, "cut-faces",
-     "{}: '{}' cuts through faces of the coarsest mesh, which are picked as a whole: {} of {:.4g} are picked{}; a "
-     "smaller 'size' or more 'cells' follow it more closely{}",
-     "`where` is judged on faces of the coarsest mesh, as a whole. The message says how much area is picked too much, "
-     "or left out",
+     "{}: '{}' cuts through faces of the coarsest mesh, and a face is picked as a whole or not at all: {} that "
+     "measure {:.4g} in all are picked{}; a smaller 'size' or more 'cells' follow the cut more closely{}",
+     "a face of the coarsest mesh is picked where the expression holds at all of its vertices. The message says how "
+     "much area is picked too much, and how much is left out",
      "a smaller `size` or more `cells`; or let the cut run along edges of the mesh"},
     {WarningKind::About::scene, "conflicting-fixes",
-     "{}: prescribes other values than {} at {} {}, where they meet; the later one holds",
-     "two fixes disagree at common nodes", "mostly harmless; else pick faces apart"},
+     "{}: prescribes other values than {} at {} {} that both of them pick; the values of the later one hold",
+     "two fixes prescribe different values at the same nodes", "mostly harmless; else pick faces that do not meet"},
     {WarningKind::About::scene, "unknown-drag",
-     "{}: 'distance' depends on t and tells how the obstacle moves across its surface, not along it: friction takes it "
-     "to be at rest along it; a plane, sphere or cylinder that moves drags the body with it",
-     "friction takes an obstacle of shape `expression` to be at rest along its surface",
+     "{}: 'distance' depends on t. It says how the obstacle moves across its surface, but not how it moves along it: "
+     "friction takes the obstacle to be at rest along its surface. A plane, sphere or cylinder that moves drags the "
+     "body with it",
+     "`distance` of an obstacle of shape `expression` does not say how the surface moves along itself. Friction "
+     "takes it to be at rest there",
      "a plane, sphere or cylinder that moves drags the body"},
     {WarningKind::About::scene, "starts-inside",
      "{}: the body starts {}inside the obstacle: it reaches {:.3g} deep, and is {:.3g} thick along the obstacle's "
-     "normal "
-     "there; is that normal reversed?",
-     "by more than a tenth of the body's thickness there, or completely", "is the normal reversed?"},
+     "normal there; is that normal reversed?",
+     "before anything moves, the body is inside the obstacle: by more than a tenth of its thickness there, or "
+     "completely",
+     "turn `normal` around, if it points away from the body"},
     {WarningKind::About::scene, "not-facing",
-     "{}: no face of one body is in front of the other one's, opposite to it: these bodies never touch; is another "
-     "side "
-     "meant?",
-     "these two never touch", "check `on` and `other_on`"},
+     "{}: no face of one body is in front of the other one's and turned towards it: these bodies never touch; is "
+     "another side meant?",
+     "the faces that are picked on the two bodies do not face each other", "check `on` and `other_on`"},
     {WarningKind::About::scene, "prescribed-slave",
      "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the {}; expected "
-     "free "
-     "nodes, or the other side as the slave ('slave')",
-     "along the normal: nothing keeps the master off these nodes. Along the surface: no friction acts at them along "
-     "what is prescribed",
-     "free them, or set `slave`"},
+     "free nodes there, or the other side as the slave ('slave')",
+     "prescribed along the normal: nothing keeps the master off these nodes. Prescribed along the surface: no friction "
+     "acts at these nodes in the prescribed direction",
+     "free the nodes, or set `slave`"},
     {WarningKind::About::scene, "locking", "poisson = {}: {} nearly incompressible material, {}",
-     "linear elements are too stiff there: they lock. Quadratic ones of displacements alone lose accuracy",
+     "linear elements are too stiff there: they lock. Quadratic elements without a pressure of their own lose "
+     "accuracy",
      "remove `order` and `pressure`: the defaults do not lock ([rubber.md](rubber.md))"},
     {WarningKind::About::scene, "linear-elements",
-     "{}: elements are linear, for quadratic ones do not fit: {}. Linear elements bend too little: a coarser mesh of "
-     "quadratic ones is likely to be more accurate",
-     "there is too little memory", "a coarser mesh of quadratic ones is likely to be more accurate"},
+     "{}: elements are linear, because quadratic ones do not fit: {}. Linear elements bend too little: a coarser "
+     "mesh of quadratic ones is likely to be more accurate",
+     "there is too little memory for quadratic elements",
+     "a coarser mesh of quadratic elements, which is likely to be more accurate"},
 
     {WarningKind::About::mesh, "hinge", "{}: elements hang together only by the {}{}: the body has a hinge there",
-     "the body has a hinge at that vertex or edge", "mend the mesh, if it is not meant"},
+     "the elements on both sides have only that vertex or edge in common", "mend the mesh, unless a hinge is meant"},
     {WarningKind::About::mesh, "torn",
-     "{}: the vertex at {} lies inside the {} of an element that it is no vertex of{}: the body is torn there",
-     "a vertex lies inside an edge or a face", "mend the mesh"},
+     "{}: the vertex at {} lies inside the {} of an element, and is no vertex of that element{}: the body is torn "
+     "there",
+     "a vertex lies inside an edge or a face of another element: the two are not connected there", "mend the mesh"},
     {WarningKind::About::mesh, "group-inside",
      "{}: {} of the {} {} of the physical group '{}' are not on the boundary: they are left out of the part of that "
      "name",
      "the part is smaller than the group", "mostly harmless"},
     {WarningKind::About::mesh, "chord-volume",
-     "{}: the mesh has {:.2g} % {} volume than the surface in the file: its faces are flat between vertices on that "
-     "surface, which curves there, and stay so however often they are refined; expected a smaller 'size'",
-     "a `solid` has flat faces where the surface curves: refinement does not bring that back", "a smaller `size`"},
+     "{}: the mesh has {:.2g} % {} volume than the surface in the file. Faces of the mesh are flat where that "
+     "surface is curved, and stay so however often they are refined; expected a smaller 'size'",
+     "a `solid` has flat faces where the surface is curved. Refinement does not make up for that", "a smaller `size`"},
     {WarningKind::About::mesh, "straight-edges",
-     "{}: {} midpoints of edges stay off the curved surface they belong to, or elements would be turned inside out "
-     "there; a finer mesh follows it",
-     "elements would be turned inside out there", "a finer mesh follows it"},
+     "{}: {} midpoints of edges stay off the curved surface to which they belong: on that surface they would turn "
+     "elements inside out; a finer mesh follows it",
+     "on the curved surface these midpoints would turn elements inside out", "a finer mesh follows the surface"},
     {WarningKind::About::mesh, "flat-faces",
-     "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, where "
-     "{}displacements are up to {:.3g}: the gap is off by up to {:.2g} % of what closes it, refinement brings out the "
-     "edges between faces, and the largest pressure gets worse with it; geometry = 'smooth' of that {}{} puts a smooth "
-     "surface through the vertices, but where single faces between edges tell nothing round",
-     "pressures get worse with refinement",
+     "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
+     "where {}displacements are up to {:.3g}. The gap is then wrong by up to {:.2g} % of what closes it. Refinement "
+     "brings out the edges between the faces, and makes the largest pressure worse. geometry = 'smooth' of that {}{} "
+     "puts a smooth surface through the vertices, but not where single faces lie between edges: these do not tell "
+     "what is round",
+     "the flat faces seem to stand for a curved surface. Pressures then get worse with refinement",
      "`geometry = \"smooth\"`, or a second-order mesh: [geometry.md](geometry.md#warnings)"},
     {WarningKind::About::mesh, "smoothed-edges",
-     "{}: where they touch, the {} is taken for a smooth surface over faces that meet at up to {:.3g} degrees, and is "
-     "{:.3g} off these, where {}displacements are up to {:.3g}: such a surface is as good as its vertices; expected "
-     "smaller faces, or, where an edge is meant, a smaller 'crease'",
-     "that surface is only as good as its vertices", "smaller faces, or a smaller `crease` where an edge is meant"},
+     "{}: where they touch, the {} is taken for a smooth surface over faces that meet at up to {:.3g} degrees. It is "
+     "{:.3g} off these faces, where {}displacements are up to {:.3g}. Such a surface is only as good as its "
+     "vertices; expected smaller faces, or, where an edge is meant, a smaller 'crease'",
+     "the smooth surface is only as good as its vertices",
+     "smaller faces, or a smaller `crease` where an edge is meant"},
 
     {WarningKind::About::result, "too-curved",
      "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: contact is linearised about "
-     "the "
-     "undeformed body, and {}",
-     "it reaches into the obstacle, or contact is claimed where it is off it: displacements are too large for this "
-     "curvature, or take the body over an edge of the obstacle, or elements are too large for this contact",
+     "the undeformed body, and {}",
+     "the deformed body reaches into the obstacle, or does not reach it where contact is claimed. Displacements are "
+     "too large for this curvature, or take the body over an edge of the obstacle, or elements are too large for "
+     "this contact",
      "smaller displacements; a finer mesh; between bodies, more `[steps]`"},
     {WarningKind::About::result, "between-nodes",
-     "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: conditions hold at nodes "
-     "alone; "
-     "expected smaller elements there",
+     "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: contact is kept up at nodes "
+     "only; expected smaller elements there",
      "the obstacle is small beside the elements", "smaller elements there"},
     {WarningKind::About::result, "unresolved-contact",
      "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of the contact may "
@@ -96,47 +101,49 @@ inline constexpr WarningKind warning_kinds[] = {
      "smaller elements there: [pressures.md](pressures.md#is-it-fine-enough)"},
     {WarningKind::About::result, "peak-at-edge",
      "{}: the largest pressure is where an edge or a corner touches: there it grows with smaller elements, and is not "
-     "to "
-     "be relied on",
+     "to be relied on",
      "the exact pressure is infinite there", "use the force, not this pressure"},
     {WarningKind::About::result, "never-touch",
      "{}: '{}' {} never touch; at the end a distance of {:.3g} is left between them",
      "the message says which distance is left", "is the right side picked? Is the load large enough?"},
     {WarningKind::About::result, "slid-past",
-     "{}: {} of {} nodes in contact have come to where the other body is no longer in front of them{}: pairs are those "
-     "of the start of a step; expected smaller steps ([steps])",
-     "bodies slid far within a step", "smaller steps"},
+     "{}: {} of {} nodes in contact have moved to where the other body is no longer in front of them{}. Which "
+     "parts face each other is decided at the start of a step only; expected shorter steps ([steps])",
+     "bodies slid far within a step", "shorter steps"},
     {WarningKind::About::result, "slides-on",
-     "{}: in a step bodies slide past each other by more than part of an element, however often they are paired anew: "
-     "take shorter steps",
-     "what they are paired with changes at every try", "shorter steps"},
+     "{}: within a step the bodies slide past each other by more than part of an element, and do so again however "
+     "often they are paired anew: take shorter steps",
+     "each time the bodies are paired anew, they slide on to other faces", "shorter steps"},
     {WarningKind::About::result, "friction-turned",
      "step {}: at t = {} friction has turned round: {}; expected shorter steps ([steps])",
-     "nodes that have just come into contact carry most of it", "shorter steps"},
+     "friction turned round within the step, and nodes that have just come into contact carry most of it",
+     "shorter steps"},
     {WarningKind::About::result, "step-cut", "step {}: from t = {} to {} {}, and it was cut in two: {}",
-     "it had no solution in one piece", "nothing, if the run ends with 0"},
+     "the step could not be solved in one piece, or friction turned round in it", "nothing, if the run ends with 0"},
     {WarningKind::About::result, "undetermined-force",
-     "{}: {} of {} nodes in contact are held along the obstacle's normal by a fix, or pressed on by other obstacles as "
-     "well, along directions that depend on each other{}: how the force there divides is not determined; what presses, "
-     "{:.3g}, is counted as the obstacle's",
-     "how the force there divides between fix and obstacle has no answer", "let the fix end before the contact does"},
+     "{}: {} of {} nodes in contact are also held along the obstacle's normal by a fix, or pressed on by other "
+     "obstacles along directions that depend on each other{}. How the force divides between them is not determined; "
+     "all that presses there, {:.3g}, is counted as this obstacle's",
+     "several conditions hold the same nodes, and how the force divides between them has no answer",
+     "let the fix end before the contact does"},
     {WarningKind::About::result, "undetermined-motion",
-     "{}: neither loads nor fixes nor obstacles determine these motions: {}; the solution moves least along them",
-     "the result is right up to this motion. Of all solutions the one that moves least is given",
+     "{}: neither loads nor fixes nor obstacles determine these motions: {}; of all solutions the one that moves "
+     "least along them is given",
+     "the result is right but for this motion. Of all solutions the one that moves least is given",
      "a fix, if the place matters"},
-    {WarningKind::About::result, "unbalanced", "body '{}': forces balance up to {:.2g}, where {}",
-     "forces are not known better than that; or the loads are so small that what they do is not known",
-     "a smaller tolerance, if the message says so, else that is what the machine's precision leaves; larger loads, or "
-     "less prescribed displacement"},
+    {WarningKind::About::result, "unbalanced", "body '{}': forces balance up to {:.2g} only, where {}",
+     "forces are not known more accurately than that. Or the loads are so small that their effect is not known",
+     "if the message says so, a smaller tolerance; else larger loads, or less prescribed displacement. What the "
+     "machine's precision leaves cannot be mended"},
     {WarningKind::About::result, "large-turn",
-     "{}: {} turns by {:.2g} degrees: linear elasticity and contact take rotations for small ones, and see strains of "
-     "{:.1g} in this one that are not there",
-     "linear elasticity sees strains that are not there", "smaller displacements, or turn the model instead"},
+     "{}: {} turns by {:.2g} degrees. Linear elasticity and contact are meant for small turns: from this one they "
+     "get strains of {:.1g} that are not there",
+     "linear elasticity takes part of the turn for strains", "smaller displacements, or turn the model instead"},
     {WarningKind::About::result, "large-strain",
-     "{}: strains are up to {}, and beyond {:g} in {:.3g} % of the body: linear elasticity and contact take strains "
-     "for "
-     "small ones{}",
-     "over `0.2` in a twentieth of a body", "smaller loads; take results as proportional to them"},
+     "{}: strains are up to {}, and beyond {:g} in {:.3g} % of the body: linear elasticity and contact are meant for "
+     "small strains{}",
+     "strains are over `0.2` in more than a twentieth of a body",
+     "smaller loads; or take results as proportional to the loads"},
     {WarningKind::About::result, "accuracy-not-reached",
      "{}: the upper bound of the energy error is {:.3g} of the energy, not {:g}, which is asked for: {}",
      "an adaptive run ended before it was as accurate as `refine.tolerance` says",
@@ -150,7 +157,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "the solve was interrupted before it had a solution", "let it come to its end"},
     {WarningKind::About::result, "no-output",
      "standard output: cannot be written: is the disk full, or its reader gone? The results are in their files.",
-     "only printed: the report is written by then", "look into the report"},
+     "this warning is printed only, since the report is written before", "look into the report"},
 };
 
 /// The id of a kind, as a parameter of templates.

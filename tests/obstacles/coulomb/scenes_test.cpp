@@ -425,7 +425,7 @@ TEST(Coulomb, ThatAnExpressionDoesNotDragIsSaid) {
   };
   const std::string rough = "type = \"coulomb\"\nfriction = 0.3", smooth = "type = \"contact\"";
   const auto says = testing::Contains(testing::AllOf(testing::HasSubstr("obstacle.0.distance"),
-                                                     testing::HasSubstr("friction takes it to be at rest along it")));
+                                                     testing::HasSubstr("friction takes the obstacle to be at rest")));
   EXPECT_THAT(warnings("y + 0.001*t*(1 + x)", rough), says);
   EXPECT_THAT(warnings("y + 0.001*(1 + x)", rough), testing::Not(says));
   EXPECT_THAT(warnings("y + 0.001*t*(1 + x)", smooth), testing::Not(says));
