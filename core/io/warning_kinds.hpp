@@ -68,11 +68,10 @@ inline constexpr WarningKind warning_kinds[] = {
      "elements inside out; a finer mesh follows it",
      "on the curved surface these midpoints would turn elements inside out", "a finer mesh follows the surface"},
     {WarningKind::About::mesh, "flat-faces",
-     "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, "
-     "where {}displacements are up to {:.3g}. The gap is then wrong by up to {:.2g} % of what closes it. Refinement "
-     "brings out the edges between the faces, and makes the largest pressure worse. geometry = 'smooth' of that {}{} "
-     "puts a smooth surface through the vertices, but not where single faces lie between edges: these do not tell "
-     "what is round",
+     "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, where "
+     "{}displacements are up to {:.3g}. The gap is then wrong by up to {:.2g} % of what closes it. Refinement brings "
+     "out the edges between the faces, and makes the largest pressure worse. geometry = 'smooth' of that {}{} puts a "
+     "smooth surface through the vertices, but a single row of faces between two edges keeps these edges",
      "the flat faces seem to stand for a curved surface. Pressures then get worse with refinement",
      "`geometry = \"smooth\"`, or a second-order mesh: [geometry.md](geometry.md#warnings)"},
     {WarningKind::About::mesh, "smoothed-edges",
