@@ -40,7 +40,7 @@ class VertexIds {
  private:
   VertexId coarsest_;
   std::vector<std::array<VertexId, 2>> ends_;  // of the midpoints
-  using Edge = std::array<VertexId, 2>;  // ascending
+  using Edge = std::array<VertexId, 2>;        // ascending
   struct Hash {
     std::size_t operator()(const Edge& edge) const noexcept {
       return (static_cast<std::size_t>(edge[0]) * 0x9e3779b97f4a7c15u ^ static_cast<std::size_t>(edge[1])) *
