@@ -242,11 +242,7 @@ struct Later {
   const char* assignment;
 };
 
-const std::vector<Later> later = {{membrane, "refine.adaptive=true"},
-                                  {membrane, "refine.tolerance=0.1"},
-                                  {membrane, "refine.max_unknowns=1000"},
-                                  {membrane, "refine.max_steps=3"},
-                                  {membrane, "refine.estimator=hierarchical"}};
+const std::vector<Later> later = {{membrane, "refine.estimator=hierarchical"}};
 
 TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
   for (const Later& l : later) {
@@ -255,7 +251,6 @@ TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
     EXPECT_THAT(result.message, HasSubstr("is not available in this version")) << l.assignment;
     EXPECT_THAT(result.message, HasSubstr(l.assignment));
   }
-  EXPECT_EQ(test::outcome([] { test::parse(membrane, {"refine.adaptive=false"}); }).message, "");
 }
 
 TEST(BrokenScene, FacesOfASecondBodyThatIsNotNamed) {
