@@ -3,10 +3,12 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <string>
+#include <thread>
 
 #include "core/sdk/given_friction.hpp"
 #include "core/sdk/given_friction_solver.hpp"
@@ -150,7 +152,7 @@ class Plane final : public FunctionalObstacle<2, GivenFriction<2>, GivenFriction
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<2>* constraints,
                 Status& status) const noexcept override {
     static std::atomic<int> calls = 0;
-    static volatile double shared = 0;
+    static std::atomic<int> inside = 0;
     for (std::size_t i = 0; i < count && status.ok(); ++i) {
       const SurfaceVertex& v = vertices[i];
       LocalConstraint<2>& c = constraints[i];
@@ -176,9 +178,9 @@ class Plane final : public FunctionalObstacle<2, GivenFriction<2>, GivenFriction
       if (has("depends_on_order")) c.lower[0] -= 1e-3 * static_cast<double>(i);
       if (has("depends_on_calls")) c.lower[0] -= 1e-3 * ++calls;
       if (has("minds_threads")) {
-        shared = c.lower[0];
-        for (int wait = 0; wait < 100; ++wait) shared = shared + 0;
-        c.lower[0] = shared;
+        if (++inside > 1) c.lower[0] -= 1;  // another thread is here, too
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+        --inside;
       }
       if (has("status_of_plugin")) status.fail(0, "it cannot");
     }
