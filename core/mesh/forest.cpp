@@ -182,7 +182,8 @@ class Forest<D>::Cutting {
         edges_.push_back({{std::min(v[0], v[1]), std::max(v[0], v[1])}, forest_.tree_[node].root});
     }
     std::ranges::sort(edges_, {}, [](const Edge& e) { return std::pair(e.ends, e.root); });
-    edges_.erase(std::ranges::unique(edges_, {}, &Edge::ends).begin(), edges_.end());
+    const auto same = [](const Edge& a, const Edge& b) { return a.ends == b.ends; };
+    edges_.erase(std::unique(edges_.begin(), edges_.end(), same), edges_.end());
     find_faces();
   }
 
