@@ -62,24 +62,24 @@ void Adaptation<D>::refine(std::span<const double> share, double growth) {
 
 template <int D>
 std::vector<double> Adaptation<D>::carried_over(const std::vector<double>& u, int block) const {
-  const std::size_t ids = static_cast<std::size_t>(std::ranges::max(made_.id)) + 1;
-  std::vector<const double*> at(ids, nullptr);
-  for (std::size_t v = 0; v < before_.size(); ++v) at[before_[v]] = u.data() + v * block;
+  const auto width = static_cast<std::size_t>(block);
+  std::vector<double> at((static_cast<std::size_t>(std::ranges::max(made_.id)) + 1) * width);
+  std::vector<bool> known(at.size() / width, false);
+  for (std::size_t v = 0; v < before_.size(); ++v) {
+    std::copy_n(u.begin() + static_cast<Offset>(v * width), width, at.begin() + before_[v] * block);
+    known[before_[v]] = true;
+  }
   // Parents have lower ids than their children.
   std::vector<VertexId> in_order = made_.id;
   std::ranges::sort(in_order);
-  std::vector<std::vector<double>> made;
-  made.reserve(ids);
   for (const VertexId id : in_order) {
-    if (at[id]) continue;
+    if (known[id]) continue;
     const auto [a, b] = forest_.parents(id);
-    std::vector<double>& value = made.emplace_back(block);
-    for (int k = 0; k < block; ++k) value[k] = 0.5 * at[a][k] + 0.5 * at[b][k];
-    at[id] = value.data();
+    for (int k = 0; k < block; ++k) at[id * block + k] = 0.5 * at[a * block + k] + 0.5 * at[b * block + k];
   }
   std::vector<double> out;
-  out.reserve(made_.id.size() * block);
-  for (const VertexId id : made_.id) out.insert(out.end(), at[id], at[id] + block);
+  out.reserve(made_.id.size() * width);
+  for (const VertexId id : made_.id) out.insert(out.end(), at.begin() + id * block, at.begin() + (id + 1) * block);
   return out;
 }
 
