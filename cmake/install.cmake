@@ -46,7 +46,7 @@ install(FILES ${PROJECT_BINARY_DIR}/signorini_c.pc DESTINATION ${CMAKE_INSTALL_L
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
 
-install(TARGETS signorini_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+install(TARGETS signorini_pictures signorini_certificate LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 if(SIGNORINI_GPL)
   install(TARGETS signorini_plane signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 endif()

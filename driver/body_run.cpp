@@ -23,7 +23,7 @@
 #include "driver/strain_warnings.hpp"
 #include "driver/touching_bodies.hpp"
 #include "driver/turned_friction.hpp"
-#include "estimators/certificate.hpp"
+#include "estimators/estimator.hpp"
 
 namespace signorini {
 namespace {
@@ -261,9 +261,10 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
 
 template <int D, int B>
 Estimate BodyRun<D, B>::estimate(bool cheap) const {
-  CertificateOptions<B> options{{}, algebraic_error_};
+  EstimateOptions<B> options{{}, algebraic_error_};
   if (B > 1 && !cheap) options.solve = rough_solve<B>(registry_);
-  return certificate<D, B>(nodes(), model_, results_.u, options);
+  const auto estimator = registry_.create<Estimator<D, B>>("estimator", "certificate");
+  return estimator->estimate(nodes(), model_, results_.u, options);
 }
 
 template <int D, int B>

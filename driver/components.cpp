@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <string_view>
 
+#include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/base/own_name.hpp"
 #include "core/component/plugin_loader.hpp"
 #include "core/scene/specs.hpp"
+#include "estimators/registration.hpp"
 #include "methods/configuration.hpp"
 
 namespace signorini {
@@ -41,6 +43,12 @@ void refuse_options_of_others(const Scene::Obstacle& obstacle, Registry& registr
 }
 
 }  // namespace
+
+Registry all_components() {
+  Registry registry = solver_components();
+  register_estimators(registry);
+  return registry;
+}
 
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
   PluginLoader loader(registry, scene.plugin_path);

@@ -5,6 +5,9 @@
 
 namespace signorini {
 
+/// Solver components and estimators.
+Registry all_components();
+
 /// Loads the plugins of the obstacles that a scene names, and says which file each came from.
 std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry);
 

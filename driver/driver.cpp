@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "amg/registration.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/io/warning_kinds.hpp"
@@ -38,7 +37,7 @@ const Progress& Driver::waiting() {
 }
 
 Driver::Driver(Scene scene, const Progress& progress)
-    : scene_(std::move(scene)), progress_(progress), registry_(solver_components()) {
+    : scene_(std::move(scene)), progress_(progress), registry_(all_components()) {
   check_components(scene_, registry_);
   report_.scene = scene_.file.string();
   report_.title = scene_.title;

@@ -3,7 +3,7 @@
 
 #include "core/component/registry.hpp"
 #include "core/io/report.hpp"
-#include "estimators/certificate.hpp"
+#include "estimators/estimator.hpp"
 
 namespace signorini {
 

@@ -6,7 +6,6 @@
 #include <set>
 #include <string_view>
 
-#include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/option_text.hpp"
 #include "apps/signorini/text.hpp"
@@ -104,7 +103,8 @@ void print_libraries() {
   for (const Companion& companion : companions) {
     const std::string file = path_of(companion).string(), why = why_missing(companion);
     std::error_code ignored;
-    say("  {:<16}  {}, with {}, loaded where it is needed\n", companion.name, companion.what, companion.of);
+    say("  {:<16}  {}{}, loaded where it is needed\n", companion.name, companion.what,
+        *companion.of ? fmt::format(", with {}", companion.of) : "");
     if (std::filesystem::exists(file, ignored))
       say("      from {}\n      licence: {}\n", file, companion.licence);
     else
@@ -132,7 +132,7 @@ const std::vector<std::string>& listable_kinds() {
 }
 
 void list_command(const std::string& kinds) {
-  Registry registry = solver_components();
+  Registry registry = all_components();
   PluginLoader loader(registry);
   Catalogue all = catalogue(registry, loader);
   std::ranges::copy(coarsenings(), std::back_inserter(all.entries));

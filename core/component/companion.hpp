@@ -5,13 +5,13 @@
 
 namespace signorini {
 
-/// A library of the project that lies beside the core library and is loaded when something needs it, for it is linked
-/// with what is under another licence.
+/// A library of the project that lies beside the core library and is loaded when something needs it: it is linked with
+/// what is under another licence, or few scenes need it.
 struct Companion {
   const char* name;
   const char* file;
   const char* what;     ///< it is, for messages
-  const char* of;       ///< what it is linked with
+  const char* of;       ///< what it is linked with that is no part of the project; "": nothing
   const char* licence;  ///< of both together, as SPDX names it
   bool gpl;             ///< a build with SIGNORINI_GPL=OFF leaves it out
 };
@@ -28,7 +28,10 @@ inline constexpr Companion picture_library{"pictures",
                                            "Cairo",
                                            "BSD-3-Clause AND (LGPL-2.1-only OR MPL-1.1)",
                                            false};
-inline constexpr std::array companions{plane_library, geometry_library, direct_solvers, picture_library};
+inline constexpr Companion certificate_library{
+    "certificate", "libsignorini_certificate.so", "the error estimator", "", "BSD-3-Clause", false};
+inline constexpr std::array companions{plane_library, geometry_library, direct_solvers, picture_library,
+                                       certificate_library};
 
 /// Beside the core library.
 std::filesystem::path path_of(const Companion& companion);

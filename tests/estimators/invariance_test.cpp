@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "estimators/certificate.hpp"
+#include "estimators/certificate/certificate.hpp"
 #include "tests/core/fem/support.hpp"
 
 namespace signorini::test {
@@ -67,7 +67,7 @@ std::vector<double> backwards(const std::vector<double>& u) {
 
 template <int D>
 Estimate estimate(const Mesh<D>& mesh, const Model<D>& model, const std::vector<double>& u) {
-  CertificateOptions<D> options;
+  EstimateOptions<D> options;
   options.solve = [](const DiscreteProblem<D>& problem, std::vector<double>& x) {
     x = solve_dense(problem);
     return true;

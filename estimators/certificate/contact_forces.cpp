@@ -1,8 +1,8 @@
-#include "estimators/contact_forces.hpp"
+#include "estimators/certificate/contact_forces.hpp"
 
 #include <cmath>
 
-#include "estimators/small_solve.hpp"
+#include "estimators/certificate/small_solve.hpp"
 
 namespace signorini {
 namespace {

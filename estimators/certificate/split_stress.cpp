@@ -1,4 +1,4 @@
-#include "estimators/split_stress.hpp"
+#include "estimators/certificate/split_stress.hpp"
 
 #include <Eigen/QR>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "estimators/flux.hpp"
-#include "estimators/split_stress.hpp"
+#include "estimators/certificate/flux.hpp"
+#include "estimators/certificate/split_stress.hpp"
 
 namespace signorini {
 

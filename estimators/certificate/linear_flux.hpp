@@ -1,5 +1,5 @@
 #pragma once
-#include "estimators/flux.hpp"
+#include "estimators/certificate/flux.hpp"
 
 namespace signorini {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "estimators/face_moments.hpp"
+#include "estimators/certificate/face_moments.hpp"
 
 /// Changes of the values of a flux at faces that keep every element in equilibrium, and what is given: z = P g for a
 /// gradient g, with P symmetric and roughly the inverse of the misfit's second derivative on some of these changes.

@@ -1,4 +1,4 @@
-#include "estimators/true_problem.hpp"
+#include "estimators/certificate/true_problem.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
-#include "estimators/bubbles.hpp"
+#include "estimators/certificate/bubbles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimators/small_solve.hpp"
+#include "estimators/certificate/small_solve.hpp"
 
 namespace signorini {
 

@@ -1,11 +1,11 @@
-#include "estimators/misfit.hpp"
+#include "estimators/certificate/misfit.hpp"
 
 #include <type_traits>
 
 #include "core/base/dot.hpp"
-#include "estimators/free_changes.hpp"
-#include "estimators/linear_flux.hpp"
-#include "estimators/stress_element.hpp"
+#include "estimators/certificate/free_changes.hpp"
+#include "estimators/certificate/linear_flux.hpp"
+#include "estimators/certificate/stress_element.hpp"
 
 namespace signorini {
 

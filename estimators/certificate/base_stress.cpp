@@ -1,4 +1,4 @@
-#include "estimators/base_stress.hpp"
+#include "estimators/certificate/base_stress.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "estimators/free_changes.hpp"
+#include "estimators/certificate/free_changes.hpp"
 
 namespace signorini {
 namespace {

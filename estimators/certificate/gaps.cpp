@@ -1,4 +1,4 @@
-#include "estimators/gaps.hpp"
+#include "estimators/certificate/gaps.hpp"
 
 #include <fmt/format.h>
 

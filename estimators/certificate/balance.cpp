@@ -1,9 +1,9 @@
-#include "estimators/balance.hpp"
+#include "estimators/certificate/balance.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "estimators/small_solve.hpp"
+#include "estimators/certificate/small_solve.hpp"
 
 namespace signorini {
 namespace {

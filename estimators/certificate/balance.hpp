@@ -1,5 +1,5 @@
 #pragma once
-#include "estimators/face_moments.hpp"
+#include "estimators/certificate/face_moments.hpp"
 
 namespace signorini {
 

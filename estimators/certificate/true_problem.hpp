@@ -8,9 +8,9 @@
 #include "core/fem/material.hpp"
 #include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
-#include "estimators/gaps.hpp"
-#include "estimators/incidence.hpp"
-#include "estimators/reasons.hpp"
+#include "estimators/certificate/gaps.hpp"
+#include "estimators/certificate/incidence.hpp"
+#include "estimators/certificate/reasons.hpp"
 
 namespace signorini {
 

@@ -1,4 +1,4 @@
-#include "estimators/incidence.hpp"
+#include "estimators/certificate/incidence.hpp"
 
 #include <algorithm>
 

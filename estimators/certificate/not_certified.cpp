@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "estimators/certificate.hpp"
+#include "estimators/certificate/certificate.hpp"
 
 namespace signorini {
 

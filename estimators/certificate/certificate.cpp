@@ -1,4 +1,4 @@
-#include "estimators/certificate.hpp"
+#include "estimators/certificate/certificate.hpp"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <limits>
 #include <numeric>
 
-#include "estimators/balance.hpp"
-#include "estimators/base_stress.hpp"
-#include "estimators/contact_forces.hpp"
-#include "estimators/misfit.hpp"
+#include "estimators/certificate/balance.hpp"
+#include "estimators/certificate/base_stress.hpp"
+#include "estimators/certificate/contact_forces.hpp"
+#include "estimators/certificate/misfit.hpp"
 
 namespace signorini {
 namespace {
@@ -31,7 +31,7 @@ template <int D, int B>
 class Certificate {
  public:
   Certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
-              const CertificateOptions<B>& options)
+              const EstimateOptions<B>& options)
       : nodes_(nodes), model_(model), u_(u), options_(options), problem_(nodes, model, u), lifted_(problem_, u) {}
 
   Estimate compute() {
@@ -130,7 +130,7 @@ class Certificate {
   const Nodes<D>& nodes_;
   const Model<B>& model_;
   const std::vector<double>& u_;
-  const CertificateOptions<B>& options_;
+  const EstimateOptions<B>& options_;
   TrueProblem<D, B> problem_;
   Bubbles<D, B> lifted_;  // with u: v
   Estimate out_;
@@ -140,19 +140,15 @@ class Certificate {
 
 template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
-                     const CertificateOptions<B>& options) {
+                     const EstimateOptions<B>& options) {
   std::vector<std::string> reasons = not_certified<D, B>(nodes, model);
   if (!reasons.empty()) return no_numbers(std::move(reasons));
   return Certificate<D, B>(nodes, model, u, options).compute();
 }
 
-template Estimate certificate(const Nodes<2>&, const Model<1>&, const std::vector<double>&,
-                              const CertificateOptions<1>&);
-template Estimate certificate(const Nodes<3>&, const Model<1>&, const std::vector<double>&,
-                              const CertificateOptions<1>&);
-template Estimate certificate(const Nodes<2>&, const Model<2>&, const std::vector<double>&,
-                              const CertificateOptions<2>&);
-template Estimate certificate(const Nodes<3>&, const Model<3>&, const std::vector<double>&,
-                              const CertificateOptions<3>&);
+template Estimate certificate(const Nodes<2>&, const Model<1>&, const std::vector<double>&, const EstimateOptions<1>&);
+template Estimate certificate(const Nodes<3>&, const Model<1>&, const std::vector<double>&, const EstimateOptions<1>&);
+template Estimate certificate(const Nodes<2>&, const Model<2>&, const std::vector<double>&, const EstimateOptions<2>&);
+template Estimate certificate(const Nodes<3>&, const Model<3>&, const std::vector<double>&, const EstimateOptions<3>&);
 
 }  // namespace signorini

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/base/dense.hpp"
-#include "estimators/balance.hpp"
+#include "estimators/certificate/balance.hpp"
 
 namespace signorini {
 namespace {

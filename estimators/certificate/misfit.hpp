@@ -1,6 +1,6 @@
 #pragma once
-#include "estimators/bubbles.hpp"
-#include "estimators/face_moments.hpp"
+#include "estimators/certificate/bubbles.hpp"
+#include "estimators/certificate/face_moments.hpp"
 
 namespace signorini {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "estimators/free_changes.hpp"
-#include "estimators/small_solve.hpp"
+#include "estimators/certificate/free_changes.hpp"
+#include "estimators/certificate/small_solve.hpp"
 
 namespace signorini {
 namespace {

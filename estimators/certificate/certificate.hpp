@@ -1,23 +1,10 @@
 #pragma once
-#include <functional>
+#include <string>
+#include <vector>
 
-#include "core/fem/model.hpp"
-#include "core/fem/nodes.hpp"
-#include "core/solver/discrete_problem.hpp"
-#include "estimators/estimate.hpp"
+#include "estimators/estimator.hpp"
 
 namespace signorini {
-
-/// Solves A x = b of a problem without obstacles, whose prescribed values are zero, roughly: to a residual of
-/// about 1e-4. False: it could not.
-template <int B>
-using LinearSolve = std::function<bool(const DiscreteProblem<B>& problem, std::vector<double>& x)>;
-
-template <int B>
-struct CertificateOptions {
-  LinearSolve<B> solve;        ///< for a sharper bound of elastic bodies; none: they do without
-  double algebraic_error = 0;  ///< of the solution, relative, in the energy norm: for parts.algebra alone
-};
 
 /// Bounds of J(v) - J(u) for the energy J of a model, its solution u, and v, a finite element function near its
 /// discrete solution, made admissible between nodes. From above by a flux tau in equilibrium with the loads (Prager and
@@ -27,7 +14,7 @@ struct CertificateOptions {
 /// @param u global coordinates, B per node
 template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
-                     const CertificateOptions<B>& options = {});
+                     const EstimateOptions<B>& options = {});
 
 /// Why a model cannot have a certificate, one sentence each; none: it can.
 template <int D, int B>

@@ -1,8 +1,8 @@
-#include "estimators/face_moments.hpp"
+#include "estimators/certificate/face_moments.hpp"
 
 #include <cmath>
 
-#include "estimators/small_solve.hpp"
+#include "estimators/certificate/small_solve.hpp"
 
 namespace signorini {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 #include "core/solver/discrete_problem.hpp"
-#include "estimators/bubbles.hpp"
-#include "estimators/certificate.hpp"
-#include "estimators/face_moments.hpp"
+#include "estimators/certificate/bubbles.hpp"
+#include "estimators/certificate/certificate.hpp"
+#include "estimators/certificate/face_moments.hpp"
 
 namespace signorini {
 

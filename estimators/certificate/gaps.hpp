@@ -4,8 +4,8 @@
 
 #include "core/fem/model.hpp"
 #include "core/fem/nodes.hpp"
-#include "estimators/incidence.hpp"
-#include "estimators/reasons.hpp"
+#include "estimators/certificate/incidence.hpp"
+#include "estimators/certificate/reasons.hpp"
 
 namespace signorini {
 

@@ -2,8 +2,8 @@
 #include <functional>
 #include <vector>
 
-#include "estimators/flux.hpp"
-#include "estimators/true_problem.hpp"
+#include "estimators/certificate/flux.hpp"
+#include "estimators/certificate/true_problem.hpp"
 
 namespace signorini {
 

@@ -1,0 +1,1 @@
+// Nothing: its headers are what is compiled, see precompiled.cmake.

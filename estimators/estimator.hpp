@@ -1,0 +1,37 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/fem/model.hpp"
+#include "core/fem/nodes.hpp"
+#include "core/solver/discrete_problem.hpp"
+#include "estimators/estimate.hpp"
+
+namespace signorini {
+
+/// Solves A x = b of a problem without obstacles, whose prescribed values are zero, roughly: to a residual of
+/// about 1e-4. False: it could not.
+template <int B>
+using LinearSolve = std::function<bool(const DiscreteProblem<B>& problem, std::vector<double>& x)>;
+
+template <int B>
+struct EstimateOptions {
+  LinearSolve<B> solve;        ///< for a sharper bound of elastic bodies; none: they do without
+  double algebraic_error = 0;  ///< of the solution, relative, in the energy norm: for parts.algebra alone
+};
+
+/// How far a discrete solution is from the solution of its model. D is the dimension of the mesh, B the components of
+/// the unknown: (2, 1), (3, 1), (2, 2) or (3, 3).
+template <int D, int B>
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+
+  /// @param u the discrete solution in global coordinates, B numbers per node
+  /// What it does not cover is said in Estimate::reasons; where it has no numbers then, they are not finite.
+  virtual Estimate estimate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                            const EstimateOptions<B>& options) const = 0;
+};
+
+}  // namespace signorini
