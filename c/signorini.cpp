@@ -9,16 +9,20 @@
 #include <new>
 
 #include "amg/black_box.hpp"
+#include "amg/black_box/recognise_block.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/options_from_text.hpp"
 
 struct signorini_solver {
   signorini::BlackBox solver;
   std::size_t unknowns;
+  signorini::Index vectors;  // blocks of unknowns
   bool one_triangle = false;
-  std::vector<signed char> active;  // of the last solve that wrote results; empty: none did
+  std::vector<signed char> active{};  // of the last solve that wrote results; empty: none did
   signorini_monitor monitor = nullptr;
   void* monitor_data = nullptr;
+  const signorini::IterationRecord* cycle = nullptr;  // while the monitor is called
+  std::vector<signorini_cycle> history{};             // of the last solve that wrote results
 };
 
 namespace {
@@ -145,8 +149,9 @@ int create(const Matrix& matrix, int block, const signorini_setup* given, signor
     const signorini_setup setup = complete(given);
     const bool one_triangle = setup.one_triangle != 0;
     const SparseRows A = one_triangle ? signorini::from_triangle(matrix()) : matrix();
-    BlackBox box = box_of(A, block, setup);
-    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), one_triangle, {}};
+    const int found = block == 0 && setup.levels == 0 ? signorini::recognised_block(A) : block;
+    BlackBox box = box_of(A, found, setup);
+    *solver = new signorini_solver{std::move(box), static_cast<std::size_t>(A.rows), A.rows / found, one_triangle};
     return report(SIGNORINI_SOLVED, "set up");
   });
 }
@@ -170,10 +175,19 @@ int status_of(Outcome outcome) {
   return SIGNORINI_FAILURE;
 }
 
-signorini::Monitor monitor_of(const signorini_solver& solver) {
+signorini_cycle cycle_of(const signorini::IterationRecord& record, signorini::Index vectors) {
+  const bool finest = record.levels.empty() || record.levels.back().vectors == vectors;
+  return {record.iteration,       finest,       record.contact_nodes, record.changed, record.residual,
+          record.algebraic_error, record.energy};
+}
+
+signorini::Monitor monitor_of(signorini_solver& solver) {
   if (!solver.monitor) return {};
-  return [call = solver.monitor, data = solver.monitor_data](const auto& record) {
-    return call(record.iteration, record.residual, record.algebraic_error, data) == 0;
+  return [&solver](const signorini::IterationRecord& record) {
+    solver.cycle = &record;
+    const int stop = solver.monitor(record.iteration, record.residual, record.algebraic_error, solver.monitor_data);
+    solver.cycle = nullptr;
+    return stop == 0;
   };
 }
 
@@ -221,6 +235,8 @@ int signorini_solve(signorini_solver* solver, const double* b, const double* low
       if (multiplier) std::ranges::copy(result.multiplier, multiplier);
       if (summary) *summary = summary_of(result.summary);
       solver->active = std::move(result.active);
+      solver->history.clear();
+      for (const auto& record : result.summary.history) solver->history.push_back(cycle_of(record, solver->vectors));
     }
     return report(status, result.summary.reason.c_str());
   });
@@ -256,5 +272,28 @@ int signorini_set_monitor(signorini_solver* solver, signorini_monitor monitor, v
     solver->monitor = monitor;
     solver->monitor_data = data;
     return report(SIGNORINI_SOLVED, "monitored");
+  });
+}
+
+int signorini_current_cycle(const signorini_solver* solver, signorini_cycle* cycle) {
+  return guarded([&] {
+    require(solver, "solver");
+    require(cycle, "cycle");
+    if (!solver->cycle) signorini::input_error("solver", "is not within its monitor");
+    *cycle = cycle_of(*solver->cycle, solver->vectors);
+    return report(SIGNORINI_SOLVED, "the cycle at hand");
+  });
+}
+
+int signorini_history(const signorini_solver* solver, std::int32_t size, signorini_cycle* cycles, std::int32_t* count) {
+  return guarded([&] {
+    require(solver, "solver");
+    require(count, "count");
+    if (size < 0) signorini::input_error("size", fmt::format("found {}, expected 0 or more", size));
+    if (size > 0) require(cycles, "cycles");
+    const auto& all = solver->history;
+    std::copy_n(all.begin(), std::min<std::size_t>(static_cast<std::size_t>(size), all.size()), cycles);
+    *count = static_cast<std::int32_t>(all.size());
+    return report(SIGNORINI_SOLVED, "the cycles of the last solve");
   });
 }

@@ -125,6 +125,25 @@ int signorini_set_matrix(signorini_solver* solver, const signorini_rows* matrix)
 typedef int (*signorini_monitor)(int iteration, double residual, double algebraic_error, void* data);
 int signorini_set_monitor(signorini_solver* solver, signorini_monitor monitor, void* data);
 
+/* A cycle, or a step of another method. Keeps its members. */
+typedef struct {
+  int32_t iteration; /* from 1, over all methods that were kept */
+  int32_t finest;    /* 1: on the matrix itself; 0: on a coarser level, to give a start */
+  int32_t contact;   /* blocks with an unknown at a bound */
+  int32_t changed;   /* blocks where that has changed since the last cycle */
+  double residual;   /* as in signorini_summary */
+  double algebraic_error, energy;
+} signorini_cycle;
+
+/* Within the monitor: the cycle after which it is called. */
+int signorini_current_cycle(const signorini_solver* solver, signorini_cycle* cycle);
+
+/*
+ * The cycles of the last solve that wrote results, in their order: at most `size` of them are written to `cycles`,
+ * which may be null where `size` is 0, and *count is how many there are.
+ */
+int signorini_history(const signorini_solver* solver, int32_t size, signorini_cycle* cycles, int32_t* count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -313,6 +313,53 @@ TEST_F(CSetup, StopsWhenTheMonitorSaysSo) {
   EXPECT_EQ(solve(), SIGNORINI_SOLVED);
 }
 
+struct Watched {
+  signorini_solver* solver;
+  std::vector<signorini_cycle> coarse, finest;
+};
+
+int keep_cycle(int iteration, double residual, double algebraic_error, void* data) {
+  auto& watched = *static_cast<Watched*>(data);
+  signorini_cycle cycle;
+  EXPECT_EQ(signorini_current_cycle(watched.solver, &cycle), SIGNORINI_SOLVED);
+  EXPECT_EQ(cycle.iteration, iteration);
+  EXPECT_EQ(cycle.residual, residual);
+  EXPECT_EQ(cycle.algebraic_error, algebraic_error);
+  (cycle.finest ? watched.finest : watched.coarse).push_back(cycle);
+  return 0;
+}
+
+// Those of the class, and those that the monitor was told of.
+TEST_F(CSetup, KeepsTheCyclesOfTheLastSolve) {
+  ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
+  std::int32_t count = -1;
+  ASSERT_EQ(signorini_history(solver, 0, nullptr, &count), SIGNORINI_SOLVED);
+  EXPECT_EQ(count, 0);
+  Watched watched{solver, {}, {}};
+  ASSERT_EQ(signorini_set_monitor(solver, keep_cycle, &watched), SIGNORINI_SOLVED);
+  ASSERT_EQ(solve(), SIGNORINI_SOLVED);
+  const Summary expected = BlackBox(A).solve(b, lower).summary;
+  std::vector<signorini_cycle> cycles(expected.history.size());
+  ASSERT_EQ(signorini_history(solver, 1000, cycles.data(), &count), SIGNORINI_SOLVED);
+  ASSERT_EQ(count, std::ssize(expected.history));
+  ASSERT_EQ(watched.finest.size(), cycles.size());
+  EXPECT_GE(watched.coarse.size(), 1u);
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    EXPECT_EQ(cycles[k].iteration, expected.history[k].iteration);
+    EXPECT_EQ(cycles[k].energy, expected.history[k].energy);
+    EXPECT_EQ(cycles[k].contact, expected.history[k].contact_nodes);
+    EXPECT_EQ(cycles[k].changed, expected.history[k].changed);
+    EXPECT_EQ(cycles[k].finest, 1);
+    EXPECT_NEAR(watched.finest[k].energy, cycles[k].energy, 1e-12);  // rounding is taken out at the end
+  }
+  signorini_cycle first;
+  ASSERT_EQ(signorini_history(solver, 1, &first, &count), SIGNORINI_SOLVED);
+  EXPECT_EQ(first.energy, cycles[0].energy);
+  EXPECT_EQ(signorini_current_cycle(solver, &first), SIGNORINI_BAD_INPUT) << "no monitor is being called";
+  EXPECT_EQ(signorini_history(solver, -1, &first, &count), SIGNORINI_BAD_INPUT);
+  EXPECT_EQ(signorini_history(solver, 1, nullptr, &count), SIGNORINI_BAD_INPUT);
+}
+
 TEST_F(CSetup, TakesAnotherMatrix) {
   ASSERT_EQ(create_with(), SIGNORINI_SOLVED) << signorini_message();
   ASSERT_EQ(solve(), SIGNORINI_SOLVED);
