@@ -43,6 +43,12 @@ endforeach()
 configure_file(cmake/signorini_c.pc.in ${PROJECT_BINARY_DIR}/signorini_c.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/signorini_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT sdk)
 
+# The Python package, for pip: share/signorini/python.
+file(WRITE ${PROJECT_BINARY_DIR}/python/VERSION "${PROJECT_VERSION}\n")
+install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT sdk
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.toml" PATTERN py.typed PATTERN __pycache__ EXCLUDE PATTERN .mypy_cache EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/python/VERSION LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini/python COMPONENT sdk)
+
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT sdk)
 

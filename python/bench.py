@@ -140,7 +140,7 @@ def with_tao(kind: str) -> Solve:
         tao.setMaximumFunctionEvaluations(10**7)
         tao.setTolerances(gatol=tolerance * b.norm(), grtol=0, gttol=0)
         tao.getKSP().setTolerances(rtol=1e-3, max_it=10**5)
-        tao.getKSP().getPC().setType("icc" if kind == "bnls" else "jacobi")
+        tao.getKSP().getPC().setType("icc")
         tao.setFromOptions()
         tao.solve(x)
         return x.getArray().copy(), int(tao.getIterationNumber())
@@ -249,7 +249,7 @@ def print_overhead(side: int) -> None:
 def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("--side", type=int, default=200)
-    arguments.add_argument("--seconds", type=float, default=300)
+    arguments.add_argument("--seconds", type=float, default=100)
     arguments.add_argument("--overhead-side", type=int, default=65)
     arguments.add_argument("names", nargs="*", default=list(solvers), metavar="NAME")
     given = arguments.parse_args()

@@ -1,6 +1,7 @@
 """Builds the wheel (PEP 517): the package and the compiled library, with nothing but the standard library.
 
-    python3 -m pip install ./python
+    python3 -m pip install ./python                          # in a source tree with a build
+    python3 -m pip install PREFIX/share/signorini/python     # of what is installed
 """
 from __future__ import annotations
 
@@ -32,10 +33,18 @@ def _project() -> dict[str, Any]:
 
 
 def _version() -> str:
-    found = re.search(r"^project\(signorini VERSION ([\d.]+)", (_here.parent / "CMakeLists.txt").read_text(), re.M)
+    installed, source = _here / "VERSION", _here.parent / "CMakeLists.txt"
+    if installed.is_file():
+        return installed.read_text().strip()
+    found = re.search(r"^project\(signorini VERSION ([\d.]+)", source.read_text(), re.M)
     if not found:
-        raise RuntimeError(f"{_here.parent / 'CMakeLists.txt'}: there is no line project(signorini VERSION ...")
+        raise RuntimeError(f"{source}: there is no line project(signorini VERSION ...")
     return found.group(1)
+
+
+def _licence_text() -> bytes:
+    installed = _here / "LICENSE"
+    return (installed if installed.is_file() else _here.parent / "LICENSE").read_bytes()
 
 
 def _metadata() -> str:
@@ -108,7 +117,7 @@ def build_wheel(wheel_directory: str, config_settings: dict[str, Any] | None = N
     information = _information()
     files[f"{information}/METADATA"] = _metadata().encode()
     files[f"{information}/WHEEL"] = _wheel().encode()
-    files[f"{information}/LICENSE"] = (_here.parent / "LICENSE").read_bytes()
+    files[f"{information}/LICENSE"] = _licence_text()
     record = f"{information}/RECORD"
     files[record] = _record(files, record).encode()
     name = f"signorini-{_version()}-{_tag}.whl"

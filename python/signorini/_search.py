@@ -14,6 +14,7 @@ _build_trees = ("release", "release-assert")
 
 
 def _prefixes() -> Iterator[Path]:
+    yield Path(__file__).resolve().parents[4]  # of share/signorini/python/signorini
     yield Path(sys.prefix)
     yield Path("/usr/local")
     yield Path("/usr")
@@ -51,7 +52,7 @@ def find_library() -> Path:
     for folder in folders:
         if (folder / LIBRARY).is_file():
             return (folder / LIBRARY).resolve()
-    searched = "\n".join(f"  {folder / LIBRARY}" for folder in folders)
+    searched = "\n".join(f"  {folder / LIBRARY}" for folder in dict.fromkeys(folders))
     raise FileNotFoundError(
         f"{LIBRARY} is not there. Build it (./dev build release signorini_c), install it (./dev install PREFIX), or name it "
         f"by the environment variable SIGNORINI_LIBRARY. Searched:\n{searched}")
@@ -70,7 +71,7 @@ def find_program(built_beside: str | None) -> Path:
     folders = [Path(folder) for folder in os.environ.get("PATH", "").split(os.pathsep) if folder]
     folders += [prefix / "bin" for prefix in _prefixes()]
     if built_beside:
-        folders.append(Path(built_beside).parent / "bin")
+        folders += [parent / "bin" for parent in list(Path(built_beside).parents)[:2]]
     project = project_folder()
     if project:
         folders += [project / "build" / tree / "bin" for tree in _build_trees]

@@ -21,7 +21,7 @@ SIGNORINI_LIBRARY=$build/lib "$python" -m pip install --quiet --no-index --disab
 "$python" -m pip check --disable-pip-version-check | grep signorini && exit 1
 
 unset SIGNORINI_LIBRARY
-export SIGNORINI_PROGRAM="$build/bin/signorini"
+export SIGNORINI_BUILD="$build" SIGNORINI_PROGRAM="$build/bin/signorini"
 cd "$source"
 "$python" -m pytest -q -p no:cacheprovider --doctest-modules --doctest-glob=python.md --pyargs signorini tests/python \
   docs/python.md

@@ -1,6 +1,7 @@
 """The wheel, and what is said where the library or the program is not there."""
 import base64
 import hashlib
+import json
 import os
 import re
 import subprocess
@@ -45,6 +46,19 @@ def test_the_wheel_holds_the_library_and_says_for_what_it_is(wheel):
         if digest:
             expected = base64.urlsafe_b64encode(hashlib.sha256(files[name]).digest()).rstrip(b"=").decode()
             assert digest == f"sha256={expected}" and int(size) == len(files[name])
+
+
+def test_an_installed_prefix_makes_a_wheel_of_its_own_library(tmp_path):
+    tree = os.environ.get("SIGNORINI_BUILD", source / "build" / "release-assert")
+    subprocess.run(["cmake", "--install", tree, "--prefix", tmp_path, "--component", "sdk"], check=True, capture_output=True)
+    installed = tmp_path / "share" / "signorini" / "python"
+    environment = {key: value for key, value in os.environ.items() if key != "SIGNORINI_LIBRARY"}
+    made = subprocess.run([*command, str(tmp_path)], cwd=installed, env=environment, capture_output=True, text=True)
+    assert made.returncode == 0, made.stderr
+    library = next(tmp_path.rglob("lib*/libsignorini_c.so.2"))
+    with zipfile.ZipFile(tmp_path / made.stdout.strip()) as archive:
+        assert archive.read("signorini/libsignorini_c.so.2") == library.read_bytes()
+        assert json.loads(archive.read("signorini/_build.json"))["library_folder"] == str(library.parent)
 
 
 def test_the_same_files_make_the_same_wheel(wheel, tmp_path):
