@@ -1,9 +1,9 @@
 """Solvers for a matrix and bounds on an obstacle problem: python3 python/bench.py [--side N] [--seconds T] [NAME...]
 
-A load presses a membrane onto a floor, N x N unknowns (200 x 200). Errors are relative, in the norm of A, against active
-sets with direct solves. Each solver's tolerance is tightened tenfold, from 1e-6, until the error is at most 1e-8; one
-that misses it shows the last solve that ended within T seconds in all. The second table is what Python adds to the C
-library in space, on 65 x 65 x 65 unknowns. Tables are in Markdown.
+A load presses a membrane onto a floor, N x N unknowns (200 x 200). Errors are relative, in the norm of A, against
+active sets with direct solves. Each solver's tolerance is tightened tenfold, from 1e-6, until the error is at most
+1e-8; one that misses it shows the last solve that ended within T seconds in all. The second table is what Python adds to
+the C library in space, on 65 x 65 x 65 unknowns. Tables are in Markdown.
 """
 from __future__ import annotations
 
@@ -108,7 +108,8 @@ def with_lsq_linear(problem: Problem, tolerance: float) -> Run:
         return problem.D @ x
 
     D = scipy.sparse.linalg.LinearOperator(problem.D.shape, matvec=product, rmatvec=lambda y: problem.D.T @ y)
-    result = scipy.optimize.lsq_linear(D, problem.c, (problem.lower, np.inf), tol=tolerance, lsmr_tol="auto", max_iter=10**5)
+    result = scipy.optimize.lsq_linear(D, problem.c, (problem.lower, np.inf), tol=tolerance, lsmr_tol="auto",
+                                      max_iter=10**5)
     return result.x, result.nit
 
 
@@ -255,8 +256,8 @@ def main() -> None:
     given = arguments.parse_args()
     problem = membrane(given.side)
     n, on_floor = len(problem.b), int(np.count_nonzero(problem.solution == problem.lower))
-    print(f"{n} unknowns, {on_floor} of them on the floor; {os.cpu_count()} processors, Python {platform.python_version()}, "
-          f"NumPy {np.__version__}, SciPy {scipy.__version__}\n")
+    print(f"{n} unknowns, {on_floor} of them on the floor; {os.cpu_count()} processors, "
+          f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}\n")
     print("| solver | its tolerance | iterations | error | seconds | times signorini |\n| --- | --- | --- | --- | --- | --- |")
     base = math.nan
     for name in given.names:

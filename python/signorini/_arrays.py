@@ -51,8 +51,8 @@ def _bound(values: Any, name: str, size: int) -> FloatArray | None:
     if array.ndim == 0:
         array = np.full(size, array)
     if array.shape != (size,):
-        raise ValueError(f"{name}: found shape {array.shape}, expected a number, or shape ({size},): one number per row "
-                         "of A")
+        raise ValueError(f"{name}: found shape {array.shape}, expected a number, or shape ({size},): one number per "
+                         "row of A")
     refuse(array, np.isnan(array), name, "numbers, -inf or inf")
     return array
 

@@ -100,8 +100,9 @@ def _require_processor(path: Path) -> None:
     """Code for another processor would end Python without a word."""
     missing = set(built().get("instructions", [])) - _processor.instructions()
     if path.parent == Path(__file__).resolve().parent and missing:
-        raise ImportError(f"{path} was compiled for a processor with {', '.join(sorted(missing))}, which this one does not "
-                          "have; expected a wheel made here, or of a build with -DSIGNORINI_NATIVE=OFF", path=str(path))
+        raise ImportError(f"{path} was compiled for a processor with {', '.join(sorted(missing))}, which this one does "
+                          "not have; expected a wheel made here, or of a build with -DSIGNORINI_NATIVE=OFF",
+                          path=str(path))
 
 
 def message() -> str:

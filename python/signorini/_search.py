@@ -54,8 +54,8 @@ def find_library() -> Path:
             return (folder / LIBRARY).resolve()
     searched = "\n".join(f"  {folder / LIBRARY}" for folder in dict.fromkeys(folders))
     raise FileNotFoundError(
-        f"{LIBRARY} is not there. Build it (./dev build release signorini_c), install it (./dev install PREFIX), or name it "
-        f"by the environment variable SIGNORINI_LIBRARY. Searched:\n{searched}")
+        f"{LIBRARY} is not there. Build it (./dev build release signorini_c), install it (./dev install PREFIX), or "
+        f"name it by the environment variable SIGNORINI_LIBRARY. Searched:\n{searched}")
 
 
 def find_program(built_beside: str | None) -> Path:

@@ -107,8 +107,8 @@ class SceneResult(StepResult):
         dimension = int(report["dimension"])
         super().__init__(report, dimension, files[-1] if files else None, kept)
         steps = report["steps"] or [report]
-        if len(files) != len(steps):  # an adaptive run has a file for each mesh, of which the last one holds the results
-            files = files[-1:] if len(steps) == 1 else []
+        if len(files) != len(steps):  # else there is no telling which is whose
+            files = []
         self.steps = [StepResult(step, dimension, files[k] if files else None, kept) for k, step in enumerate(steps)]
         self.t = self.steps[-1].t
 

@@ -96,7 +96,8 @@ def _fail(status: int, errors: str) -> None:
     if status in (1, 2):
         raise ValueError(message)
     if status == 4:
-        raise Unbounded(message) if "unbounded" in message or "friction does not hold" in message else Infeasible(message)
+        falls = "unbounded" in message or "friction does not hold" in message
+        raise Unbounded(message) if falls else Infeasible(message)
     if status == 5:
         raise PluginError(message)
     if status == 130:

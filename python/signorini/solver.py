@@ -178,8 +178,8 @@ class _Setup:
         if coordinates is not None:
             dimension = np.shape(coordinates)[1] if np.ndim(coordinates) == 2 else 0
             if dimension not in (2, 3) or self._size % dimension or self.block not in (0, dimension):
-                raise ValueError(f"coordinates: found shape {np.shape(coordinates)}, expected one row of 2 or 3 per node, as "
-                                 f"many as A, of {self._size} rows, has per node")
+                raise ValueError(f"coordinates: found shape {np.shape(coordinates)}, expected one row per node, of 2 or "
+                                 f"3 numbers as A, with {self._size} rows, has rows per node")
             nodes = self._size // dimension
             self.block = dimension
             table = columns(coordinates, "coordinates", nodes, f"shape ({nodes}, {dimension}): one row per node")
@@ -196,8 +196,8 @@ class _Setup:
                 raise ValueError("coarse_matrices: given without interpolations")
             return
         if coarse_matrices is not None and len(coarse_matrices) != len(interpolations):
-            raise ValueError(f"coarse_matrices: found {len(coarse_matrices)}, expected {len(interpolations)}, one for each "
-                             "interpolation")
+            raise ValueError(f"coarse_matrices: found {len(coarse_matrices)}, expected {len(interpolations)}, one for "
+                             "each interpolation")
         levels = [rows(P, f"interpolations[{k}]") for k, P in enumerate(interpolations)]
         if self.block == 0:
             vectors = levels[-1].shape[0] if levels else self._size

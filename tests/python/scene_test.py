@@ -39,13 +39,14 @@ def test_results_are_arrays(ball):
 
 
 def test_they_are_those_of_the_program(ball, scenes, program, tmp_path):
-    subprocess.run([program, "solve", scenes / "ball_axisymmetric.toml", "--set", "refine.uniform=1", "--out", tmp_path / "out",
+    out = tmp_path / "out"
+    subprocess.run([program, "solve", scenes / "ball_axisymmetric.toml", "--set", "refine.uniform=1", "--out", out,
                     "--quiet"], check=True)
-    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    report = json.loads((out / "report.json").read_text())
     result = ball().solve()
     assert result.energy == report["energy"]
     np.testing.assert_array_equal(result.displacement,
-                                  signorini.read_vtu(tmp_path / "out" / "solution.vtu").point_data["displacement"][:, :2])
+                                  signorini.read_vtu(out / "solution.vtu").point_data["displacement"][:, :2])
 
 
 @pytest.mark.filterwarnings("ignore::signorini.SceneWarning")
@@ -70,8 +71,8 @@ def test_scalar_bodies_have_one_value_per_node(scenes, program):
 def test_overrides_are_written_as_toml():
     scene = signorini.Scene("s.toml", {"title": 'a "b"', "output.vtu": True, "fix.0.value": np.array([0, -0.5]),
                                        "refine.uniform": np.int64(2), "solver.tolerance": 1e-6, "steps.at": (0.5, 1)})
-    assert scene.arguments[2::2] == ['title="a \\"b\\""', "output.vtu=true", "fix.0.value=[0.0, -0.5]", "refine.uniform=2",
-                                     "solver.tolerance=1e-06", "steps.at=[0.5, 1]"]
+    assert scene.arguments[2::2] == ['title="a \\"b\\""', "output.vtu=true", "fix.0.value=[0.0, -0.5]",
+                                     "refine.uniform=2", "solver.tolerance=1e-06", "steps.at=[0.5, 1]"]
     with pytest.raises(ValueError, match="overrides: found None for title"):
         signorini.Scene("s.toml", {"title": None})
 
@@ -91,13 +92,15 @@ def test_what_is_wrong_is_said_as_the_program_does(ball, program, tmp_path):
 
 
 def test_scenes_without_solution_say_why(program, tmp_path):
-    body = '[[body]]\nname = "b"\nshape = "rectangle"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\nequation = "diffusion"\n'
+    body = ('[[body]]\nname = "b"\nshape = "rectangle"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\n'
+            'equation = "diffusion"\n')
     (tmp_path / "falls.toml").write_text(
         body + '[[load]]\nbody = "b"\nvalue = 1\n[[obstacle]]\ntype = "scalar"\nbody = "b"\nlower = 0\n')
     with pytest.raises(signorini.Unbounded):
         signorini.Scene(tmp_path / "falls.toml", program=program).solve()
     (tmp_path / "empty.toml").write_text(
-        body + '[[fix]]\nbody = "b"\nwhere = "x < 2"\nvalue = 0\n[[obstacle]]\ntype = "scalar"\nbody = "b"\nlower = 1\n')
+        body + '[[fix]]\nbody = "b"\nwhere = "x < 2"\nvalue = 0\n'
+        '[[obstacle]]\ntype = "scalar"\nbody = "b"\nlower = 1\n')
     with pytest.raises(signorini.Infeasible):
         signorini.Scene(tmp_path / "empty.toml", program=program).solve()
 

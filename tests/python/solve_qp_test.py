@@ -54,7 +54,8 @@ def with_duplicates(A):
 
 def with_duplicates_in_rows(A):
     twice = scipy.sparse.csr_matrix(A)
-    return scipy.sparse.csr_matrix((np.repeat(twice.data / 2, 2), np.repeat(twice.indices, 2), 2 * twice.indptr), A.shape)
+    halves, columns = np.repeat(twice.data / 2, 2), np.repeat(twice.indices, 2)
+    return scipy.sparse.csr_matrix((halves, columns, 2 * twice.indptr), A.shape)
 
 
 def with_long_indices(A):
@@ -114,7 +115,8 @@ def test_bounds_are_given_in_several_ways(problem):
 
 
 def test_options_are_those_of_the_solver(problem):
-    result = signorini.solve_qp(problem.A, problem.b, (-0.03, None), method="tnnmg", reassemble=False, relaxation=1, pre=3)
+    result = signorini.solve_qp(problem.A, problem.b, (-0.03, None), method="tnnmg", reassemble=False, relaxation=1,
+                                pre=3)
     assert result.success
     np.testing.assert_allclose(result.x, signorini.solve_qp(problem.A, problem.b, (-0.03, None)).x, atol=1e-9)
 
@@ -182,7 +184,8 @@ def test_problems_without_solution_say_why(problem):
         signorini.solve_qp(graph, [1.0, 1.0])
     with pytest.raises(signorini.Unbounded):
         signorini.solve_qp(np.diag([1.0, 0.0]), [0.0, 1.0])
-    assert issubclass(signorini.Infeasible, signorini.NoSolution) and issubclass(signorini.Unbounded, signorini.NoSolution)
+    assert issubclass(signorini.Infeasible, signorini.NoSolution)
+    assert issubclass(signorini.Unbounded, signorini.NoSolution)
 
 
 def test_the_last_iterate_comes_with_the_error(problem):

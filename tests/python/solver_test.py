@@ -19,8 +19,8 @@ def elastic_square(side):
     along /= np.linalg.norm(along, axis=1)[:, None]
     springs = np.arange(len(pairs))
     D = scipy.sparse.coo_matrix((np.concatenate([-along[:, 0], -along[:, 1], along[:, 0], along[:, 1]]), (
-        np.tile(springs, 4), np.concatenate([2 * pairs[:, 0], 2 * pairs[:, 0] + 1, 2 * pairs[:, 1], 2 * pairs[:, 1] + 1]))),
-        shape=(len(pairs), 2 * nodes)).tocsr()
+        np.tile(springs, 4), np.concatenate([2 * pairs[:, 0], 2 * pairs[:, 0] + 1, 2 * pairs[:, 1],
+                                             2 * pairs[:, 1] + 1]))), shape=(len(pairs), 2 * nodes)).tocsr()
     held = np.where(where[:, 1] == 0)[0]
     lower, upper = np.full(2 * nodes, -np.inf), np.full(2 * nodes, np.inf)
     for k in (0, 1):

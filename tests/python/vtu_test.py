@@ -42,9 +42,10 @@ def file_of(kind, compressed):
         return head + f'appended" offset="{offset}"/>'
 
     compressor = ' compressor="vtkZLibDataCompressor"' if compressed else ""
-    body = (f'<VTKFile type="UnstructuredGrid" byte_order="LittleEndian" header_type="UInt64"{compressor}><UnstructuredGrid>'
-            f'<Piece><PointData>{array("u", points[:, 0].copy())}</PointData><CellData/>'
-            f'<Points>{array("Points", points)}</Points><Cells>{"".join(array(*cell) for cell in cells.items())}</Cells></Piece>'
+    body = (f'<VTKFile type="UnstructuredGrid" byte_order="LittleEndian" header_type="UInt64"{compressor}>'
+            f'<UnstructuredGrid><Piece><PointData>{array("u", points[:, 0].copy())}</PointData><CellData/>'
+            f'<Points>{array("Points", points)}</Points>'
+            f'<Cells>{"".join(array(*cell) for cell in cells.items())}</Cells></Piece>'
             "</UnstructuredGrid>").encode()
     if kind in ("raw", "base64"):
         body += f'<AppendedData encoding="{kind}">\n_'.encode() + appended + b"\n</AppendedData>"
@@ -66,7 +67,8 @@ def test_every_encoding_is_read(kind, compressed, tmp_path):
 
 
 def test_other_files_are_refused(tmp_path):
-    for content in (b"", b"no xml", b"<VTKFile/>", file_of("raw", True)[:-60], file_of("raw", True).replace(b"Int32", b"Str")):
+    whole = file_of("raw", True)
+    for content in (b"", b"no xml", b"<VTKFile/>", whole[:-60], whole.replace(b"Int32", b"Str")):
         (tmp_path / "a.vtu").write_bytes(content)
         with pytest.raises(ValueError, match="a.vtu: is no VTU file"):
             signorini.read_vtu(tmp_path / "a.vtu")

@@ -50,7 +50,8 @@ def test_the_wheel_holds_the_library_and_says_for_what_it_is(wheel):
 
 def test_an_installed_prefix_makes_a_wheel_of_its_own_library(tmp_path):
     tree = os.environ.get("SIGNORINI_BUILD", source / "build" / "release-assert")
-    subprocess.run(["cmake", "--install", tree, "--prefix", tmp_path, "--component", "sdk"], check=True, capture_output=True)
+    subprocess.run(["cmake", "--install", tree, "--prefix", tmp_path, "--component", "sdk"], check=True,
+                   capture_output=True)
     installed = tmp_path / "share" / "signorini" / "python"
     environment = {key: value for key, value in os.environ.items() if key != "SIGNORINI_LIBRARY"}
     made = subprocess.run([*command, str(tmp_path)], cwd=installed, env=environment, capture_output=True, text=True)
@@ -76,7 +77,8 @@ def test_a_library_that_is_not_there_is_asked_for(tmp_path, monkeypatch):
         signorini._search.find_library()
     monkeypatch.delenv("SIGNORINI_PROGRAM", raising=False)
     monkeypatch.setattr(signorini._search, "PROGRAM", "nowhere")
-    with pytest.raises(FileNotFoundError, match="(?s)SIGNORINI_PROGRAM.*Searched:.*/usr/local/bin/nowhere.*/of/bin/nowhere"):
+    searched = "(?s)SIGNORINI_PROGRAM.*Searched:.*/usr/local/bin/nowhere.*/of/bin/nowhere"
+    with pytest.raises(FileNotFoundError, match=searched):
         signorini._search.find_program("/of/lib")
 
 
