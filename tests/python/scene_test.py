@@ -136,6 +136,23 @@ def test_meshes_go_to_meshio(ball):
     assert np.median(on_edges) < 1e-12 and set(mesh.point_data) == set(result.fields)
 
 
+def test_vtk_reads_the_same(ball, tmp_path):
+    xml = pytest.importorskip("vtkmodules.vtkIOXML")
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    result = ball().solve(out=tmp_path / "out")
+    reader = xml.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(result.file))
+    reader.Update()
+    grid = reader.GetOutput()
+    np.testing.assert_array_equal(result.mesh.points, vtk_to_numpy(grid.GetPoints().GetData()))
+    np.testing.assert_array_equal(result.mesh.connectivity, vtk_to_numpy(grid.GetCells().GetConnectivityArray()))
+    np.testing.assert_array_equal(result.mesh.types, vtk_to_numpy(grid.GetCellTypesArray()))
+    assert grid.GetPointData().GetNumberOfArrays() == len(result.fields)
+    for name, values in result.fields.items():
+        np.testing.assert_array_equal(values, vtk_to_numpy(grid.GetPointData().GetArray(name)))
+
+
 def test_meshes_go_to_pyvista(ball):
     pytest.importorskip("pyvista")
     result = ball().solve()
