@@ -6,10 +6,10 @@
     ...
     <!-- end -->
 
-A command is followed by # and the beginning of a heading where only that section of its output belongs there. Where
-the old text is a code block, so is the new one. Programs are those of build/release, build/peers and, for tests,
-build/release-assert, and the scripts of this folder. What is not built is left out. Of a test stands here what it shows
-with SHOW=1; where it shows nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays.
+A command is followed by # and the beginning of a heading where only that section of its output belongs there. Programs
+are those of build/release, build/peers and, for tests, build/release-assert, and the scripts of this folder. What is not
+built is left out. Of a test stands here what it shows with SHOW=1, as a code block; where it shows nothing, since it
+wants meshes that are not here (SIGNORINI_MESHES), the old text stays. What takes the place of a code block is one.
 """
 import os
 import pathlib
@@ -66,7 +66,7 @@ def renewed(match, wanted):
     if not text:
         return match[0]
     text = (section_of(text, section) if section else text).strip("\n")
-    if match["old"].lstrip("\n").startswith("```"):
+    if command.startswith("test_") or match["old"].lstrip("\n").startswith("```"):
         text = f"```\n{text}\n```"
     return f"{match[1]}\n{text}\n\n{match[5]}"
 
