@@ -64,6 +64,10 @@ if(TARGET signorini)
   install(FILES apps/signorini/signorini.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
   install(FILES apps/signorini/completion.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
     RENAME signorini COMPONENT program)
+  install(FILES apps/signorini/completion.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+    RENAME _signorini COMPONENT program)
+  install(FILES apps/signorini/completion.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    RENAME signorini.fish COMPONENT program)
   install(DIRECTORY apps/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT program)
   install(FILES docs/report.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/signorini COMPONENT program)
 endif()

@@ -134,8 +134,8 @@ std::string LimitAnalysis<D, B>::describe_fall(const Ends& ends, const Eigen::Ve
   const double taken = 1 - body_.work.dot(motion) / body_.work.dot(slide);
   if (!ends.cones.empty() && slide.norm() > Free::decided * motion.norm() && taken > Free::decided)
     return fmt::format(
-        "friction does not hold the body against the loads: of the work that these do along this motion it takes "
-        "{:.6g} % at most: {}",
+        "friction does not hold the body against the loads: of their work along this motion friction takes at most "
+        "{:.6g} %: {}",
         100 * taken, body_.motions.describe(body_.free * slide));
   return fmt::format(
       "the energy is unbounded below: nothing holds the body against the loads, which do work along this motion: {}",

@@ -500,7 +500,7 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
   if (!moves && !body.held() && solution.summary.converged() && body.is_far_away(solution.x)) {
     solution.summary.outcome = Outcome::stuck;
     solution.summary.reason =
-        "friction does not hold the body against the loads, but for places that are so far away that linearised "
+        "friction does not hold the body against the loads: it would come to rest only so far away that linearised "
         "contact means nothing there";
   }
 }

@@ -235,7 +235,8 @@ def print_overhead(side: int) -> None:
     A = scipy.sparse.kronsum(scipy.sparse.kronsum(line, line), line).tocsr()
     n = side**3
     b = np.full(n, -1.0 / side**2)
-    print("\n| unknowns | cycles | seconds | of these in the library | what Python adds |\n| --- | --- | --- | --- | --- |")
+    print("\n## What Python adds\n")
+    print("| unknowns | cycles | seconds | of these in the library | what Python adds |\n| --- | --- | --- | --- | --- |")
     best = (math.inf, 0.0, 0)
     for _ in range(3):
         inside: list[float] = []
@@ -256,6 +257,7 @@ def main() -> None:
     given = arguments.parse_args()
     problem = membrane(given.side)
     n, on_floor = len(problem.b), int(np.count_nonzero(problem.solution == problem.lower))
+    print("## Beside others\n")
     print(f"{n} unknowns, {on_floor} of them on the floor; {os.cpu_count()} processors, "
           f"Python {platform.python_version()}, NumPy {np.__version__}, SciPy {scipy.__version__}\n")
     print("| solver | its tolerance | iterations | error | seconds | times signorini |\n| --- | --- | --- | --- | --- | --- |")

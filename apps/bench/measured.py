@@ -6,9 +6,11 @@
     ...
     <!-- end -->
 
-A command is followed by # and the beginning of a heading where only that section of its output belongs there. Where
-the old text is a code block, so is the new one. Programs are those of build/release and build/peers; what is not built
-is left out.
+A command is followed by # and the beginning of a heading where only that section of its output belongs there. Programs
+are those of build/release, build/peers and, for tests, build/release-assert, and the scripts of this folder and of
+python. What is not built is left out. Of a test stands here what it shows with SHOW=1, as a code block; where it shows
+nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays. What takes the place of a code
+block is one.
 """
 import os
 import pathlib
@@ -18,7 +20,9 @@ import subprocess
 import sys
 
 source = pathlib.Path(__file__).resolve().parents[2]
-folders = [source / "build/release/bin", source / "build/peers/bin"]
+folders = [source / folder for folder in (
+    "build/release/bin", "build/peers/bin", "build/release-assert/bin", "apps/bench", "python")]
+of_gtest = re.compile(r"^(\[.*|Running main\(\).*|Note: Google Test.*)?\n", re.M)
 begin, end = r"<!-- written by: (?P<command>[^#\n]*?)(?: # (?P<section>[^\n]*?))? -->\n", "<!-- end -->"
 marked = re.compile(f"({begin})(?P<old>.*?)({end})", re.S)
 printed, left_out = {}, []
@@ -30,14 +34,19 @@ def output_of(command):
         name, *arguments = shlex.split(command)
         program = next((folder / name for folder in folders if (folder / name).exists()), None)
         if not program:
-            left_out.append(command)
+            left_out.append(f"since the program is not built: {command}")
             return None
         print(f"{command} ...", file=sys.stderr, flush=True)
-        one_thread = os.environ | {"OMP_NUM_THREADS": "1"}  # else threads of OpenBLAS count as time of the program
-        ended = subprocess.run([program, *arguments], cwd=source, env=one_thread, stdout=subprocess.PIPE, text=True)
+        # Else threads of OpenBLAS count as time of the program.
+        environment = os.environ | {"OMP_NUM_THREADS": "1", "SHOW": "1"}
+        runner = [sys.executable] if name.endswith(".py") else []
+        ended = subprocess.run([*runner, program, *arguments], cwd=source, env=environment, stdout=subprocess.PIPE,
+                               text=True)
         if ended.returncode:
             sys.exit(f"measured: {command} ended with {ended.returncode}; pages before this one are renewed")
-        printed[command] = ended.stdout
+        printed[command] = of_gtest.sub("", ended.stdout) if name.startswith("test_") else ended.stdout
+        if not printed[command]:
+            left_out.append(f"since it shows nothing here: {command}")
     return printed[command]
 
 
@@ -56,10 +65,10 @@ def renewed(match, wanted):
     if wanted not in f"{command} # {section}":
         return match[0]
     text = output_of(command)
-    if text is None:
+    if not text:
         return match[0]
     text = (section_of(text, section) if section else text).strip("\n")
-    if match["old"].lstrip("\n").startswith("```"):
+    if command.startswith("test_") or match["old"].lstrip("\n").startswith("```"):
         text = f"```\n{text}\n```"
     return f"{match[1]}\n{text}\n\n{match[5]}"
 
@@ -77,7 +86,7 @@ def main(page="", wanted=""):
             file.write_text(new)
             print(f"docs/measured/{file.name} is renewed")
     for command in dict.fromkeys(left_out):
-        print(f"left out, since the program is not built: {command}", file=sys.stderr)
+        print(f"left out, {command}", file=sys.stderr)
 
 
 main(*sys.argv[1:])

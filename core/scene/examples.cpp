@@ -7,7 +7,8 @@ namespace signorini {
 namespace {
 
 constexpr const char* body_details = R"(
-**Axisymmetric bodies.** Half of the section is meshed, and stands for the body that it makes when it turns around the axis:
+**Axisymmetric bodies.** Half of the section is meshed. It stands for the body that it makes when it turns around the
+axis:
 
 ```
 [[body]]
@@ -21,87 +22,94 @@ young = 1
 poisson = 0.3
 ```
 
-- All of the section lies at r >= 0. A mesh that reaches beyond is refused. A `disk` or `half_disk` with its centre on the
-  axis is cut there.
-- The axis r = 0 is no boundary: no part has faces on it, and `on = "boundary"` leaves it out. The radial displacement is
-  zero there by itself; `axis_nodes` of the report counts these nodes. A fix that prescribes another one is refused.
-- Forces, areas, volumes and energies are those of the whole body. Loads are still given per area or volume.
-- The first entry of a force is the integral of its radial part. It has no resultant: hoop stresses carry it, so that only
-  the second entries of `balance` sum to zero.
-- The only rigid motion is that along the axis. Moments are zero.
-- Obstacles are the surfaces that their shapes sweep: a plane with `normal = [-1, 0]` is a bore, a tilted one a cone, a
-  sphere with its centre off the axis a ring. All types work as in the plane, friction acts along the section.
-- In the VTU `stress` has the radial stress as xx, the axial one as yy, and the hoop stress as zz.
+- All of the section lies at r >= 0. A mesh that reaches beyond the axis is refused. A `disk` or `half_disk` with its
+  centre on the axis is cut there.
+- The axis r = 0 is no boundary. No part has faces on it, and `on = "boundary"` leaves it out.
+- On the axis the radial displacement is zero by itself. A fix that prescribes another value there is refused.
+  `axis_nodes` of the report counts the nodes on the axis.
+- Forces, areas, volumes and energies are those of the whole body. Loads are given per area or volume, as elsewhere.
+- The first entry of a force is the integral of its radial part. Radial forces of a body of revolution have no
+  resultant: hoop stresses carry them. So only the second entries of `balance` sum to zero.
+- The only rigid motion is the one along the axis. Moments are zero.
+- Obstacles are the surfaces that their shapes sweep. A plane with `normal = [-1, 0]` is a bore. A tilted plane is a
+  cone. A sphere with its centre off the axis is a ring. All types of obstacles work as in the plane. Friction acts
+  along the section.
+- In the VTU, `stress` has the radial stress as xx, the axial stress as yy, and the hoop stress as zz.
 )";
 
 constexpr const char* selection = R"(
-- One of `on` and `where` picks the faces, in this table and the next ones. Both together are an error.
-- `where` is judged on the faces of the coarsest mesh. Finer ones inherit it. Where it cuts through faces of the coarsest
-  mesh a warning says how much area is picked though `where` does not hold there, and how much is left out. (Facets
-  that stand for a curved surface which a mesh file does not know are taken as picked rightly.)
+- `on` or `where` picks the faces, in this table and the next ones. Both together are an error.
+- `where` is evaluated on the faces of the coarsest mesh. Finer meshes inherit the choice. The border of `where` may cut
+  through faces of the coarsest mesh. A warning then says how much area is picked although `where` does not hold there,
+  and how much area is left out. (Facets of a curved surface that a mesh file does not know count as picked rightly.)
 )";
 
 constexpr const char* load_details = R"(
-- With `on` or `where` the load is a traction on these faces: a force per area. Without them it is a body force, per volume.
-- For scalar bodies it is a flux, or a source.
+- With `on` or `where` the load is a traction on these faces: a force per area. Without them it is a body force, per
+  volume.
+- On scalar bodies the load is a flux, or a source.
 )";
 
 constexpr const char* obstacle_details = R"(
-Every key not listed here belongs to the plugin; `signorini list obstacles` shows it. `scalar`, for instance, has `lower`
-and `upper`.
+Every key that is not listed here belongs to the plugin. `signorini list obstacles` shows these keys. `scalar`, for
+instance, has `lower` and `upper`.
 
-**Which faces count.** `on` and `where` may pick more faces than come into contact. Contact areas and pressures count only those
-whose outer normal is within 60 degrees of the direction to the obstacle. (At a tip that is sharper than that, all count.)
+**Which faces count.** `on` and `where` may pick more faces than come into contact. Contact areas and pressures count
+only faces whose outer normal is within 60 degrees of the direction to the obstacle. (At a tip that is sharper than
+that, all faces count.)
 
-**Results.** Pressures are recovered from the forces at the nodes: [pressures.md](pressures.md). `force` of the report is the whole
-force of the obstacle. Where a fix holds a node along the obstacle's normal, how the force divides between the two is not determined:
-what presses is counted as the obstacle's, and `undetermined_nodes` counts such nodes. All keys are in [results.md](results.md).
+**Results.** Pressures are recovered from the forces at the nodes: [pressures.md](pressures.md). `force` of the report
+is the whole force of the obstacle. A fix may hold a node along the obstacle's normal. Then nothing determines how the
+force divides between the fix and the obstacle. What presses counts as the obstacle's, and `undetermined_nodes` counts
+such nodes. All keys are in [results.md](results.md).
 
-**Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before it
-moves. After the solve the nodes of the deformed boundary are compared with the true obstacle:
+**Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before
+it moves. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
 
 | key of the report | says |
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
-| `largest_penetration_between_nodes` | the same of points between nodes: conditions hold at nodes alone |
-| `largest_opening` | how far a node is off it though contact is claimed |
-| `beyond_nodes` | of two bodies: nodes in contact that have come to where the other one is no longer in front of them |
+| `largest_penetration_between_nodes` | the same for points between nodes, because conditions hold at nodes alone |
+| `largest_opening` | how far a node is off the obstacle although contact is claimed |
+| `beyond_nodes` | of two bodies: nodes in contact that no longer have the other body in front of them |
 
-The program warns ([warnings.md](warnings.md#about-the-result))
+The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
 
-- where one of these lengths is over 1 % of the displacements there, or of what displacements differ by in the body where that is
-  more; between nodes over 10 %, which is what elements leave;
-- where over a tenth of the nodes in contact are beyond;
-- where a body turns by more than 0.1 as a whole, or strains are over 0.2 in a twentieth of it: linear elasticity takes both for
-  small ones;
-- where an obstacle is never touched, with the smallest distance that is left.
+- One of these lengths is too large: more than 1 % at nodes, or more than 10 % between nodes, which is what elements
+  leave. It is compared with the displacements there. If displacements within the body differ by more than that, it is
+  compared with their difference.
+- More than a tenth of the nodes in contact are beyond.
+- A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity takes both for
+  small.
+- An obstacle is never touched. The warning gives the smallest distance that is left.
 
-The scene is refused where a twentieth of a body is pressed through itself, as by displacements in other units than the body, and
-where an obstacle on the wrong side would pull at the body.
+A scene is refused in two cases. A twentieth of a body would be pressed through itself, for example because
+displacements have other units than the body. Or an obstacle is on the wrong side, so that it would pull at the body.
 
-**Two bodies.** `elastic` and `elastic_coulomb` let two elastic bodies touch each other: `body` with `on` or `where`, and
-`other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples. Other types take no
-`other`.
+**Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
+`where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.
+Other types take no `other`.
 
-**Friction.** `coulomb` is contact with a rigid obstacle, and friction whose tangential force at a node is at most the
+**Friction.** `coulomb` is contact with a rigid obstacle and friction. The tangential force at a node is at most the
 coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential
-traction. Both are numbers or expressions. [friction.md](friction.md) has examples, and says what friction means in steps and
-where there is no solution. In detail:
+traction. Both are numbers or expressions. [friction.md](friction.md) has examples. It also says what friction means in
+steps, and when there is no solution. In detail:
 
-- The bound of `tresca` holds on all nodes that the obstacle acts on, whether they press or not. It counts on all picked faces,
-  the field `tangential_traction` goes by the area of those that face the obstacle: at the edge of what is picked it may be larger
-  than the bound.
+- The bound of `tresca` holds at all nodes of the picked faces, whether they press or not. The field
+  `tangential_traction` divides by the area of the faces that face the obstacle. So at the edge of what is picked it may
+  be larger than the bound.
 - A coefficient or bound that is negative by rounding alone counts as zero: `friction = "0.3 - 0.2 * x"` at x = 1.5.
-- An obstacle whose `point`, `center`, `normal` or `axis` depends on `t` drags the body with it. From one step to the next it turns
-  the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape `expression` and `surface` do not drag.
-- Nodes all of whose components are prescribed slip where they are led along the obstacle, with all of friction against
-  that; others of them count in `nodes` alone.
-- With `coulomb` a fix must not prescribe the displacement along the obstacle's normal where there is friction: the force that
-  presses is not known there. A fix that is oblique to the normal is refused, too.
-- At a vertex one obstacle has friction, and no other one holds there along another direction. Else the scene is refused: take
-  one obstacle with an expression as its bound.
-- A body that nothing but very little friction holds along the surface (bounds below a thousandth of the modulus times the
-  strain) takes many cycles, up to the iteration limit.
+- An obstacle whose `point`, `center`, `normal` or `axis` depends on `t` drags the body with it. From one step to the
+  next it turns the shortest way. Before the first step it was where it is at t = 0. Obstacles of shape `expression` and
+  `surface` do not drag.
+- A node whose displacement is prescribed in all components may be led along the obstacle. It then slips, with all of
+  friction against it. If it is not led along the obstacle, it counts in `nodes` alone.
+- With `coulomb` a fix must not prescribe the displacement along the obstacle's normal where there is friction. The
+  force that presses is not known there. A fix that is oblique to the normal is refused, too.
+- Only one obstacle at a node has friction, and no other obstacle holds that node along another direction. Otherwise the
+  scene is refused. Use one obstacle with an expression as its coefficient or bound.
+- Friction may be so small that it hardly holds a body along the surface: bounds below a thousandth of the modulus times
+  the strain. If nothing else holds it, the solve takes many cycles, up to the iteration limit.
 )";
 
 constexpr const char* material_details = R"(
@@ -121,9 +129,9 @@ young = 5
 poisson = 0.4
 ```
 
-A volume belongs to one material. Stresses in the VTU are recovered at the nodes ([how](theory/pressures.md#stresses)), for
-each material by itself. Where materials meet the VTU has the mean of them. A body without a mesh file takes an expression:
-`young = "x < 1 ? 5 : 210000"`.
+A volume belongs to one material. Stresses in the VTU are recovered at the nodes ([how](theory/pressures.md#stresses)),
+for each material by itself. Where materials meet, the VTU has the mean of their stresses. A body without a mesh file
+takes an expression: `young = "x < 1 ? 5 : 210000"`.
 )";
 
 constexpr const char* symmetry_details = R"(
@@ -135,38 +143,40 @@ x = 0
 y = 0
 ```
 
-**What is meshed.** Planes hold for all bodies.
+**What is meshed.** The planes hold for all bodies.
 
-- A shape that lies on both sides of a plane is cut there. The side of the larger coordinates is meshed.
-- The plane is in the middle of each shape: it holds the centre of round ones, and polygons must be symmetric. Of an odd
-  number of `cells` across it the larger half is taken, for half the body.
-- A `solid`, and a body from a mesh file, is what lies on one side already, with faces on the plane. So is any other shape
-  that lies on one side.
+- A shape that lies on both sides of a plane is cut there. The side with the larger coordinates is meshed.
+- The plane is in the middle of each shape that it cuts. It holds the centre of round shapes, and polygons must be
+  symmetric.
+- Of an odd number of `cells` across the plane the larger half is taken, for half the body.
+- A shape may lie on one side of the plane. Then it is taken as half of the body, with faces on the plane. A `solid` and
+  a body from a mesh file always do.
 
-**On the plane** an elastic body moves along it only. A scalar one has no flux through it. The faces there are no boundary:
-no part has faces on it, and `on = "boundary"` leaves it out.
+**On the plane** an elastic body moves along the plane only. A scalar body has no flux through it. The faces there are
+no boundary: no part has them, and `on = "boundary"` leaves them out.
 
 **Fixes, loads and obstacles** hold on both sides.
 
-- One that picks faces at the plane, or of the whole boundary, must be symmetric, values and selection alike. This is checked
-  at the vertices of the body and their mirror images, and refused where it is not so.
-- One whose faces are on one side, as `on = "right"` of a box that is cut across x, holds there, and mirrored on the other
-  side.
+- Some pick faces at the plane, or of the whole boundary. These must be symmetric, in their values and in their faces.
+  The program checks this at the vertices of the body and their mirror images, and refuses what is not symmetric.
+- Others pick faces on one side, such as `on = "right"` of a box that is cut across x. These hold there, and mirrored on
+  the other side.
 - Parts that are cut off have no faces and cannot be picked.
 
-**What is of the whole body.**
+**These results are of the whole body:**
 
 - Energies, and the sums in `balance`.
-- `applied`, `reactions`, and force, moment, area and dissipation of an obstacle: of all the faces that the condition stands
-  for in the scene as it is written. Those of a load on `right` are of the whole right side, not of the left one.
+- `applied`, `reactions`, and force, moment, area and dissipation of an obstacle. They are those of all faces for which
+  the condition stands in the scene as it is written. A load on `right` is summed over the whole right side, and not
+  over the left.
 - Forces across a plane cancel and are zero.
 - A `probe` may lie on either side.
 
-**What is of the part that is meshed.** Numbers of unknowns, nodes and faces, the VTU and the pictures. `symmetry` of an entry
-of `bodies` in the report lists the planes, `copies` how many such parts the body has: 2, 4 or 8.
+**These are of the part that is meshed:** numbers of unknowns, nodes and faces, the VTU and the pictures. In each entry
+of `bodies` in the report, `symmetry` lists the planes, and `copies` says how many such parts the body has: 2, 4 or 8.
 
-A solution that is not symmetric, such as that of a body that buckles, is not found. Bodies that touch each other may have
-planes of symmetry, too, where all of them lie on each plane. `apps/scenes/quarter_ball_on_plane.toml` is a scene.
+A solution that is not symmetric is not found, such as that of a body that buckles. Bodies that touch each other may
+have planes of symmetry, too, if every body lies on every plane. `apps/scenes/quarter_ball_on_plane.toml` is a scene.
 )";
 
 constexpr const char* steps_details = R"(
@@ -179,18 +189,19 @@ at = [0.1, 0.5, 1]
 
 At `t = 0` nothing has happened yet: friction in the first step counts from the undeformed body.
 
-**Steps that fail.** A step with friction that ends without a solution (exit status 3) is cut in two at the middle of its `t`, and
-each part again where it fails, `halvings` times at most. What a failed attempt computed is forgotten: parts start from the last
-step that was solved. The report lists the parts among its `steps`, and what failed under `failed_steps`. A warning says it. Where
-the smallest part fails, too, the run ends with exit status 3, and the steps before it are kept.
+**Steps that fail.** A step with friction may end without a solution (exit status 3). It is then cut in two at the
+middle of its `t`. Each part that fails is cut again, at most `halvings` times. What a failed attempt computed is
+forgotten: a part starts from the last step that was solved. The report lists the parts among its `steps`, and what
+failed under `failed_steps`. A warning says it. If the smallest part fails, too, the run ends with exit status 3, and
+the steps before it are kept.
 
-A step that is solved is cut, too, where friction acts against what it was in the last step, and most of it at nodes that have come
-into contact since. What these moved before they touched counts in a step, as where a blade rolls onto a drum. Where the step may
-not be cut any more a warning says so.
+**Steps that are too long.** A step that is solved may be cut, too: if friction acts against its direction in the last
+step, and most of it at nodes that have come into contact since. In a long step these nodes slip by what they moved
+before they touched, as where a blade rolls onto a drum. If the step may not be cut any more, a warning says so.
 
-Steps are not cut where nothing of the body depends on `t`, nor where no obstacle of it has friction or another energy of its own.
-Such a body remembers nothing of its way: a step of it is the same problem, however it is reached. It goes on after a step that
-failed.
+**Steps that are not cut.** Steps are not cut if nothing of the body depends on `t`, or if no obstacle has friction or
+another energy of its own. Such a body does not remember its way: a step of it is the same problem, however it is
+reached. The run goes on after a step that failed.
 )";
 
 constexpr TableText texts[] = {

@@ -204,24 +204,6 @@ TEST_F(CommandLine, TheManualPageIsWhatTheProgramSays) {
   ADD_FAILURE() << "apps/signorini/signorini.1 is not what the program says; the right text is in " << renewed;
 }
 
-TEST_F(CommandLine, BashCompletesWhatTheProgramKnows) {
-  const auto completed = [&](const std::string& words) {
-    std::ofstream(folder_ / "complete.bash") << "source " SIGNORINI_SOURCE_DIR "/apps/signorini/completion.sh\n"
-                                             << "COMP_WORDS=(" SIGNORINI_BINARY_DIR "/bin/signorini " << words << ")\n"
-                                             << "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_signorini\n"
-                                             << "printf '%s ' \"${COMPREPLY[@]}\"\n";
-    EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && bash complete.bash > .out").c_str()), 0);
-    return read(folder_ / ".out");
-  };
-  write("punch.toml", punch);
-  EXPECT_EQ(completed("so"), "solve ");
-  EXPECT_EQ(completed("solve pu"), "punch.toml ");
-  EXPECT_EQ(completed("solve punch.toml --q"), "--quiet ");
-  EXPECT_EQ(completed("solve punch.toml --set solver.tol"), "solver.tolerance= ");
-  EXPECT_EQ(completed("list smoo"), "smoothers ");
-  EXPECT_EQ(completed("help obstacle.sphere.r"), "obstacle.sphere.radius ");
-}
-
 TEST_F(CommandLine, CheckSaysWhatWouldBeSolvedAndWritesNothing) {
   write("punch.toml", punch);
   const Ended ended = signorini({"check", "punch.toml"});

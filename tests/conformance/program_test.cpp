@@ -71,25 +71,10 @@ TEST_F(PluginCommand, NewOverwritesNothingAndTakesNamesThatAreOnes) {
   EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
 
-TEST_F(PluginCommand, HelpAndCompletionKnowIt) {
+TEST_F(PluginCommand, HelpAndManualKnowIt) {
   EXPECT_EQ(signorini({"help", "plugin check"}).out, signorini({"plugin", "check", "--help"}).out);
   EXPECT_THAT(signorini({"help", "plugin"}).out, AllOf(HasSubstr("check"), HasSubstr("new")));
   EXPECT_THAT(signorini({"help", "--manual"}).out, HasSubstr(".B signorini plugin check [options] FILE"));
-  const auto completed = [&](const std::string& words) {
-    std::ofstream(folder_ / "complete.bash") << "source " SIGNORINI_SOURCE_DIR "/apps/signorini/completion.sh\n"
-                                             << "COMP_WORDS=(" SIGNORINI_BINARY_DIR "/bin/signorini " << words << ")\n"
-                                             << "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_signorini\n"
-                                             << "printf '%s ' \"${COMPREPLY[@]}\"\n";
-    EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && bash complete.bash > .out").c_str()), 0);
-    return read(folder_ / ".out");
-  };
-  EXPECT_EQ(completed("plu"), "plugin ");
-  EXPECT_EQ(completed("plugin ch"), "check ");
-  EXPECT_EQ(completed("plugin check --js"), "--json ");
-  EXPECT_EQ(completed("plugin new wall --kind fri"), "friction ");
-  write("a.toml", "");
-  std::ofstream(folder_ / "libsignorini_obstacle_a.so") << "";
-  EXPECT_EQ(completed("plugin check lib"), "libsignorini_obstacle_a.so ");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ Blocks of the page: `sh` is run, `text` must be printed by the block before it, 
 apps/scenes or in one that the page has written; comments do not count. Numbers agree to the digits shown. Decimal
 numbers between the blocks are in a block, perhaps rounded, or in a page of docs/measured or docs/theory that the page
 links to. With KIND only blocks of that kind count, and no figures. Not run: ./dev, and gmsh and VTK's Python where
-these are not installed.
+these are not installed. Where the environment names a folder GUIDE_BUILD, it is the folder build of the page.
 """
 import os
 import pathlib
@@ -81,6 +81,8 @@ def expect_in_a_file(text, folder, ending):
 with tempfile.TemporaryDirectory() as made:
     folder, output = pathlib.Path(made), ""
     shutil.copytree(source / "apps/scenes", folder / "apps/scenes", ignore=shutil.ignore_patterns("pictures"))
+    if built := os.environ.get("GUIDE_BUILD"):
+        (folder / "build").symlink_to(built)
     mesh = folder / "apps/scenes/lever.msh"
     kept = mesh.read_bytes()
     for kind, text in blocks:

@@ -1,5 +1,7 @@
 """Every relative link of the pages, and every page that the sources name, exists; so do headings behind a #.
-Every scene has a row in apps/scenes/README.md.
+Every scene has a row in apps/scenes/README.md. A guide, which docs/README.md names for a task or a trouble, has 1500
+words at most; what the program has written does not count. Pages of docs/measured have no tables but those that a
+command has written.
 
     links.py SOURCE   (the source tree)
 """
@@ -54,6 +56,17 @@ for file in files("*.cpp", "*.hpp", "*.h", "*.py", "*.sh", "*.cmake", "*CMakeLis
 scenes = (source / "apps/scenes/README.md").read_text()
 wrong += [f"apps/scenes/README.md: no row for {file.name}" for file in files("*.toml")
           if file.parent == source / "apps/scenes" and f"({file.name}): " not in scenes]
+
+tasks = (source / "docs/README.md").read_text().partition("## How it works")[0]
+for name in sorted(set(re.findall(r"\]\((\w+\.md)", tasks))):
+    text = (source / "docs" / name).read_text()
+    if "Do not edit" not in text and len(text.split()) > 1500:
+        wrong.append(f"docs/{name} has {len(text.split())} words, and 1500 are the limit")
+
+for page in (source / "docs/measured").glob("*.md"):
+    by_hand = without_code(re.sub(r"^<!-- written by: .*?^<!-- end -->$", "", page.read_text(), flags=re.M | re.S))
+    if page.name != "README.md" and re.search(r"^\| *---", by_hand, re.M):
+        wrong.append(f"docs/measured/{page.name} has a table that no command has written")
 
 if wrong:
     sys.exit("\n".join(wrong))

@@ -38,7 +38,11 @@ TEST(RealMeshes, ArePressedOnPlanesAndOnEachOtherInFewCycles) {
                           : fmt::format("shape = \"surface\"\nfile = \"{}\"", file)),
             {fmt::format("solver.method={}", method)});
         std::filesystem::remove(file);
-        test::show("{} cycles\n", run.summary().iterations);
+        const auto name = [](const RealSurface& surface) {
+          return std::filesystem::path(surface.file).stem().string();
+        };
+        test::show("{} on {}, size {}: {} cycles\n", name(body), plane ? "a plane" : name(obstacle), size,
+                   run.summary().iterations);
         EXPECT_LE(run.summary().iterations, 25);
         EXPECT_GT(run.contact().force[body.up], 0);
       }

@@ -163,8 +163,8 @@ TEST(UnheldBody, SaysWhereItGoesWhereFrictionDoesNotHoldIt) {
       "[[obstacle]]\ntype = \"coulomb\"\nfriction = 0.29997\nbody = \"b\"\non = \"bottom\"\nshape = \"plane\"\n"
       "point = [0, 0]\nnormal = [0, 1]\n[refine]\nuniform = 2\n[solver]\ntolerance = 1e-6\n";
   EXPECT_THAT(refusal([&] { Driver(parse_scene(slides, "test.toml", ".")).solve(); }),
-              testing::HasSubstr("it takes 99.99 % at most: translation along (1, 0)"));
-  EXPECT_THAT(reason(1, 0.3), testing::HasSubstr("it takes 60 % at most: translation along (1, 0)"));
+              testing::HasSubstr("friction takes at most 99.99 %: translation along (1, 0)"));
+  EXPECT_THAT(reason(1, 0.3), testing::HasSubstr("friction takes at most 60 %: translation along (1, 0)"));
   EXPECT_THAT(reason(0.3, 0.9), testing::HasSubstr("rotation about"));
 }
 
