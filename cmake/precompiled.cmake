@@ -1,4 +1,4 @@
-# The headers of others that nearly every file of the libraries and programs reads are compiled once, by this library that
+# The headers of others that nearly every file of the libraries reads are compiled once, by this library that
 # does nothing else. Tests have their own, see tests/CMakeLists.txt.
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   return()  # clang asks for the same options everywhere
@@ -10,14 +10,14 @@ target_compile_options(signorini_headers PRIVATE ${eigen_warnings})
 target_precompile_headers(signorini_headers PRIVATE <Eigen/Core> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath>
   <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <span> <string> <string_view> <utility> <vector>)
 
-# signorini_precompiled(FOLDER): for every library and program made in FOLDER or below, where it uses these headers.
+# signorini_precompiled(FOLDER): for every library made in FOLDER or below that uses these headers.
 function(signorini_precompiled folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
     get_target_property(libraries ${target} LINK_LIBRARIES)
     list(REMOVE_ITEM libraries signorini_settings)
-    if(type MATCHES "(MODULE|OBJECT|SHARED|STATIC)_LIBRARY|EXECUTABLE" AND libraries MATCHES "signorini|fmt")
+    if(type MATCHES "(MODULE|OBJECT|SHARED|STATIC)_LIBRARY" AND libraries MATCHES "signorini|fmt")
       target_precompile_headers(${target} REUSE_FROM signorini_headers)
     endif()
   endforeach()

@@ -88,38 +88,6 @@ class Bounded {
   const Bubbles<D, B>& bubbles_;
 };
 
-/// In the body: more to elements that are in contact as a whole, where a force does no work.
-template <int D, int B>
-void divide_in_body(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
-                    Contact<D, B>& out) {
-  constexpr double sharpness = 0.1;
-  const Incidence<D>& incidence = problem.incidence;
-  out.forces.in_element.assign(problem.element.size() * (D + 1), 0);
-  std::vector<double> weight, gap;
-  for (Index p = 0; p < problem.mesh.vertices(); ++p) {
-    if (force[p] == 0) continue;
-    const Offset first = incidence.first_at_vertex[p], last = incidence.first_at_vertex[p + 1];
-    gap.clear(), weight.clear();
-    double largest = 0, sum = 0;
-    for (Offset k = first; k < last; ++k) {
-      gap.push_back(std::max(0.0, distance.mean(incidence.at_vertex[k], force[p] < 0)));
-      largest = std::max(largest, gap.back());
-    }
-    for (Offset k = first; k < last; ++k) {
-      const double near = largest > 0 ? sharpness / (sharpness + gap[k - first] / largest) : 1;
-      weight.push_back(near * problem.element[incidence.at_vertex[k]].measure);
-      sum += weight.back();
-    }
-    for (Offset k = first; k < last; ++k) {
-      const Index e = incidence.at_vertex[k];
-      const auto a = std::ranges::find(problem.mesh.elements[e], p) - problem.mesh.elements[e].begin();
-      const double share = force[p] * weight[k - first] / sum;
-      out.forces.in_element[Offset{e} * (D + 1) + a] = share;
-      out.work[e] += std::fabs(share) * gap[k - first];
-    }
-  }
-}
-
 template <int D>
 double integral_over_face(const std::array<double, D>& p, const std::array<double, D>& vertex,
                           const std::array<double, D*(D - 1) / 2>& edge) {
@@ -156,6 +124,83 @@ double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& out
     work += length<D>(outer.normal) * integral_over_face<D>(pushes, vertex, edge);
   }
   return work;
+}
+
+/// The density, at the vertices of a face, of what is loaded onto it: its mass matrix inverted.
+template <int D, int B>
+std::array<double, D> density(const OuterFace<D, B>& outer) {
+  std::array<double, D> out;
+  double sum = 0;
+  for (const auto& moment : outer.load) sum += moment[0];
+  for (int k = 0; k < D; ++k) out[k] = D * ((D + 1) * outer.load[k][0] - sum) / length<D>(outer.normal);
+  return out;
+}
+
+/// In the body, but where it ends: a load there that pushes towards the obstacle is met by the obstacle right there, as
+/// a measure on the face, and not by elements. Returns what is left of the forces for these.
+template <int D, int B>
+std::vector<double> meet_loads_on_faces(const TrueProblem<D, B>& problem, const std::vector<double>& force,
+                                        const Bounded<D, B>& distance, Contact<D, B>& out) {
+  std::vector<std::size_t> loaded;
+  std::vector<double> load(force.size()), left = force;
+  for (std::size_t n = 0; n < problem.outer.size(); ++n) {
+    const OuterFace<D, B>& outer = problem.outer[n];
+    const auto v = face_vertices<D>(problem.mesh, problem.incidence.sides[outer.face]);
+    const auto t = density<D, B>(outer);
+    bool pushes = outer.open();
+    for (int k = 0; k < D; ++k) pushes = pushes && force[v[k]] * t[k] < 0 && t[k] * t[0] > 0;
+    if (!pushes) continue;
+    loaded.push_back(n);
+    for (int k = 0; k < D; ++k) load[v[k]] += outer.load[k][0];
+  }
+  if (!loaded.empty()) out.forces.on_face.resize(problem.outer.size());
+  for (const std::size_t n : loaded) {
+    const OuterFace<D, B>& outer = problem.outer[n];
+    const auto& sides = problem.incidence.sides[outer.face];
+    const auto v = face_vertices<D>(problem.mesh, sides);
+    double part = 1;  // no more than the forces are
+    for (const Index p : v) part = std::min(part, -force[p] / load[p]);
+    std::array<double, D> pressure = density<D, B>(outer);
+    for (int k = 0; k < D; ++k) {
+      pressure[k] *= -part;
+      out.forces.on_face[n][k][0] = -part * outer.load[k][0];
+      left[v[k]] += part * outer.load[k][0];
+    }
+    out.work[sides.element[0]] += work_on_face<D, B>(problem, outer, v, pressure, distance);
+  }
+  return left;
+}
+
+/// In the body: more to elements that are in contact as a whole, where a force does no work.
+template <int D, int B>
+void divide_in_body(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
+                    Contact<D, B>& out) {
+  constexpr double sharpness = 3;
+  const Incidence<D>& incidence = problem.incidence;
+  out.forces.in_element.assign(problem.element.size() * (D + 1), 0);
+  std::vector<double> weight, gap;
+  for (Index p = 0; p < problem.mesh.vertices(); ++p) {
+    if (force[p] == 0) continue;
+    const Offset first = incidence.first_at_vertex[p], last = incidence.first_at_vertex[p + 1];
+    gap.clear(), weight.clear();
+    double largest = 0, sum = 0;
+    for (Offset k = first; k < last; ++k) {
+      gap.push_back(std::max(0.0, distance.mean(incidence.at_vertex[k], force[p] < 0)));
+      largest = std::max(largest, gap.back());
+    }
+    for (Offset k = first; k < last; ++k) {
+      const double near = largest > 0 ? sharpness / (sharpness + gap[k - first] / largest) : 1;
+      weight.push_back(near * problem.element[incidence.at_vertex[k]].measure);
+      sum += weight.back();
+    }
+    for (Offset k = first; k < last; ++k) {
+      const Index e = incidence.at_vertex[k];
+      const auto a = std::ranges::find(problem.mesh.elements[e], p) - problem.mesh.elements[e].begin();
+      const double share = force[p] * weight[k - first] / sum;
+      out.forces.in_element[Offset{e} * (D + 1) + a] = share;
+      out.work[e] += std::fabs(share) * gap[k - first];
+    }
+  }
 }
 
 /// On faces: a linear pressure.
@@ -197,7 +242,7 @@ Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<dou
   for (Index p = 0; p < problem.mesh.vertices(); ++p) force[p] = force_at(problem, at, u, p);
   const Bounded<D, B> distance(problem, u, bubbles);
   if (problem.gaps.in_body)
-    divide_in_body(problem, force, distance, out);
+    divide_in_body(problem, meet_loads_on_faces(problem, force, distance, out), distance, out);
   else
     press_on_faces(problem, force, distance, out);
   return out;
