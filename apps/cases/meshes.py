@@ -38,6 +38,42 @@ def ring(name, radii, angles, across, along, closed=False):
 ring("belt", (1, 1.02), (0, 180), 1, 90)
 ring("plate_with_hole", (1, 20), (0, 360), 12, 48, closed=True)
 ring("pin", (0.2, 0.999), (0, 360), 6, 48, closed=True)
+ring("pin_that_fits", (0.2, 1), (0, 360), 6, 40, closed=True)
 ring("half_ring", (0.975, 1.025), (-90, 90), 1, 24)
 ring("inner_shell", (20, 30), (0, 90), 2, 6)
 ring("outer_shell", (30, 40), (0, 90), 2, 8)
+
+
+def ball(name, levels, height):
+    """A sphere of radius 1 in triangles, its centre at a height: an icosahedron whose edges are halved."""
+    g = (1 + 5 ** 0.5) / 2
+    points = [(x, y, 0) for y in (-g, g) for x in (-1, 1)]
+    points = [(a, b, c) for a, b, c in points] + [(c, a, b) for a, b, c in points] + [(b, c, a) for a, b, c in points]
+    def unit(p):
+        return tuple(x / math.hypot(*p) for x in p)
+    points = [unit(p) for p in points]
+    near = 1.01 * min(math.dist(points[0], p) for p in points[1:])
+    def outward(a, b, c):
+        u, v, w = points[a], points[b], points[c]
+        turned = (u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0])
+                  + u[2] * (v[0] * w[1] - v[1] * w[0]))
+        return (a, b, c) if turned > 0 else (a, c, b)
+    faces = [outward(a, b, c) for a in range(12) for b in range(a) for c in range(b)
+             if max(math.dist(points[p], points[q]) for p, q in ((a, b), (b, c), (a, c))) < near]
+    for _ in range(levels):
+        middles, finer = {}, []
+        def middle(a, b):
+            key = min(a, b), max(a, b)
+            if key not in middles:
+                middles[key] = len(points)
+                points.append(unit([x + y for x, y in zip(points[a], points[b])]))
+            return middles[key]
+        for a, b, c in faces:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = finer
+    text = ["OFF", f"{len(points)} {len(faces)} 0"] + [f"{x:.9g} {y:.9g} {z + height:.9g}" for x, y, z in points]
+    (here / f"{name}.off").write_text("\n".join(text + [f"3 {a} {b} {c}" for a, b, c in faces] + [""]))
+
+
+ball("ball_above", 3, 1)
