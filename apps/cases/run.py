@@ -13,6 +13,7 @@ keys, fields of the nodes in contact, and the functions of the module math.
 import argparse
 import json
 import math
+import os
 import pathlib
 import re
 import resource
@@ -213,8 +214,9 @@ def solve(case, program, folder):
     command = [str(program), "solve", str(here / f"{case['scene']}.toml"), "--out", str(folder), "--quiet"]
     for change in changes:
         command += ["--set", change]
+    one_thread = os.environ | {"OMP_NUM_THREADS": "1"}
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    ended = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    ended = subprocess.run(command, env=one_thread, capture_output=True, text=True, timeout=600)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     seconds = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
     return ended, seconds
@@ -228,35 +230,36 @@ def difference(value, target):
     return value - target if target == 0 else value / target - 1
 
 
+def compared(check, names):
+    """What a row says of one value: itself, target, difference, what is allowed; and whether it is within."""
+    value, target, within = (eval(str(check[key]), names) for key in ("value", "target", "within"))
+    off = difference(value, target)
+    good = abs(off) <= within
+    percent = f"{off:+.1e}" if target == 0 or abs(off) < 1e-5 else f"{100 * off:+.2g} %"
+    allowed = f"{within:.0e}" if target == 0 or within < 1e-4 else f"{100 * within:.2g} %"
+    return [check["what"], short(value), short(target), percent + ("" if good else " **outside**"), allowed], good
+
+
 def rows_of(case, program):
     """Rows of the table, and whether all is within."""
-    name = case.get("name", case["scene"])
     with tempfile.TemporaryDirectory() as made:
         folder = pathlib.Path(made)
         ended, seconds = solve(case, program, folder)
         wanted = case.get("exit", 0)
-        if ended.returncode != wanted or wanted:
+        if ended.returncode or wanted:
             good = ended.returncode == wanted
             if not good:
-                print(f"{name}: {ended.stderr.strip()}", file=sys.stderr)
-            return [[name, "exit status", ended.returncode, wanted, "", "", f"{seconds:.1f}", case["source"]]], good
-        report = json.loads((folder / "report.json").read_text())
-        scene = with_changes(tomllib.loads((here / f"{case['scene']}.toml").read_text()), case.get("set", []))
-        names = names_of(case, scene, report, Fields(max(folder.glob("solution*.vtu"))) if case.get("fields") else None)
-    rows, good = [], True
-    for check in case["check"]:
-        value, target, within = (eval(str(check[key]), names) for key in ("value", "target", "within"))
-        off = difference(value, target)
-        ok = abs(off) <= within
-        good = good and ok
-        percent = f"{off:+.1e}" if target == 0 or abs(off) < 1e-5 else f"{100 * off:+.2g} %"
-        allowed = f"{within:.0e}" if target == 0 or within < 1e-4 else f"{100 * within:.2g} %"
-        rows.append([name, check["what"], short(value), short(target), percent + ("" if ok else " **outside**"), allowed,
-                     f"{seconds:.1f}", case["source"]])
-        name = seconds_shown = ""
-        if len(rows) > 1:
-            rows[-1][6:] = ["", ""]
-    return rows, good
+                print(f"{case['name']}: {ended.stderr.strip()}", file=sys.stderr)
+            found = [(["exit status", ended.returncode, wanted, "" if good else "**outside**", ""], good)]
+        else:
+            report = json.loads((folder / "report.json").read_text())
+            scene = with_changes(tomllib.loads((here / f"{case['scene']}.toml").read_text()), case.get("set", []))
+            fields = Fields(max(folder.glob("solution*.vtu"))) if case.get("fields") else None
+            names = names_of(case, scene, report, fields)
+            found = [compared(check, names) for check in case["check"]]
+    rows = [["", *row, "", ""] for row, good in found]
+    rows[0] = [case["name"], *found[0][0], f"{seconds:.1f}", case["source"]]
+    return rows, all(good for row, good in found)
 
 
 def main():
@@ -266,27 +269,29 @@ def main():
     parser.add_argument("names", nargs="*", help="cases, or the beginning of their names")
     chosen = parser.parse_args()
     cases = tomllib.loads((here / "cases.toml").read_text())["case"]
-    names = [case.get("name", case["scene"]) for case in cases]
+    for case in cases:
+        case.setdefault("name", case["scene"])
     for name in chosen.names:
-        if not any(other.startswith(name) for other in names):
-            sys.exit(f"cases: no case begins with '{name}'; there are {', '.join(names)}")
+        if not any(case["name"].startswith(name) for case in cases):
+            sys.exit(f"cases: no case begins with '{name}'; there are {', '.join(case['name'] for case in cases)}")
     print("| case | what | value | target | difference | allowed | seconds | source |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     outside, notes = [], []
-    for name, case in zip(names, cases, strict=True):
-        if chosen.names and not name.startswith(tuple(chosen.names)) or chosen.quick and case.get("slow"):
+    for case in cases:
+        if chosen.names and not case["name"].startswith(tuple(chosen.names)) or chosen.quick and case.get("slow"):
             continue
         try:
             rows, good = rows_of(case, chosen.program)
         except Exception as error:
-            sys.exit(f"cases: {name}: {type(error).__name__}: {error}")
+            rows, good = [[case["name"], f"{type(error).__name__}: {error}", *[""] * 5, case["source"]]], False
         for row in rows:
-            print("| " + " | ".join(str(cell) for cell in row) + " |", flush=True)
+            print("| " + " | ".join(map(str, row)) + " |", flush=True)
         if not good:
-            outside.append(name)
+            outside.append(case["name"])
         if "note" in case:
-            notes.append(f"- {name}: {case['note']}")
-    print("\n" + "\n".join(notes) if notes else "")
+            notes.append(f"- {case['name']}: {case['note']}")
+    if notes:
+        print("\n" + "\n".join(notes))
     if outside:
         sys.exit(f"cases: outside of what is allowed: {', '.join(outside)}")
 
