@@ -8,9 +8,9 @@
 
 A command is followed by # and the beginning of a heading where only that section of its output belongs there. Programs
 are those of build/release, build/peers and, for tests, build/release-assert, and the scripts of this folder, of python
-and, by their paths, of the source tree. What is not built is left out. Of a test stands here what it shows with SHOW=1, as a code block; where it shows
-nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays. What takes the place of a code
-block is one.
+and, by their paths, of the source tree. What is not built is left out. Of a test stands here what it shows with SHOW=1,
+as a code block; where it shows nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays.
+What takes the place of a code block is one.
 """
 import os
 import pathlib
