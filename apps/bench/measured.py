@@ -7,10 +7,10 @@
     <!-- end -->
 
 A command is followed by # and the beginning of a heading where only that section of its output belongs there. Programs
-are those of build/release, build/peers and, for tests, build/release-assert, and the scripts of this folder and of
-python. What is not built is left out. Of a test stands here what it shows with SHOW=1, as a code block; where it shows
-nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays. What takes the place of a code
-block is one.
+are those of build/release, build/peers and, for tests, build/release-assert, and the scripts of this folder, of python
+and, by their paths, of the source tree. What is not built is left out. Of a test stands here what it shows with SHOW=1,
+as a code block; where it shows nothing, since it wants meshes that are not here (SIGNORINI_MESHES), the old text stays.
+What takes the place of a code block is one.
 """
 import os
 import pathlib
@@ -21,7 +21,7 @@ import sys
 
 source = pathlib.Path(__file__).resolve().parents[2]
 folders = [source / folder for folder in (
-    "build/release/bin", "build/peers/bin", "build/release-assert/bin", "apps/bench", "python")]
+    "build/release/bin", "build/peers/bin", "build/release-assert/bin", "apps/bench", "python", ".")]
 of_gtest = re.compile(r"^(\[.*|Running main\(\).*|Note: Google Test.*)?\n", re.M)
 begin, end = r"<!-- written by: (?P<command>[^#\n]*?)(?: # (?P<section>[^\n]*?))? -->\n", "<!-- end -->"
 marked = re.compile(f"({begin})(?P<old>.*?)({end})", re.S)

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 source = pathlib.Path(sys.argv[1]).resolve()
-code = {"signorini_bench": "", "signorini_peers": ""}
+code = {"signorini_bench": "", "signorini_peers": "", "apps/cases/run.py": (source / "apps/cases/run.py").read_text()}
 for file in sorted((source / "apps/bench").rglob("*.cpp")):
     code["signorini_peers" if "peers" in file.parts else "signorini_bench"] += file.read_text()
 wrong = []
