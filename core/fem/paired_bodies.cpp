@@ -120,7 +120,7 @@ class Coupler {
     node.part = found.part(k);
     node.covered = found.covered[k];
     node.taken = found.taken[k];
-    node.gap = found.gap[k] / node.part + before;
+    node.gap = found.distance(k) + before;
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
     Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {

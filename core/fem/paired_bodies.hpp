@@ -14,7 +14,7 @@ struct PairedNode {
   Index node;
   Index obstacle;              ///< number in Model::obstacles
   std::array<double, B> away;  ///< unit normal from the master to the slave; with friction see free_normal()
-  double gap;                  ///< mean distance along it, weighted by the node's dual basis function: a coefficient
+  double gap;                  ///< mean distance along it, see MortarCoupling::distance(): a coefficient
   double part = 1;             ///< of the distance in the node's bound, see MortarCoupling::part()
   double covered = 1;          ///< part of the node's area that the master is in front of
   double taken = 0;            ///< what it takes over of nodes that are left out, over its area

@@ -161,9 +161,22 @@ class Gathering {
     seats_.resize(first_.back());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     each([&](std::size_t p, const Seat& seat) { seats_[next[p]++] = seat; });
+    for (std::size_t p = 0; p + 1 < first_.size(); ++p)
+      near_.push_back(leave_out_far({seats_.data() + first_[p], first_[p + 1] - first_[p]}));
   }
 
-  std::span<const Seat> seats(Index p) const { return {seats_.data() + first_[p], first_[p + 1] - first_[p]}; }
+  /// Where the master has a step at a node, faces on one side of that see what is far behind what the others see.
+  std::span<const Seat> leave_out_far(std::span<Seat> all) const {
+    const auto away = [](const Seat& s) { return std::abs(s.record->nearest + s.record->farthest); };
+    const auto nearest = std::ranges::min_element(all, {}, away);
+    if (nearest == all.end()) return all;
+    const double far = nearest->record->far;
+    const auto end =
+        std::stable_partition(all.begin(), all.end(), [&](const Seat& s) { return s.record->nearest <= far; });
+    return {all.begin(), end};
+  }
+
+  std::span<const Seat> seats(Index p) const { return near_[p]; }
 
   Node sum(Index p, const CoupleOptions& options) const {
     Node out;
@@ -198,8 +211,9 @@ class Gathering {
     const Node& node = nodes_[p];
     row_.clear();
     own_.clear();
-    double gap = 0, taken = 0, nearest = infinity, farthest = -infinity;
+    double gap = 0, taken = 0, nearest = infinity, farthest = -infinity, kink = 0;
     for (const Seat& s : seats(p)) {
+      kink = std::max(kink, s.record->kink);
       nearest = std::min(nearest, s.record->nearest);
       farthest = std::max(farthest, s.record->farthest);
       gap += add(s, s.corner, s.record->share[s.corner]);
@@ -210,9 +224,11 @@ class Gathering {
     out.covered.push_back(front_[p] > 0 ? node.weight / front_[p] : 1);
     out.taken.push_back(front_[p] > 0 ? taken / front_[p] : 0);
     out.normal.push_back(node.normal);
-    out.gap.push_back(gap / std::max(node.common, least_common * node.weight));
-    out.nearest.push_back(nearest);
-    out.farthest.push_back(farthest);
+    const double common = std::max(node.common, least_common * node.weight);
+    out.gap.push_back(gap / common);
+    out.nearest.push_back(nearest * node.weight / common);
+    out.farthest.push_back(farthest * node.weight / common);
+    out.kink.push_back(kink);
     take_row(node.weight, out);
   }
 
@@ -285,8 +301,9 @@ class Gathering {
   const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
   std::vector<std::size_t> first_;
   std::vector<Seat> seats_;
-  std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
-  std::vector<double> front_;           // area of a node in faces along its normal
+  std::vector<std::span<const Seat>> near_;  // per node those that count
+  std::vector<double> whole_, around_;       // area of a node, covered or not, and of its faces
+  std::vector<double> front_;                // area of a node in faces along its normal
   std::vector<Node> nodes_;
   bool orphans_ = false;  // there are some
   std::vector<Index> place_;

@@ -70,8 +70,9 @@ struct MortarCoupling {
   std::vector<double> taken;     ///< the same of what it takes over of nodes that are left out
   std::vector<Point<D>> normal;  ///< outer one of the slave, the mean over the node's faces as covered; of length 1
   std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
-  std::vector<double> nearest;   ///< least distance that faces of the node see
+  std::vector<double> nearest;   ///< least distance that faces of the node see, along its normal
   std::vector<double> farthest;  ///< and the largest: gap may be beyond both where the master covers less than a face
+  std::vector<double> kink;      ///< as much gap may be beyond them by edges and steps of the master, see distance()
   std::vector<Offset> row{0};    ///< node.size() + 1: positions of the rows of M̂
   std::vector<Index> column;     ///< q, ascending in a row
   std::vector<double> value;
@@ -87,6 +88,13 @@ struct MortarCoupling {
     double sum = 0;
     for (Offset k = row[p]; k < row[p + 1]; ++k) sum += is_own(column[k]) ? 0 : value[k];
     return sum;
+  }
+  /// The mean distance of a node. Dual functions are of both signs: where the distance has a kink or jumps within a
+  /// face, as at an edge or a step of the master, means by them are beyond all that is seen, by a part of the kink,
+  /// which may be far more than bodies move. So far they are brought back to what is seen.
+  double distance(Index p) const {
+    const double mean = gap[p] / part(p);
+    return mean + std::clamp(std::clamp(mean, nearest[p], farthest[p]) - mean, -kink[p], kink[p]);
   }
   /// Whether a q is a node of the slave.
   bool is_own(Index q) const { return std::ranges::binary_search(alone, q); }

@@ -7,6 +7,10 @@
 namespace signorini::mortar {
 namespace {
 
+/// What is farther off than something else in front of the same face by this part of the face's size is no partner of
+/// it: a face does not bend round that.
+constexpr double steepest = 0.25;
+
 /// Exact for products of two basis functions, and times the radius or the distance of curved surfaces.
 template <int K, int P>
 std::span<const QuadraturePoint<K>> rule(bool curved) {
@@ -45,6 +49,9 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   covered_.clear(), seen_.clear(), runs_.clear();
   for (Index child = 0; child < ElementFace<D, P>::parts; ++child) look(face, child, to);
   if (covered_.empty()) return;
+  const double size = P * finder_.frame().size;
+  find_sheets();
+  leave_out_far_sheets(size);
   const DualBasis<K, P> dual(covered_);
   to.lumped += dual.lumped();
   FaceRecord<D, P>& record = to.records.emplace_back();
@@ -52,11 +59,13 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   for (Index& p : record.node) p = slave_.number[p];
   record.share = dual.share();
   record.gap = {}, record.normal = {};
-  const auto [nearest, farthest] = std::ranges::minmax(seen_, {}, &Seen::gap);
-  record.nearest = nearest.gap, record.farthest = farthest.gap;
+  Distances all;
+  for (const Run& run : runs_) all.add(run.seen);
+  record.nearest = all.nearest, record.farthest = all.farthest;
+  record.far = all.farthest + steepest * size;
   record.first = to.entries.size();
   for (const Run& run : runs_) {
-    const auto point = run.master.points(master_);
+    const auto point = ElementFace<D, P>::with_part(run.part).points(master_);
     std::array<std::array<double, ElementFace<D, P>::nodes>, ElementFace<D, P>::nodes> sum{};  // per node of the master
     for (std::size_t i = run.first; i < run.last; ++i) {
       const auto value = basis<P>(seen_[i].master);
@@ -74,6 +83,75 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
     }
   }
   record.last = to.entries.size();
+  const auto [least, most] = std::ranges::minmax(record.gap);
+  record.kink = least < all.nearest || most > all.farthest ? kink(size, slave_.normal[face.part(0)]) : 0;
+}
+
+template <int D, int P>
+void FaceIntegrator<D, P>::find_sheets() {
+  parts_.clear();
+  for (const Run& run : runs_) parts_.push_back(run.part);
+  std::ranges::sort(parts_);
+  parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
+  sheets_.find(master_, parts_);
+}
+
+/// What is beside the nearest sheet, and far behind it.
+template <int D, int P>
+void FaceIntegrator<D, P>::leave_out_far_sheets(double size) {
+  if (sheets_.count() < 2) return;
+  std::vector<Distances> seen(parts_.size());  // per sheet
+  const auto sheet = [&](const Run& run) {
+    return sheets_.of(static_cast<Index>(std::ranges::lower_bound(parts_, run.part) - parts_.begin()));
+  };
+  for (const Run& run : runs_) seen[sheet(run)].add(run.seen);
+  const auto away = [](const Distances& d) { return std::abs(d.nearest + d.farthest); };
+  Index nearest = sheet(runs_.front());
+  for (const Run& run : runs_)
+    if (away(seen[sheet(run)]) < away(seen[nearest])) nearest = sheet(run);
+  const double far = seen[nearest].farthest + steepest * size;
+  std::erase_if(runs_, [&](const Run& run) { return seen[sheet(run)].nearest > far; });
+  std::size_t points = 0;
+  for (Run& run : runs_) {
+    for (std::size_t i = run.first; i < run.last; ++i, ++points) {
+      covered_[points] = covered_[i];
+      seen_[points] = seen_[i];
+    }
+    run.first = points - (run.last - run.first);
+    run.last = points;
+  }
+  covered_.resize(points), seen_.resize(points);
+  find_sheets();
+}
+
+/// By how much the distance may be off what is smooth: the largest difference of slopes on both sides of an edge of the
+/// master, over the face's size; anything between sheets.
+template <int D, int P>
+double FaceIntegrator<D, P>::kink(double size, const Point<D>& direction) const {
+  if (sheets_.count() > 1) return infinity;
+  const auto slope = [&](const typename Sheets<D>::Seat& seat) {
+    Barycentric middle;
+    middle.fill(1.0 / K);
+    middle[seat.opposite] = 0;
+    Point<D> out = facing(parts_[seat.face], middle, direction);
+    const double along = dot(out, direction);
+    for (double& c : out) c /= along;
+    return out;
+  };
+  double largest = 0;
+  for (const auto& [a, b] : sheets_.neighbours())
+    largest = std::max(largest, length<D>(difference<D>(slope(a), slope(b))));
+  return size * largest;
+}
+
+/// The normal of the master, of what a part of a face stands for.
+template <int D, int P>
+Point<D> FaceIntegrator<D, P>::facing(Index part, const Barycentric& there, const Point<D>& direction) const {
+  if (master_.stands_for_surface(part)) return master_.surface(part, there, direction).normal;
+  const auto element = ElementFace<D, P>::with_part(part);
+  const ElementMap<D, K, P> map = element.map(master_);
+  if (!map.curved()) return master_.normal[part];
+  return unit_normal<D>(map.flat(ElementFace<D, P>::coordinates(part - element.part(0), there)));
 }
 
 /// Adds what one of its parts sees.
@@ -81,11 +159,13 @@ template <int D, int P>
 void FaceIntegrator<D, P>::look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to) {
   const Index part = face.part(child);
   if (!finder_.find(part)) return;
-  note_overlap(part, to.deepest);
   to.layered += finder_.layered();
   const double scale = slave_.area[part] / finder_.frame().area;  // from the plane to the slave
   const ElementMap<D, K, P> map = face.map(slave_);
-  for (const Segment<D>& segment : finder_.segments()) add_points(segment, face, child, map, scale);
+  for (const Segment<D>& segment : finder_.segments()) {
+    runs_.push_back({segment.master, covered_.size(), covered_.size(), note_overlap(segment, part, to.deepest)});
+    add_points(segment, face, child, map, scale);
+  }
 }
 
 /// Seen from flat parts of faces, distances are those of the surfaces that these stand for, else of curved elements.
@@ -98,7 +178,6 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
   const ElementMap<D, K, P> master = other.map(master_);
   const Index part = face.part(child);
   const bool on_surface = slave_.stands_for_surface(part), to_surface = master_.stands_for_surface(segment.master);
-  runs_.push_back({other, covered_.size(), covered_.size()});
   each_simplex(segment.piece, [&](const std::array<Point<K>, D>& simplex) {
     const double measure = scale * signed_measure<K>(simplex);
     for (const QuadraturePoint<K>& q : rule<K, P>(on_surface || to_surface)) {
@@ -133,6 +212,7 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
       }
       // Along the normal, not the direction in which the face looks, it is as far to the plane that touches the master.
       if (on_surface || slave.curved()) seen.gap *= dot(frame.direction, facing) / dot(seen.normal, facing);
+      runs_.back().seen.add(seen.gap);
     }
   });
   runs_.back().last = covered_.size();
@@ -170,15 +250,19 @@ double FaceIntegrator<D, P>::distance(const Segment<D>& segment, Index part, con
   return out;
 }
 
+/// @return the distances at the corners of a segment, of flat elements and of those that stand for surfaces
 template <int D, int P>
-void FaceIntegrator<D, P>::note_overlap(Index part, DeepestOverlap<D>& deepest) const {
+auto FaceIntegrator<D, P>::note_overlap(const Segment<D>& segment, Index part, DeepestOverlap<D>& deepest) const
+    -> Distances {
   const FaceFrame<D>& frame = finder_.frame();
-  for (const Segment<D>& s : finder_.segments())
-    for (int i = 0; i < s.piece.count; ++i) {
-      const Point<D - 1>& y = s.piece.corner[i];
-      const double depth = -distance(s, part, y) - added(part, y);
-      if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), part, s.master};
-    }
+  Distances out;
+  for (int i = 0; i < segment.piece.count; ++i) {
+    const Point<D - 1>& y = segment.piece.corner[i];
+    const double here = distance(segment, part, y), depth = -here - added(part, y);
+    out.add(here);
+    if (depth > deepest.depth) deepest = {depth, frame.place(y, frame.height(y)), part, segment.master};
+  }
+  return out;
 }
 
 template class FaceIntegrator<2, 1>;

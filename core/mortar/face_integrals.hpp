@@ -16,6 +16,8 @@ struct FaceRecord {
   std::array<double, nodes> share;     ///< ∫ ψ_p over the slave
   std::array<double, nodes> gap;       ///< ∫ ψ_p (distance) over ∫ ψ_p
   double nearest, farthest;            ///< of the distances themselves
+  double far;                          ///< beyond that, what is in front of a face beside this one is no partner
+  double kink;                         ///< see MortarCoupling; zero where `gap` is not beyond them
   std::array<Point<D>, nodes> normal;  ///< as gap, of what the distance is measured along
   std::size_t first = 0, last = 0;     ///< its entries
 };
@@ -63,10 +65,16 @@ class FaceIntegrator {
     double gap;
     Point<D> normal;
   };
-  /// Points one after the other in front of one face of the master.
+  struct Distances {
+    double nearest = infinity, farthest = -infinity;
+    void add(double distance) { nearest = std::min(nearest, distance), farthest = std::max(farthest, distance); }
+    void add(const Distances& other) { add(other.nearest), add(other.farthest); }
+  };
+  /// Points one after the other in front of one part of a face of the master.
   struct Run {
-    ElementFace<D, P> master;
+    Index part;
     std::size_t first, last;
+    Distances seen;
   };
 
   void look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to);
@@ -74,7 +82,11 @@ class FaceIntegrator {
                   double scale);
   double added(Index part, const Point<K>& y) const;
   double distance(const Segment<D>& segment, Index part, const Point<K>& y) const;
-  void note_overlap(Index part, DeepestOverlap<D>& deepest) const;
+  Distances note_overlap(const Segment<D>& segment, Index part, DeepestOverlap<D>& deepest) const;
+  Point<D> facing(Index part, const Barycentric& there, const Point<D>& direction) const;
+  void find_sheets();
+  void leave_out_far_sheets(double size);
+  double kink(double size, const Point<D>& direction) const;
   FaceEntry<D, P>& entry(Index point, FaceIntegrals<D, P>& to);
 
   const Side<D>& slave_;
@@ -86,6 +98,8 @@ class FaceIntegrator {
   std::vector<CoveredPoint<K>> covered_;
   std::vector<Seen> seen_;  // per point
   std::vector<Run> runs_;
+  std::vector<Index> parts_;  // of the master that are seen, ascending
+  Sheets<D> sheets_;          // of these
 };
 
 }  // namespace signorini::mortar

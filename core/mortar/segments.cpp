@@ -177,31 +177,10 @@ void SegmentFinder<D>::part_layers() {
 
 template <int D>
 bool SegmentFinder<D>::in_one_sheet() {
-  if (segments_.size() == 1) return true;
-  edges_.clear();
-  sheet_.resize(segments_.size());
-  std::iota(sheet_.begin(), sheet_.end(), Index{0});
-  for (Index s = 0; s < static_cast<Index>(segments_.size()); ++s) {
-    const auto& nodes = master_.faces[segments_[s].master];
-    for (int opposite = 0; opposite < D; ++opposite) {
-      std::array<Index, K> edge;
-      for (int i = 0, k = 0; i < D; ++i)
-        if (i != opposite) edge[k++] = nodes[i];
-      edges_.emplace_back(sorted(edge), s);
-    }
-  }
-  std::sort(edges_.begin(), edges_.end());
-  const auto root = [this](Index s) {
-    while (sheet_[s] != s) s = sheet_[s] = sheet_[sheet_[s]];
-    return s;
-  };
-  auto sheets = static_cast<Index>(segments_.size());
-  for (std::size_t e = 1; e < edges_.size(); ++e) {
-    if (edges_[e].first != edges_[e - 1].first) continue;
-    const Index a = root(edges_[e - 1].second), b = root(edges_[e].second);
-    if (a != b) sheet_[a] = b, --sheets;
-  }
-  return sheets == 1;
+  masters_.clear();
+  for (const Segment<D>& s : segments_) masters_.push_back(s.master);
+  sheets_.find(master_, masters_);
+  return sheets_.count() == 1;
 }
 
 /// Makes nearest_ of the segments: what is nearer takes its part of the face first.

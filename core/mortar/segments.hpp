@@ -1,6 +1,7 @@
 #pragma once
 #include "core/mesh/point_tree.hpp"
 #include "core/mortar/face_frame.hpp"
+#include "core/mortar/sheets.hpp"
 #include "core/mortar/side.hpp"
 
 namespace signorini::mortar {
@@ -59,9 +60,9 @@ class SegmentFinder {
   std::vector<Segment<D>> segments_, nearest_;
   std::vector<Index> averted_;  // faces of the master that do not face it
   std::vector<Piece<K>> rest_, next_;
-  std::vector<Index> order_, sheet_;
+  std::vector<Index> order_, masters_;
   std::vector<double> away_;
-  std::vector<std::pair<std::array<Index, K>, Index>> edges_;
+  Sheets<D> sheets_;
 };
 
 }  // namespace signorini::mortar

@@ -72,6 +72,50 @@ TEST(ContactArea, EndsAtTheChamferOfAFootOnABlock) {
         << size;
 }
 
+/// A foot of two cells per chamfer or so on a block, either of them the slave.
+ContactReport foot_on_block(const char* slave, int cells, int order) {
+  return contact(foot(0.11, {}) +
+                 fmt::format("[[body]]\nname = 'block'\nshape = 'rectangle'\nfrom = [5, -1]\nto = [9, "
+                             "0]\ncells = [{0}, 8]\nyoung = 1\npoisson = 0.3\norder = {1}\n[[fix]]\nbody = 'block'\non "
+                             "= 'bottom'\nvalue = [0, 0]\n[[obstacle]]\ntype = 'elastic'\nbody = 'foot'\non = "
+                             "'boundary'\nother = 'block'\nother_on = 'top'\nslave = '{2}'\n",
+                             cells, order, slave));
+}
+
+// An edge of the master lies within a face of the slave: contact ends up to half a face off it, on both ends.
+TEST(ContactForce, DoesNotGrowByWhatTheMastersChamferFallsBack) {
+  for (const int order : {1, 2}) {
+    const ContactReport as_slave = foot_on_block("body", 41, order);
+    for (const int cells : {33, 37, 41, 46})
+      EXPECT_NEAR(foot_on_block("other", cells, order).force[1], as_slave.force[1], 0.1 * as_slave.force[1]) << cells;
+  }
+}
+
+/// A block on the top of a rib, which stands on a plate that the block overhangs.
+ContactReport block_on_rib(const char* slave, int cells, double height, int order) {
+  return contact(fmt::format(
+      "[[body]]\nname = 'rib'\nshape = 'polygon'\npoints = [[-3, -2], [3, -2], [3, {0}], [1, {0}], [1, 0], [-1, 0], "
+      "[-1, {0}], [-3, {0}]]\nsize = 0.25\nyoung = 1\npoisson = 0.3\norder = {3}\n[[body]]\nname = 'block'\nshape = "
+      "'rectangle'\nfrom = [-2, 0]\nto = [2, 1]\ncells = [{1}, 4]\nyoung = 1\npoisson = 0.3\norder = {3}\n[[fix]]\n"
+      "body = 'block'\non = 'top'\nvalue = [0, -0.001]\n[[fix]]\nbody = 'rib'\non = 'edge0'\nvalue = [0, 0]\n"
+      "[[obstacle]]\ntype = 'elastic'\nbody = 'block'\non = 'bottom'\nother = 'rib'\nother_on = 'boundary'\nslave = "
+      "'{2}'\n",
+      -height, cells, slave, order));
+}
+
+// What the slave overhangs is no partner of it, and does not press it into what it lies on.
+TEST(ContactForce, DoesNotGrowByTheHeightOfAStepOfTheMaster) {
+  for (const int order : {1, 2})
+    for (const double height : {0.3, 1.0}) {
+      const ContactReport as_master = block_on_rib("other", 23, height, order);
+      for (const int cells : {16, 23, 46}) {
+        const ContactReport as_slave = block_on_rib("body", cells, height, order);
+        EXPECT_NEAR(as_slave.force[1], as_master.force[1], 0.05 * as_master.force[1]) << cells << ' ' << height;
+        EXPECT_NEAR(as_slave.area, 2, 0.1) << cells << ' ' << height;
+      }
+    }
+}
+
 TEST(ContactArea, EndsAtTheChamferOfADieInSpace) {
   for (const int cells : {10, 14})
     EXPECT_NEAR(contact(fmt::format("[[body]]\nname = 'b'\nshape = 'box'\nfrom = [-1, 0, 0]\nto = [1, 0.5, 0.5]\ncells "
