@@ -14,10 +14,21 @@ bool has_normal(const TableReader& reader, const RawTable& table) {
   return reader.given("normal") && std::holds_alternative<RawValue::List>(table.find("normal")->value);
 }
 
+/// Beside the normal of a plane the plugin's option has another name.
+void refuse_word(const TableReader& reader, const RawTable& table) {
+  if (reader.given("normal") && !has_normal(reader, table))
+    input_error(reader.origin("normal"),
+                "'normal' is that of the plane, a list of numbers or expressions that points towards the body; the "
+                "option 'normal' of the obstacle's type is called 'along' beside a plane, as in along = \"body\"");
+}
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std::string_view name) {
-  if (name == "plane") return Scene::PlaneShape{reader.fields("point"), reader.fields("normal")};
+  if (name == "plane") {
+    refuse_word(reader, table);
+    return Scene::PlaneShape{reader.fields("point"), reader.fields("normal")};
+  }
   if (name == "sphere")
     return Scene::SphereShape{reader.fields("center"), reader.field("radius"), reader.flag("inside")};
   if (name == "cylinder")
@@ -54,8 +65,15 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   if (!spec) return obstacle;
   obstacle.shape_name = spec->name;
   obstacle.shape = shape(reader, table, spec->name);
-  if (std::string_view(spec->name) == "expression" && reader.given("normal") && !has_normal(reader, table))
+  const std::string_view name = spec->name;
+  if (name == "expression" && reader.given("normal") && !has_normal(reader, table))
     obstacle.options.entries.emplace_back("normal", *table.find("normal"));
+  if ((name == "plane" || name == "expression") && reader.given("along")) {
+    reader.text("along");  // or it is refused
+    if (obstacle.options.find("normal"))
+      input_error(reader.origin("along"), "'normal' says it, too; expected one of the two");
+    obstacle.options.entries.emplace_back("normal", *table.find("along"));
+  }
   return obstacle;
 }
 

@@ -120,11 +120,14 @@ constexpr KeySpec obstacle[] = {
      "undeformed"},
 };
 
+constexpr const char* along_help =
+    "a plugin's own option `normal`, where `normal` is the shape's: `along = \"body\"` of `contact`, `coulomb` and "
+    "`tresca` is along the body's outer normals";
+
 constexpr KeySpec plane_obstacle[] = {
     {"point", fields, nullptr, "", "", "a point of the plane"},
-    {"normal", fields, nullptr, "", "",
-     "points from the obstacle towards the body; of any length. A plugin's own option `normal` cannot be given beside "
-     "it"},
+    {"normal", fields, nullptr, "", "", "points from the obstacle towards the body; of any length"},
+    {"along", text, "", "", "", along_help},
 };
 constexpr KeySpec sphere_obstacle[] = {
     {"center", fields, nullptr, "", "", "centre"},
@@ -147,6 +150,7 @@ constexpr KeySpec expression_obstacle[] = {
     {"normal", fields, "", "", "",
      "points from the obstacle towards the body, and is what distances are measured along; by default towards the "
      "nearest point"},
+    {"along", text, "", "", "", along_help},
 };
 
 constexpr ShapeSpec rigid_shapes[] = {

@@ -267,6 +267,21 @@ TEST(Scene, TheWordBodyAsNormalIsLeftToThePlugin) {
   }
 }
 
+TEST(Scene, BesideTheNormalOfAShapeThatOfThePluginIsCalledAlong) {
+  const std::string rigid = "shape = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]";
+  for (const char* keys : {"shape='plane'\npoint=[0,0,-1]\nnormal=[0,0,1]\nalong='body'",
+                           "shape='expression'\ndistance='z+1'\nnormal=[0,0,1]\nalong='body'"}) {
+    const Scene scene = parse(with(ball, rigid, keys));
+    ASSERT_TRUE(scene.obstacles[0].options.find("normal")) << keys;
+    EXPECT_EQ(std::get<std::string>(scene.obstacles[0].options.find("normal")->value), "body");
+    EXPECT_FALSE(scene.obstacles[0].options.find("along")) << keys;
+  }
+  const test::Outcome word =
+      test::outcome([&] { parse(with(ball, rigid, "shape='plane'\npoint=[0,0,-1]\nnormal='body'")); });
+  EXPECT_EQ(word.status, Exit::input);
+  EXPECT_THAT(word.message, testing::AllOf(testing::HasSubstr("obstacle.0.normal"), testing::HasSubstr("along = ")));
+}
+
 TEST(Scene, SuggestionsForAnObstacleCoverTheKeysOfItsShape) {
   const std::vector<std::string> keys = parse(ball).obstacles[0].core_keys();
   for (const char* key : {"type", "where", "point", "normal"}) EXPECT_THAT(keys, testing::Contains(key));
