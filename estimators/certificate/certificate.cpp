@@ -17,6 +17,11 @@ namespace {
 /// Of the largest force: what counts as equilibrium.
 constexpr double balanced = 1e-9;
 
+/// Over the bubbles, for the bound from below: in the plane one wins 0.4 to 0.9 of the energy that is there, three 0.75
+/// to 1; in space two take a quarter more time than one.
+template <int D>
+constexpr int sweeps = D == 2 ? 3 : 1;
+
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 Estimate no_numbers(std::vector<std::string> reasons) {
@@ -40,7 +45,7 @@ class Certificate {
     if (lifted_.any()) lifted_.sweep(true);
     out_.lifted = lifted_.energy();
     Bubbles<D, B> swept = lifted_;
-    out_.lower = swept.sweep();
+    for (int k = 0; k < sweeps<D>; ++k) out_.lower += swept.sweep();
     out_.energy = energy();
     bound_from_above(swept);
     out_.guaranteed = problem_.reasons.none();

@@ -175,7 +175,7 @@ std::vector<double> meet_loads_on_faces(const TrueProblem<D, B>& problem, const 
 template <int D, int B>
 void divide_in_body(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
                     Contact<D, B>& out) {
-  constexpr double sharpness = 3;
+  constexpr double sharpness = 0.1;
   const Incidence<D>& incidence = problem.incidence;
   out.forces.in_element.assign(problem.element.size() * (D + 1), 0);
   std::vector<double> weight, gap;
