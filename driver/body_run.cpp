@@ -111,7 +111,7 @@ void BodyRun<D, B>::add_result_warnings(const Report& report, Warnings& warnings
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
   if constexpr (D == B) {
     append(warnings, turn_warnings(model_, nodes(), results_.u));
-    append(warnings, strain_warnings(model_, strains(nodes(), model_, results_.u)));
+    append(warnings, strain_warnings(model_, strains_));
   }
 }
 
@@ -235,7 +235,8 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   if constexpr (D == B)
     if (solution.summary.converged()) {
       refuse_pulling(nodes(), model_, results_.contact);
-      refuse_folded(Nodes(hierarchy_.levels.front()), model_, strains(nodes(), model_, results_.u));
+      strains_ = strains(nodes(), model_, results_.u);
+      refuse_folded(Nodes(hierarchy_.levels.front()), model_, strains_);
     }
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;

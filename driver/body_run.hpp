@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/component/registry.hpp"
+#include "core/fem/strain.hpp"
 #include "core/fem/stress.hpp"
 #include "core/io/report.hpp"
 #include "core/io/warning.hpp"
@@ -104,6 +105,7 @@ class BodyRun {
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;
+  StrainSizes<D> strains_;      // of an elastic body, once converged
   double algebraic_error_ = 0;  // of the last solve
   std::vector<double> estimate_of_element_;
 };

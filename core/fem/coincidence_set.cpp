@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_map>
 
 namespace signorini {
 namespace {
@@ -11,10 +12,11 @@ template <int D>
 class EdgeOfSet {
  public:
   EdgeOfSet(const Nodes<D>& nodes, Index obstacle, const std::vector<ContactNode<1>>& contact)
-      : nodes_(nodes), contact_(contact), number_(static_cast<std::size_t>(nodes.size()), none) {
-    for (std::size_t k = 0; k < contact.size(); ++k)
-      if (contact[k].obstacle == obstacle && contact[k].contact) number_[contact[k].vertex] = static_cast<Index>(k);
+      : nodes_(nodes), contact_(contact), place_(static_cast<std::size_t>(nodes.size())) {
+    for (const ContactNode<1>& node : contact)
+      if (node.obstacle == obstacle && node.contact) place_[node.vertex] = inside;
     find_edge();
+    find_pressures(obstacle);
     // Nodes whose neighbours are all at the edge take it from these.
     constexpr int rings = 2;
     for (int ring = 0; ring < rings; ++ring) find_densities();
@@ -22,29 +24,43 @@ class EdgeOfSet {
 
   /// How much of a node's area lies in the set.
   double part(const ContactNode<1>& node) const {
-    const auto found = density_.find(node.vertex);
-    if (found == density_.end() || !(found->second > 0)) return 1;
-    return std::min(node.pressure / found->second, 1.0);
+    if (!at_edge(node.vertex)) return 1;
+    const double density = density_.at(node.vertex);
+    return density > 0 ? std::min(node.pressure / density, 1.0) : 1;
   }
 
  private:
-  bool in_contact(Index p) const { return number_[p] != none; }
-  bool at_edge(Index p) const { return density_.contains(p); }
+  enum Place : char { outside, inside, edge };
 
-  /// Of nodes that share a simplex one is in contact and one is not.
+  bool in_contact(Index p) const { return place_[p] != outside; }
+  bool at_edge(Index p) const { return place_[p] == edge; }
+
+  /// Of nodes that share a simplex one is in contact and one is not. Most simplices have corners of one kind only.
   void find_edge() {
     const std::size_t simplices = nodes_.mesh().elements.size();
     for (std::size_t e = 0; e < simplices; ++e) {
       const auto corners = nodes_.of_simplex(e);
-      const auto inside = std::ranges::count_if(corners, [&](Index p) { return in_contact(p); });
-      if (inside == 0 || inside == std::ssize(corners)) continue;
+      int count = 0;
+      for (const Index p : corners) count += in_contact(p);
+      if (count == 0 || count == D + 1) continue;
       for (const Index p : corners)
-        if (in_contact(p)) density_[p] = unknown;
+        if (in_contact(p)) place_[p] = edge;
     }
-    if (density_.empty()) return;
-    for (std::size_t e = 0; e < simplices; ++e)
-      if (std::ranges::any_of(nodes_.of_simplex(e), [&](Index p) { return in_contact(p) && at_edge(p); }))
-        around_.push_back(e);
+    for (std::size_t e = 0; e < simplices; ++e) {
+      bool there = false;
+      for (const Index p : nodes_.of_simplex(e)) there |= at_edge(p);
+      if (there) around_.push_back(e);
+    }
+  }
+
+  /// At the nodes of the simplices around the edge, which are all that is asked about.
+  void find_pressures(Index obstacle) {
+    for (const std::size_t e : around_)
+      for (const Index p : nodes_.of_simplex(e))
+        if (in_contact(p)) density_.emplace(p, unknown);
+    for (const ContactNode<1>& node : contact_)
+      if (place_[node.vertex] == inside && node.contact && node.obstacle == obstacle)
+        if (const auto found = density_.find(node.vertex); found != density_.end()) found->second = node.pressure;
   }
 
   void find_densities() {
@@ -60,11 +76,7 @@ class EdgeOfSet {
     for (auto& [p, values] : beside) density_[p] = median(values);
   }
 
-  double density(Index p) const {
-    if (!in_contact(p)) return unknown;
-    const auto found = density_.find(p);
-    return found == density_.end() ? contact_[number_[p]].pressure : found->second;
-  }
+  double density(Index p) const { return in_contact(p) ? density_.at(p) : unknown; }
 
   /// A few much larger ones, as on a ridge of the obstacle, do not change it.
   static double median(std::vector<double>& values) {
@@ -73,13 +85,12 @@ class EdgeOfSet {
     return *middle;
   }
 
-  static constexpr Index none = -1;
   static constexpr double unknown = -1;
   const Nodes<D>& nodes_;
   const std::vector<ContactNode<1>>& contact_;
-  std::vector<Index> number_;        // in `contact_`, of each node that is in contact
-  std::map<Index, double> density_;  // of nodes at the edge
-  std::vector<std::size_t> around_;  // simplices with such nodes
+  std::vector<Place> place_;                   // of each node
+  std::vector<std::size_t> around_;            // simplices with nodes at the edge
+  std::unordered_map<Index, double> density_;  // of what presses at nodes of these
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/algebra/products.hpp"
 #include "core/base/rounding.hpp"
 #include "core/fem/coincidence_set.hpp"
+#include "core/fem/contact_surface.hpp"
 #include "core/fem/force_split.hpp"
 #include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
@@ -44,7 +45,8 @@ class NodeReader {
     const bool below = discretization_.upper_obstacle[at] < 0 || nearer_to_lower(at, x, r, at_lower, at_upper);
     const Index obstacle = (below ? discretization_.lower_obstacle : discretization_.upper_obstacle)[at];
     const auto [normal, part] = whole(at, below, p, k);
-    ContactNode<B> node{p, obstacle, at_lower || at_upper, false, part * (below ? x - lower : upper - x), 0, 0, {}, {}};
+    ContactNode<B> node = node_at(p, obstacle, at_lower || at_upper, false);
+    node.gap = part * (below ? x - lower : upper - x);
     for (int i = 0; i < B; ++i) node.direction[i] = below ? normal[i] : -normal[i];
     push(node, std::max(below ? r : -r, 0.0) / part);  // what is left of the other sign is rounding
     node.shared = node.contact && discretization_.tied[at] != 0;
@@ -64,15 +66,9 @@ class NodeReader {
     std::size_t touched = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
       const Side& side = sides[k];
-      ContactNode<B> node{problem_.constraints.vector[slot],
-                          side.obstacle,
-                          side.touched,
-                          false,
-                          side.part * side.gap,
-                          0,
-                          0,
-                          {},
-                          side.normal};
+      ContactNode<B> node = node_at(problem_.constraints.vector[slot], side.obstacle, side.touched, false);
+      node.gap = side.part * side.gap;
+      node.direction = side.normal;
       if (side.touched) {
         push(node, split.part[touched] / side.part);
         node.shared = split.unknown[touched++];
@@ -136,9 +132,7 @@ class NodeReader {
 
   /// A vertex where a functional acts and nothing is bounded.
   ContactNode<B> free_node(Index slot) const {
-    ContactNode<B> node{
-        problem_.constraints.vector[slot], discretization_.functional[slot], false, false, 0, 0, 0, {}, {}};
-    return node;
+    return node_at(problem_.constraints.vector[slot], discretization_.functional[slot], false, false);
   }
 
   ContactNode<B> read(const HeldBound<B>& held) const {
@@ -147,16 +141,26 @@ class NodeReader {
     const std::array<double, B> u = global(bound.vertex);
     for (int i = 0; i < B; ++i) value += bound.direction[i] * u[i];
     const double sign = value - bound.lower <= bound.upper - value ? 1 : -1;
-    ContactNode<B> node{bound.vertex, bound.obstacle, true, true, 0, 0, 0, {}, bound.direction};
+    ContactNode<B> node = node_at(bound.vertex, bound.obstacle, true, true);
+    node.direction = bound.direction;
     node.gap = std::min(value - bound.lower, bound.upper - value);
     for (double& d : node.direction) d *= sign;
     const PrescribedRows<B>& rows = discretization_.prescribed;
     push(node, sign * rows.force(rows.at(bound.vertex), held.along.data(), x_));
-    lead(held, u, node);
+    if constexpr (B > 1) lead(held, u, node);
     return node;
   }
 
  private:
+  static ContactNode<B> node_at(Index p, Index obstacle, bool contact, bool held) {
+    ContactNode<B> node{};
+    node.vertex = p;
+    node.obstacle = obstacle;
+    node.contact = contact;
+    node.held = held;
+    return node;
+  }
+
   /// Friction at a node that is held and led along the obstacle.
   void lead(const HeldBound<B>& held, const std::array<double, B>& u, ContactNode<B>& node) const {
     std::array<double, B> slip;
@@ -311,11 +315,12 @@ template <int B>
 void release(ContactNode<B>& node) {
   node.contact = false;
   node.pressure = 0;
-  if (node.law.coefficient > 0) {  // what does not press is not held back
-    node.friction = false;
-    node.dissipated = 0;
-    node.tangential = {};
-  }
+  if constexpr (B > 1)
+    if (node.law.coefficient > 0) {  // what does not press is not held back
+      node.friction = false;
+      node.dissipated = 0;
+      node.tangential = {};
+    }
   node.force = node.tangential;
 }
 
@@ -360,10 +365,12 @@ void add_functionals(const NodeReader<B>& reader, const Model<B>& model, const D
       at = nodes.size();
       nodes.push_back(reader.free_node(here));
     }
-    if (const auto law = friction_law(model, discretization, here))
-      reader.add_friction(here, *law, nodes[at]);
-    else
-      add_force(reader, here, nodes.data() + first, nodes.data() + known, nodes[at]);
+    if constexpr (B > 1)
+      if (const auto law = friction_law(model, discretization, here)) {
+        reader.add_friction(here, *law, nodes[at]);
+        continue;
+      }
+    add_force(reader, here, nodes.data() + first, nodes.data() + known, nodes[at]);
   }
   std::inplace_merge(nodes.begin(), nodes.begin() + static_cast<Offset>(known), nodes.end(), by_vertex);
 }
@@ -454,10 +461,11 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
   const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
-    covered.tell(node);
+    if constexpr (B > 1) covered.tell(node);
     node.area = (std::max(node.covered, node.least_covered) + node.taken) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
-    for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
+    if constexpr (B > 1)
+      for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
     if (in_body) totals.add(node);
   }
   if (in_body) {
@@ -511,8 +519,10 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
   std::vector<double> start;
-  start.reserve(state.nodes.size());
-  for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
+  if (std::ranges::any_of(model.obstacles, [](const auto& term) { return acts_on_faces(term); })) {
+    start.reserve(state.nodes.size());
+    for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
+  }
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
     measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],
             start, state);

@@ -12,7 +12,7 @@ template <int D, int B>
 ContactSurface<D, B>::ContactSurface(const Nodes<D>& nodes, const Model<B>& model, Index obstacle)
     : nodes_(nodes), plane_(model.plane), extent_(extent(nodes.mesh())) {
   const ObstacleTerm<B>& term = model.obstacles[obstacle];
-  if (B == 1 && !term.on)
+  if (!acts_on_faces(term))
     volumes_ = node_volumes(nodes, plane_);
   else
     surface_ = term.on ? surface(nodes, select_faces(nodes.mesh(), *term.on, model.t)) : surface(nodes);

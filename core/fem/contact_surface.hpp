@@ -5,6 +5,12 @@
 
 namespace signorini {
 
+/// Else it is one of a scalar that acts on the body.
+template <int B>
+bool acts_on_faces(const ObstacleTerm<B>& term) {
+  return B > 1 || term.on;
+}
+
 /// The faces that an obstacle acts on, as its nodes see them. At a node only those count that face the obstacle:
 /// whose outer normal is within 60 degrees of what presses; where there is none all do.
 template <int D, int B>
@@ -12,7 +18,7 @@ class ContactSurface {
  public:
   ContactSurface(const Nodes<D>& nodes, const Model<B>& model, Index obstacle);
 
-  /// A scalar obstacle without faces: it acts on the body, and areas are volumes.
+  /// See acts_on_faces(): areas are volumes.
   bool in_body() const { return !volumes_.empty(); }
 
   /// See ContactNode::area.

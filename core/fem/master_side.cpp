@@ -50,7 +50,9 @@ class Master {
     const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
     const MortarCoupling<D> found = couple_sides(nodes_, model_, term, faces.slave, faces.master);
     for (Index k = 0; k < found.nodes(); ++k) {
-      ContactNode<D> node{nodes_.of_vertex(found.node[k]), obstacle_, false, false, 0, 0, 0, {}, {}};
+      ContactNode<D> node{};
+      node.vertex = nodes_.of_vertex(found.node[k]);
+      node.obstacle = obstacle_;
       std::array<double, D> jump;
       std::copy_n(u.data() + Offset{node.vertex} * D, D, jump.begin());
       for (Offset j = found.row[k]; j < found.row[k + 1]; ++j)

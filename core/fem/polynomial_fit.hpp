@@ -18,6 +18,9 @@ struct Sample {
   double weight = 1;  ///< of the square of what a fit leaves of it
 };
 
+/// Of the largest one, in factors of a normal matrix: what is less shows that samples do not decide a polynomial.
+inline constexpr double dependent_samples = 1e-9;
+
 /// Coefficients of polynomials of this degree in K variables.
 constexpr int polynomial_terms(int K, int degree) { return degree == 1 ? K + 1 : (K + 1) * (K + 2) / 2; }
 
@@ -54,7 +57,7 @@ class PolynomialFit {
         for (int j = 0; j < terms; ++j) H[i][j] += sample.weight * here[i] * here[j];
     }
     factors_ = PivotedFactors<terms>(H);
-    decides_ = factors_.definite(dependent);
+    decides_ = factors_.definite(dependent_samples);
   }
 
   explicit PolynomialFit(std::vector<Sample<K, N>>&&) = delete;
@@ -115,7 +118,6 @@ class PolynomialFit {
 
  private:
   static constexpr int terms = polynomial_terms(K, Degree);
-  static constexpr double dependent = 1e-9;
   using Row = std::array<double, terms>;
 
   static double product(const Row& a, const Row& b) {

@@ -398,7 +398,7 @@ RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D
   const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, start, contact);
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
-  recover_traction(nodes, surface, faces);
+  if constexpr (B > 1) recover_traction(nodes, surface, faces);
   return {recovery.area(), recovery.resolved(), recovery.peaks_at_edge()};
 }
 

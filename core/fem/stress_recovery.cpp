@@ -2,6 +2,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/pivoted_factors.hpp"
 #include "core/fem/polynomial_fit.hpp"
 #include "core/fem/stress_reader.hpp"
 #include "core/mesh/mirror.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int most_layers = 5;        // of elements around a node
 constexpr double most_amplified = 5;  // errors of samples
+constexpr Offset unknown = -1;
 
 /// The elements around each node.
 template <int D, int P>
@@ -70,19 +72,20 @@ class StressRecovery {
                  const OwnPressure<D>& pressure)
       : nodes_(nodes),
         elements_(nodes.template elements<P>()),
+        reader_(nodes, model, u, pressure),
         around_(nodes),
         boundary_(nodes.size()),
         between_materials_(nodes.size()),
         mirrors_(nodes.mesh().mirrors),
         mirrored_(nodes.size()),
+        first_neighbour_(nodes.size(), unknown),
         patch_(elements_.size()),
         near_nodes_(nodes.size()),
-        grown_nodes_(nodes.size()) {
-    const StressReader<D, P> reader(nodes, model, u, pressure);
-    samples_.reserve(elements_.size() * points().size());
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-      const ElementMap<D, D, P> map(nodes.mesh(), elements_[e]);
-      for (const auto& q : points()) samples_.push_back({map(q.barycentric), reader.at(e, map, q.barycentric).stress});
+        grown_nodes_(nodes.size()),
+        beside_(nodes.size()) {
+    if (P == 2) {  // linear elements are asked in their order, and seldom again
+      samples_.reserve(elements_.size() * points().size());
+      for (std::size_t e = 0; e < elements_.size(); ++e) add_samples(e, samples_);
     }
     for (const Face<D>& face : nodes.mesh().boundary)
       for (const Index p : nodes.of(face.vertices)) boundary_[p] = true;
@@ -101,13 +104,13 @@ class StressRecovery {
   std::vector<Stress> run() {
     recovered_.resize(nodes_.size());
     find_midpoints();
-    find_neighbours();
     find_regular();
+    if constexpr (P == 1) fit_own();
     const auto each = [this](const auto& chosen) {
       for (Index p = 0; p < nodes_.size(); ++p)
         if (!is_midpoint(p) && chosen(p)) recovered_[p] = at(p);
     };
-    each([this](Index p) { return own_[p]; });
+    if (P == 2) each([this](Index p) { return own_[p]; });
     each([this](Index p) { return !boundary_[p] && !own_[p]; });
     each([this](Index p) { return boundary_[p]; });
     for (Index p = 0; p < nodes_.size(); ++p)
@@ -154,14 +157,25 @@ class StressRecovery {
   /// Whether some nodes may take theirs from regular ones.
   bool needs_regular() const { return P == 1 && (D == 2 || !mirrors_.empty()); }
 
-  std::span<const Index> neighbours(Index p) const {
+  /// Nodes that share elements with this one, of linear elements. Until it is asked again.
+  std::span<const Index> neighbours(Index p) {
+    Offset& first = first_neighbour_[p];
+    if (first == unknown) {
+      beside_.clear();
+      for (const Index e : around_.at(p))
+        for (const Index q : nodes_.of(elements_[e]))
+          if (q != p) beside_.add(q);
+      first = std::ssize(neighbour_);
+      neighbour_.push_back(static_cast<Index>(beside_.size()));
+      neighbour_.insert(neighbour_.end(), beside_.begin(), beside_.end());
+    }
     return std::span(neighbour_)
-        .subspan(static_cast<std::size_t>(first_neighbour_[p]),
-                 static_cast<std::size_t>(first_neighbour_[p + std::size_t{1}] - first_neighbour_[p]));
+        .subspan(static_cast<std::size_t>(first) + 1, static_cast<std::size_t>(neighbour_[first]));
   }
 
   /// Of one that is on none.
-  bool is_beside_mirror(Index p) const {
+  bool is_beside_mirror(Index p) {
+    if (mirrors_.empty()) return false;
     return std::ranges::any_of(neighbours(p), [this](Index q) { return mirrored_[q]; });
   }
 
@@ -199,7 +213,7 @@ class StressRecovery {
     const auto elements = around_.at(p);
     if (elements.empty()) return {};
     if (!boundary_[p])
-      if (const auto found = own_[p] ? inside(p) : from_regular(p)) return *found;
+      if (const auto found = P == 2 && own_[p] ? inside(p) : from_regular(p)) return *found;
     Stress sum{};
     int materials = 0;
     for (auto first = elements.begin(); first != elements.end(); ++first) {
@@ -214,6 +228,56 @@ class StressRecovery {
     }
     for (double& s : sum) s /= materials;
     return sum;
+  }
+
+  /// Of linear elements those that take it from their own: sums over elements, which are asked twice in the order that
+  /// they lie in memory, whose nodes lie beside each other, too. Where these decide nothing nodes are left to others.
+  void fit_own() {
+    constexpr int terms = D + 1;
+    std::vector<std::array<double, terms*(terms + 1) / 2>> sums(own_.size());  // then the first `terms` are the weights
+    for (const auto& vertices : elements_)
+      each_own(vertices, [&](Index p, const std::array<double, terms>& row) {
+        for (int i = 0, k = 0; i < terms; ++i)
+          for (int j = 0; j <= i; ++j) sums[p][k++] += row[i] * row[j];
+      });
+    for (Index p = 0; p < nodes_.size(); ++p)
+      if (own_[p]) own_[p] = find_weights<terms>(sums[p]);
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const Stress here = reader_.at(e, ElementMap<D, D, P>(nodes_.mesh(), elements_[e]), barycentre<D>()).stress;
+      each_own(elements_[e], [&](Index p, const std::array<double, terms>& row) {
+        double weight = 0;
+        for (int i = 0; i < terms; ++i) weight += sums[p][i] * row[i];
+        for (int k = 0; k < 6; ++k) recovered_[p][k] += weight * here[k];
+      });
+    }
+  }
+
+  /// Calls use(p, terms of a linear polynomial at the centroid, seen from there) for nodes of an element.
+  template <class Use>
+  void each_own(const Simplex<D>& vertices, const Use& use) const {
+    const Point<D> middle = centroid<D>(nodes_.mesh(), vertices);
+    for (const Index p : nodes_.of(vertices))
+      if (own_[p]) use(p, monomials<1, D>(difference<D>(middle, nodes_.at(p))));
+  }
+
+  /// Of samples around a node, for the value there, in place of the lower triangle of their normal matrix.
+  /// @return whether they decide it
+  template <int Terms, std::size_t N>
+  static bool find_weights(std::array<double, N>& sums) {
+    const double count = sums[0];
+    double squares = 0;
+    for (int i = 1, k = 2; i < Terms; k += ++i + 1) squares += sums[k];
+    if (count < Terms + D || !(squares > 0)) return false;
+    const double scale = std::sqrt(count / squares);
+    std::array<std::array<double, Terms>, Terms> H{};
+    for (int i = 0, k = 0; i < Terms; ++i)
+      for (int j = 0; j <= i; ++j) H[i][j] = sums[k++] * (i > 0 ? scale : 1) * (j > 0 ? scale : 1);
+    const PivotedFactors<Terms> factors(H);
+    std::array<double, Terms> here{1};
+    const auto weights = factors.solve(here);
+    if (!factors.definite(dependent_samples) || !(weights[0] <= most_amplified * most_amplified)) return false;
+    for (int i = 0; i < Terms; ++i) sums[i] = weights[i] * (i > 0 ? scale : 1);
+    return true;
   }
 
   /// The usual case, without a patch that may grow: of one material, on no plane of symmetry nor the axis.
@@ -256,28 +320,55 @@ class StressRecovery {
         for (const Index q : neighbours(p)) near_nodes_.add(q);
   }
 
-  /// Of linear elements, where regular nodes are needed.
-  void find_neighbours() {
-    first_neighbour_.assign(nodes_.size() + std::size_t{1}, 0);
-    for (Index p = 0; needs_regular() && p < nodes_.size(); ++p) {
-      near_nodes_.clear();
-      for (const Index e : around_.at(p))
-        for (const Index q : nodes_.of(elements_[e]))
-          if (q != p && near_nodes_.add(q)) neighbour_.push_back(q);
-      first_neighbour_[p + std::size_t{1}] = std::ssize(neighbour_);
-    }
-  }
-
   Stress of_patch(Index p) {
+    if constexpr (P == 1)
+      if (boundary_[p]) return from_inside(p);
     const bool outermost = boundary_[p];
     start_layers();
     if (outermost) add_layer();
     for (int layer = outermost ? 2 : 1; layer <= most_layers; ++layer, add_layer()) {
-      outermost&& P == 1 ? add_nodes(inner_) : add_elements();
+      add_elements();
       if (const auto found = outermost ? fitted<2>(p) : fitted<P>(p)) return *found;
     }
+    return roughly(p);
+  }
+
+  /// Of the elements in the patch.
+  Stress roughly(Index p) {
     add_elements();
     return fitted<1>(p).value_or(mean());
+  }
+
+  /// Of linear elements a node at the boundary: from nodes inside, of the same material as the patch.
+  Stress from_inside(Index p) {
+    near_nodes_.clear();
+    for (const Index e : patch_)
+      for (const Index q : nodes_.of(elements_[e])) near_nodes_.add(q);
+    std::size_t first = 0;
+    for (int layer = 2; layer <= most_layers; ++layer) {
+      add_ring_of(nodes_.region(patch_[0]), first);
+      near_.clear();
+      for (const Index q : near_nodes_)
+        if (inner_[q]) near_.push_back({nodes_.at(q), recovered_[q]});
+      if (const auto found = fitted<2>(p)) return *found;
+    }
+    start_layers();
+    for (int layer = 1; layer <= most_layers; ++layer) add_layer();
+    return roughly(p);
+  }
+
+  /// As add_ring(), along and across what bounds a material, but not out of it.
+  void add_ring_of(Index region, std::size_t& first) {
+    for (const std::size_t last = near_nodes_.size(); first < last; ++first) {
+      const Index p = near_nodes_[first];
+      if (!between_materials_[p]) {
+        for (const Index q : neighbours(p)) near_nodes_.add(q);
+        continue;
+      }
+      for (const Index e : around_.at(p))
+        if (nodes_.region(e) == region)
+          for (const Index q : nodes_.of(elements_[e])) near_nodes_.add(q);
+    }
   }
 
   void start_layers() {
@@ -299,19 +390,18 @@ class StressRecovery {
     near_.clear();
     const std::size_t count = points().size();
     for (const Index e : patch_) {
+      if (P == 1) {
+        add_samples(e, near_);
+        continue;
+      }
       const auto first = samples_.begin() + static_cast<Offset>(e * count);
       near_.insert(near_.end(), first, first + static_cast<Offset>(count));
     }
   }
 
-  /// @param chosen which ones, per node
-  void add_nodes(const std::vector<char>& chosen) {
-    near_.clear();
-    near_nodes_.clear();
-    for (const Index e : patch_)
-      for (const Index p : nodes_.of(elements_[e]))
-        if (chosen[p]) near_nodes_.add(p);
-    for (const Index p : near_nodes_) near_.push_back({nodes_.at(p), recovered_[p]});
+  void add_samples(std::size_t e, std::vector<Sample<D, 6>>& samples) const {
+    const ElementMap<D, D, P> map(nodes_.mesh(), elements_[e]);
+    for (const auto& q : points()) samples.push_back({map(q.barycentric), reader_.at(e, map, q.barycentric).stress});
   }
 
   /// Of a node on planes of symmetry the samples beyond them. The axis of a body of revolution is such a plane of its
@@ -361,20 +451,22 @@ class StressRecovery {
 
   const Nodes<D>& nodes_;
   const std::vector<std::array<Index, element_nodes<D, P>>>& elements_;
+  const StressReader<D, P> reader_;
   const ElementsAround<D, P> around_;
-  std::vector<Sample<D, 6>> samples_;               // of all elements
+  std::vector<Sample<D, 6>> samples_;               // of all elements, where these are quadratic
   std::vector<char> boundary_, between_materials_;  // per node; the latter ones are on the boundary, too
   std::vector<Mirror> mirrors_;                     // the axis of a body of revolution among them
   std::vector<char> mirrored_;                      // per node: whether it lies on one
   std::vector<char> inner_, regular_;               // per node: not on the boundary; see find_regular()
   std::vector<char> own_;                           // likewise: takes its stress from its own elements
-  std::vector<Offset> first_neighbour_;             // per node, one more: in neighbour_
-  std::vector<Index> neighbour_;                    // nodes that share elements with each, of linear ones
+  std::vector<Offset> first_neighbour_;             // per node that was asked for: in neighbour_
+  std::vector<Index> neighbour_;                    // how many share elements with it, and these
   std::vector<Offset> first_midpoint_;              // per node, one more: in midpoint_
   std::vector<Index> midpoint_;                     // of edges, by their ends
   std::vector<char> seen_;                          // per midpoint: by how many of its ends' polynomials
   std::vector<Stress> recovered_;                   // per node
   Collection patch_, near_nodes_, grown_nodes_;     // elements around a node, and nodes of these
+  Collection beside_;                               // see neighbours()
   std::size_t grown_ = 0;                           // elements of the patch with all those around them
   std::vector<Sample<D, 6>> near_;
 };

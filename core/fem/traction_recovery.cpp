@@ -159,8 +159,6 @@ void recover_traction(const Nodes<D>& nodes, const ContactSurface<D, B>& surface
 
 #define SIGNORINI_INSTANTIATE(D, B) \
   template void recover_traction(const Nodes<D>&, const ContactSurface<D, B>&, const PressedFaces<D, B>&);
-SIGNORINI_INSTANTIATE(2, 1)
-SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)
 SIGNORINI_INSTANTIATE(3, 3)
 #undef SIGNORINI_INSTANTIATE

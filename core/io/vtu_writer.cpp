@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -66,29 +67,36 @@ class Arrays {
  public:
   explicit Arrays(const VtuPacking& packing) : worthwhile_(packing.worthwhile), crew_(packing.threads) {}
 
+  /// Keeps a reference to the values.
   template <class T>
   std::string add(const char* type, const std::string& name, int components, std::span<const T> values) {
     const std::string xml = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n", type,
         escaped(name), components, offset_);
     const auto bytes = std::as_bytes(values);
-    for (std::string& piece :
-         pack_vtu({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, worthwhile_, crew_)) {
-      offset_ += piece.size();
-      packed_.push_back(std::move(piece));
-    }
+    packed_.emplace_back(std::span(reinterpret_cast<const char*>(bytes.data()), bytes.size()), worthwhile_, crew_);
+    offset_ += packed_.back().size();
     return xml;
   }
 
+  /// Numbers that are made for the file: where they are until it is written.
+  template <class T>
+  const std::vector<T>& keep(std::vector<T> values) {
+    auto kept = std::make_shared<const std::vector<T>>(std::move(values));
+    kept_.push_back(kept);
+    return *kept;
+  }
+
   void write(std::ostream& out) const {
-    for (const std::string& piece : packed_) out.write(piece.data(), static_cast<std::streamsize>(piece.size()));
+    for (const PackedVtu& array : packed_) array.write(out);
   }
 
  private:
   double worthwhile_;
   Crew crew_;
   std::size_t offset_ = 0;
-  std::vector<std::string> packed_;
+  std::vector<PackedVtu> packed_;
+  std::vector<std::shared_ptr<const void>> kept_;
 };
 
 /// Vectors of two components become such of three.
@@ -103,7 +111,7 @@ std::string describe(Arrays& arrays, const std::vector<VtuField>& fields, [[mayb
   std::string xml;
   for (const VtuField& field : fields) {
     assert(field.values.size() == places * static_cast<std::size_t>(field.components));
-    xml += field.components == 2 ? arrays.add<double>("Float64", field.name, 3, padded(field.values))
+    xml += field.components == 2 ? arrays.add<double>("Float64", field.name, 3, arrays.keep(padded(field.values)))
                                  : arrays.add<double>("Float64", field.name, field.components, field.values);
   }
   return xml;
@@ -131,10 +139,10 @@ std::string describe_cells(Arrays& arrays, const std::vector<std::array<Index, N
   const std::size_t vertices = cells.size() * N;
   const bool few = vertices <= std::numeric_limits<Index>::max();
   const std::span connectivity(cells.empty() ? nullptr : cells.front().data(), vertices);
-  return arrays.add<Index>("Int32", "connectivity", 1, connectivity) +
-         (few ? arrays.add<Index>("Int32", "offsets", 1, offsets<Index>(cells.size(), N))
-              : arrays.add<Offset>("Int64", "offsets", 1, offsets<Offset>(cells.size(), N))) +
-         arrays.add<std::uint8_t>("UInt8", "types", 1, std::vector<std::uint8_t>(cells.size(), type));
+  std::string xml = arrays.add<Index>("Int32", "connectivity", 1, connectivity);
+  xml += few ? arrays.add<Index>("Int32", "offsets", 1, arrays.keep(offsets<Index>(cells.size(), N)))
+             : arrays.add<Offset>("Int64", "offsets", 1, arrays.keep(offsets<Offset>(cells.size(), N)));
+  return xml + arrays.add<std::uint8_t>("UInt8", "types", 1, arrays.keep(std::vector(cells.size(), type)));
 }
 
 /// VTK goes around each triangle, and then up to the last corner: edges 01 12 02 and 01 12 02 03 13 23.
@@ -156,7 +164,8 @@ template <int D>
 std::string describe_cells(Arrays& arrays, const Mesh<D>& mesh, int order) {
   constexpr std::uint8_t triangle = 5, tetrahedron = 10, quadratic_triangle = 22, quadratic_tetrahedron = 24;
   if (order == 1) return describe_cells(arrays, mesh.elements, D == 2 ? triangle : tetrahedron);
-  return describe_cells(arrays, in_order_of_vtk<D>(mesh.families), D == 2 ? quadratic_triangle : quadratic_tetrahedron);
+  return describe_cells(arrays, arrays.keep(in_order_of_vtk<D>(mesh.families)),
+                        D == 2 ? quadratic_triangle : quadratic_tetrahedron);
 }
 
 template <int D>
@@ -176,7 +185,7 @@ void write_vtu(const std::filesystem::path& path, const Mesh<D>& mesh, const std
                const std::vector<VtuMark>& marks) {
   const std::size_t count = order == 1 ? mesh.elements.size() : mesh.families.size();
   Arrays arrays(packing);
-  const std::string points = arrays.add<double>("Float64", "Points", 3, coordinates(mesh));
+  const std::string points = arrays.add<double>("Float64", "Points", 3, arrays.keep(coordinates(mesh)));
   const std::string cells = describe_cells(arrays, mesh, order);
   const std::string point_data = describe(arrays, point_fields, mesh.points.size());
   const std::string cell_data = describe(arrays, cell_fields, count);

@@ -22,7 +22,7 @@ struct VtuMark {
 
 /// How a file is packed.
 struct VtuPacking {
-  double worthwhile = 0.6;  ///< see pack_vtu()
+  double worthwhile = 0.6;  ///< see PackedVtu
   int threads = 1;
 };
 

@@ -109,16 +109,47 @@ std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh) {
   return out;
 }
 
+namespace {
+
+/// Where a vertex of a refined mesh is while no curved surface has moved it.
+template <int D>
+Point<D> halfway(const Mesh<D>& coarse, const std::array<Index, 2>& parents) {
+  const auto [a, b] = parents;
+  return a == b ? coarse.points[a] : midpoint<D>(coarse.points[a], coarse.points[b]);
+}
+
+/// Whether the coarser mesh knows all points of a refined one, to the last bit.
+template <int D>
+bool halves_edges(const Mesh<D>& coarse, const Refinement& refinement, const Mesh<D>& fine) {
+  for (std::size_t v = 0; v < fine.points.size(); ++v)
+    if (fine.points[v] != halfway(coarse, refinement.parents[v])) return false;
+  return true;
+}
+
+}  // namespace
+
 template <int D>
 void restore_elements(MeshHierarchy<D>& meshes) {
-  for (Mesh<D>& mesh : meshes.levels)
+  for (std::size_t k = 0; k < meshes.levels.size(); ++k) {
+    Mesh<D>& mesh = meshes.levels[k];
+    if (mesh.points.empty() && k > 0) {
+      std::vector<Point<D>> points;
+      points.reserve(meshes.refinements[k - 1].parents.size());
+      for (const auto& parents : meshes.refinements[k - 1].parents)
+        points.push_back(halfway(meshes.levels[k - 1], parents));
+      mesh.points = std::move(points);
+    }
     if (mesh.elements.empty()) mesh.elements = elements_of_families(mesh);
+  }
 }
 
 template <int D>
 ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
   for (Mesh<D>& mesh : meshes_.levels)
     if (!mesh.families.empty()) release(mesh.elements);
+  for (std::size_t k = meshes_.levels.size(); k-- > 1;)
+    if (halves_edges(meshes_.levels[k - 1], meshes_.refinements[k - 1], meshes_.levels[k]))
+      release(meshes_.levels[k].points);
 }
 
 template <int D>

@@ -15,12 +15,13 @@ Index straighten_families(Mesh<D>& mesh);
 template <int D>
 std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh);
 
-/// Gives refined meshes that are without elements theirs back.
+/// Gives refined meshes that are without elements or points theirs back.
 template <int D>
 void restore_elements(MeshHierarchy<D>& meshes);
 
-/// Refined meshes know their elements twice. While this lives they know them once, for whoever needs the memory and no
-/// elements. Where there is no memory for them at the end of it they are left out: restore_elements() tries again.
+/// Refined meshes know their elements twice, and where no curved surface has moved a vertex the coarser mesh knows all
+/// points. While this lives they are known once, for whoever needs the memory and neither elements nor points. Where
+/// there is no memory for them at the end of it they are left out: restore_elements() tries again.
 template <int D>
 class ElementsAside {
  public:

@@ -1,5 +1,6 @@
 #include "core/mesh/refine.hpp"
 
+#include <cmath>
 #include <random>
 
 #include "core/mesh/curve.hpp"
@@ -404,6 +405,21 @@ TEST(Refine, RefinedMeshesGetElementsBackThatWereSetAside) {
     for (int k : {1, 2}) EXPECT_EQ(meshes.levels[k].elements.capacity(), 0u);
   }
   for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].elements, before[k].elements);
+  for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].points, before[k].points);
+}
+
+TEST(Refine, PointsThatHalveEdgesAreSetAsideWithTheElements) {
+  MeshHierarchy<3> meshes = hierarchy(box({0, 0.1, 0}, {1, 1.3, 1}, {2, 3, 2}), 2);
+  double& moved = meshes.levels[2].points[100][1];
+  moved = std::nextafter(moved, 2);  // as on a curved surface
+  const std::vector<Mesh<3>> before = meshes.levels;
+  {
+    const ElementsAside<3> aside(meshes);
+    EXPECT_EQ(meshes.levels[0].points, before[0].points);
+    EXPECT_EQ(meshes.levels[1].points.capacity(), 0u);
+    EXPECT_EQ(meshes.levels[2].points, before[2].points) << "which nothing else knows";
+  }
+  for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].points, before[k].points);
 }
 
 TEST(Refine, StarsOfManyElementsTakeLinearTime) {
