@@ -2,6 +2,7 @@
 
     pages.py SOURCE   (the source tree)
 """
+import fnmatch
 import pathlib
 import re
 import shutil
@@ -10,9 +11,13 @@ import sys
 import tempfile
 
 source = pathlib.Path(sys.argv[1]).resolve()
-code = {"signorini_bench": "", "signorini_peers": "", "apps/cases/run.py": (source / "apps/cases/run.py").read_text()}
+scripts = [*(source / "apps/bench").glob("*.py"), *(source / "python").glob("*.py")]
+code = {file.name: file.read_text() for file in scripts} | {
+    "signorini_bench": "", "signorini_peers": "", "apps/cases/run.py": (source / "apps/cases/run.py").read_text()}
 for file in sorted((source / "apps/bench").rglob("*.cpp")):
     code["signorini_peers" if "peers" in file.parts else "signorini_bench"] += file.read_text()
+tests = [".".join(names) for file in (source / "tests").rglob("*.cpp")
+         for names in re.findall(r"^TEST(?:_F|_P)?\((\w+), (\w+)\)", file.read_text(), re.M)]
 wrong = []
 
 
@@ -23,12 +28,24 @@ def prints_heading(text, section):
     return f'"{section}' in text or any(section in p or (len(p) > 3 and p in section) for p in pieces)
 
 
+def check_test(place, arguments):
+    """The tests that a filter names stand in the sources."""
+    for one in arguments[0].removeprefix("--gtest_filter=").split(":"):
+        if not fnmatch.filter(tests, one):
+            wrong.append(f"{place}: there is no test {one}")
+
+
 def check(place, command, section):
     """The program, its flags and the heading stand in the sources."""
     name, *arguments = command.split()
-    if name not in code:
-        wrong.append(f"{place}: {name} is none of the benchmarks")
+    if name.startswith("test_"):
+        check_test(place, arguments)
         return
+    if name not in code:
+        wrong.append(f"{place}: {name} is no program of benchmarks, no test and no script")
+        return
+    if name == "solves.py" and f"def {arguments[0]}(" not in code[name]:
+        wrong.append(f"{place}: {name} has no {arguments[0]}")
     for flag in arguments:
         if flag.startswith("--") and f'"{flag}"' not in code[name]:
             wrong.append(f"{place}: {name} has no {flag}")
