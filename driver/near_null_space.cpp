@@ -1,19 +1,33 @@
 #include "driver/near_null_space.hpp"
 
+#include <algorithm>
 #include <vector>
+
+#include "core/mesh/connected.hpp"
 
 namespace signorini {
 namespace {
 
-/// Modes of displacements become modes of unknowns that are jumps.
-template <int B>
-void to_jumps(const Jumps<B>& jumps, NearNullSpace& space) {
-  std::vector<double> mode(space.value.size() / static_cast<std::size_t>(space.modes));
-  for (Index k = 0; k < space.modes; ++k) {
-    for (std::size_t i = 0; i < mode.size(); ++i) mode[i] = space.at(static_cast<Offset>(i))[k];
-    to_jumps(jumps, mode);
-    for (std::size_t i = 0; i < mode.size(); ++i) space.at(static_cast<Offset>(i))[k] = mode[i];
-  }
+/// Per node the body that it is in.
+template <int D>
+std::vector<Index> bodies(const Nodes<D>& nodes) {
+  const std::vector<Index> part = connected_parts(nodes.mesh());
+  std::vector<Index> out(static_cast<std::size_t>(nodes.size()), 0);
+  for (auto v = static_cast<Index>(part.size()) - 1; v >= 0; --v) out[nodes.of_vertex(v)] = part[v];
+  return out;
+}
+
+/// Each body moves by itself, for no more than contact couples it to others. In terms of unknowns a slave that moves
+/// alone has its motion at all its nodes, and with its master none on the side that faces it: either is made of the
+/// motion of the body and of that of the side, which is a part of its own for each master.
+template <int D, int B>
+std::vector<Index> parts(const Nodes<D>& nodes, const Jumps<B>& jumps) {
+  const std::vector<Index> body = bodies(nodes);
+  const Index many = std::ranges::max(body) + 1;
+  std::vector<Index> out = body;
+  for (Index k = 0; k < jumps.size(); ++k)
+    if (jumps.row[k] < jumps.row[k + 1]) out[jumps.vector[k]] += many * (1 + body[jumps.column[jumps.row[k]]]);
+  return out;
 }
 
 }  // namespace
@@ -28,7 +42,7 @@ NearNullSpace near_null_space(const Nodes<D>& nodes, const Jumps<B>* jumps) {
   }
   NearNullSpace space = rigid_body_modes<D>(coordinates);
   if constexpr (D == B)
-    if (jumps) to_jumps(*jumps, space);
+    if (jumps && jumps->size() > 0) space.part = parts(nodes, *jumps);
   return space;
 }
 

@@ -5,7 +5,7 @@
 
 namespace signorini {
 
-/// The rigid motions of an elastic body, in terms of its unknowns; of a scalar one nothing.
+/// The rigid motions of elastic bodies, in terms of their unknowns; of a scalar one nothing.
 /// @param jumps null: all unknowns are displacements
 template <int D, int B>
 NearNullSpace near_null_space(const Nodes<D>& nodes, const Jumps<B>* jumps);

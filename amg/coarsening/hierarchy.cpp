@@ -107,10 +107,12 @@ class Chooser {
   /// To the twins; not where others are no means of theirs, even in the mean.
   bool pass_modes_on(const Prolongation& P) {
     NearNullSpace coarse{modes_.modes, {}};
-    for (const Index p : P.twin)
+    for (const Index p : P.twin) {
+      if (!modes_.part.empty()) coarse.part.push_back(modes_.part[p]);
       for (int i = 0; i < B; ++i)
         coarse.value.insert(coarse.value.end(), modes_.at(Offset{p} * B + i),
                             modes_.at(Offset{p} * B + i) + modes_.modes);
+    }
     double off = 0, all = 0;
     for (Index p = 0; p < P.fine(); ++p) {
       if (P.row[p + 1] - P.row[p] < 2) continue;

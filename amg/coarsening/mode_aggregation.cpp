@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "amg/coarsening/strength.hpp"
 #include "amg/coarsening/tentative.hpp"
@@ -48,7 +49,7 @@ double largest_eigenvalue(const Level<B>& level) {
 
 /// One row at a time of (I - omega D^-1 A) P0, where weakly coupled neighbours count as if they moved with the
 /// aggregate of the row: the near null space stays exact, but for modes that the aggregate cannot tell apart, and weak
-/// couplings do not widen the interpolation.
+/// couplings do not widen the interpolation. Neighbours of another part need not move with it, however weakly coupled.
 template <int B>
 class SmoothedRows {
  public:
@@ -84,6 +85,7 @@ class SmoothedRows {
 
  private:
   Index aggregate_of(Index p) const { return aggregates_.of[p / group_]; }
+  bool in_one_part(Index a, Index b) const { return modes_.part.empty() || modes_.part[a] == modes_.part[b]; }
 
   // D N' P0: as columns of values in local coordinates.
   void make_local(Index p) {
@@ -107,7 +109,7 @@ class SmoothedRows {
     for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
       const Index r = A.column[k], a = aggregate_of(r);
       if (a < 0) continue;
-      if (a != own && strong_to_[r / group_] != node) {
+      if (a != own && strong_to_[r / group_] != node && in_one_part(node, r / group_)) {
         add_weak(A.at(k), r);
         any_weak = true;
         continue;
@@ -235,13 +237,27 @@ void align_with_roots(const Level<B>& level, const Aggregates& aggregates, Index
     }
 }
 
+/// What is left alone in its part moves by itself on the coarse level, too.
+template <int B>
+Aggregates with_the_last_ones(const Level<B>& level, Index group, const StrengthGraph& graph, Aggregates aggregates) {
+  constexpr Flags all = (1u << B) - 1;
+  for (Index g = 0; g < graph.size(); ++g) {
+    const auto first = level.off.begin() + Offset{g} * group;
+    if (aggregates.of[g] >= 0 || std::all_of(first, first + group, [](Flags off) { return off == all; })) continue;
+    aggregates.of[g] = aggregates.size();
+    aggregates.root.push_back(g);
+  }
+  return rooted_at_the_surface(graph, std::move(aggregates.of), std::move(aggregates.root));
+}
+
 }  // namespace
 
 template <int B>
 ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fine, Index group,
                                  const Aggregator& aggregator, bool stretched) {
-  const StrengthGraph graph = strong_couplings_of_groups(*level.A, level.off, group, stretched);
-  const Aggregates aggregates = aggregator.aggregate(graph);
+  const StrengthGraph graph = strong_couplings_of_groups(*level.A, level.off, group, fine.part, stretched);
+  Aggregates aggregates = aggregator.aggregate(graph);
+  if (!fine.part.empty()) aggregates = with_the_last_ones(level, group, graph, std::move(aggregates));
   const Tentative tentative = tentative_interpolation<B>(fine, group, aggregates);
   ModeAggregation out;
   out.group = tentative.per_aggregate;
@@ -249,6 +265,8 @@ ModeAggregation mode_aggregation(const Level<B>& level, const NearNullSpace& fin
   SmoothedRows<B> rows(level, fine, group, graph, aggregates, tentative);
   for (Index p = 0; p < level.vectors; ++p) rows.append_row(p, out.prolongation);
   out.coarse = tentative.coarse;
+  if (!fine.part.empty())
+    for (const Index root : aggregates.root) out.coarse.part.push_back(fine.part[root]);
   align_with_roots(level, aggregates, group, tentative, out);
   return out;
 }

@@ -94,7 +94,7 @@ StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>
 
 template <int B>
 StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group,
-                                         bool at_both_ends) {
+                                         const std::vector<Index>& part, bool at_both_ends) {
   constexpr Flags all = (1u << B) - 1;
   const Index groups = A.size() / group;
   StrengthGraph graph;
@@ -107,7 +107,7 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
     for (Index p = g * group; p < (g + 1) * group; ++p)
       for (Offset k = A.row[p]; off[p] != all && k < A.row[p + 1]; ++k) {
         const Index q = A.column[k], h = q / group;
-        if (h == g || off[q] == all) continue;
+        if (h == g || off[q] == all || (!part.empty() && part[g] != part[h])) continue;
         if (sum[h] == 0) found.push_back(h);
         sum[h] += square<B>(A.at(k));
       }
@@ -125,9 +125,12 @@ StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vec
   return at_both_ends ? strong_at_both_ends(graph, norm) : graph;
 }
 
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index, bool);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index, bool);
-template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<1>&, const std::vector<Flags>&, Index,
+                                                  const std::vector<Index>&, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<2>&, const std::vector<Flags>&, Index,
+                                                  const std::vector<Index>&, bool);
+template StrengthGraph strong_couplings_of_groups(const BlockMatrix<3>&, const std::vector<Flags>&, Index,
+                                                  const std::vector<Index>&, bool);
 template StrengthGraph strong_couplings(const BlockMatrix<1>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<2>&, const std::vector<Flags>&);
 template StrengthGraph strong_couplings(const BlockMatrix<3>&, const std::vector<Flags>&);

@@ -81,10 +81,11 @@ template <int B>
 StrengthGraph strong_couplings(const BlockMatrix<B>& A, const std::vector<Flags>& off);
 
 /// The same between groups of consecutive vectors, by the norms of all that couples two of them.
+/// @param part per group, from NearNullSpace: none is coupled to those of other parts
 /// @param at_both_ends strong only where it is for both groups: at the edges and ends of bodies of stretched cells all
 ///     strong couplings are halved, and the weak ones to where they are not would count
 template <int B>
 StrengthGraph strong_couplings_of_groups(const BlockMatrix<B>& A, const std::vector<Flags>& off, Index group,
-                                         bool at_both_ends = false);
+                                         const std::vector<Index>& part = {}, bool at_both_ends = false);
 
 }  // namespace signorini

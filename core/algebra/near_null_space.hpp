@@ -10,6 +10,9 @@ namespace signorini {
 struct NearNullSpace {
   Index modes = 0;            ///< none: nothing is known, and levels represent constants
   std::vector<double> value;  ///< per unknown one number for each mode; in global coordinates
+  /// Per node (vectors that belong together) the part it is in, where each part has the modes by itself; empty: all
+  /// nodes have them together.
+  std::vector<Index> part = {};
 
   const double* at(Offset unknown) const { return value.data() + unknown * modes; }
   double* at(Offset unknown) { return value.data() + unknown * modes; }

@@ -97,6 +97,20 @@ TEST(Cycles, OfTwoBodiesAreAThirdMoreThanThoseOfOneAtMost) {
   EXPECT_LE(two, 1.3 * std::max(rigid_ball, rigid_block));
 }
 
+// Levels that the matrix makes below the coarsest mesh lose little against a factorisation there: each body moves by
+// itself on them.
+TEST(Cycles, AreAsFewWithLevelsBelowTheCoarsestMesh) {
+  const std::string size = "size = \"0.005 + 0.15 * sqrt(x^2 + y^2)\"\n";
+  const std::string cylinders =
+      "[[body]]\nname = \"upper\"\nshape = \"half_disk\"\ncenter = [0, 1]\nradius = 1\nyoung = 1\npoisson = 0.3\n" +
+      size + "[[body]]\nname = \"lower\"\nshape = \"disk\"\ncenter = [0, -2]\nradius = 2\nyoung = 3\npoisson = 0.25\n" +
+      size + tables::fix("upper", "flat", "[0, -0.004]") +
+      "[[fix]]\nbody = \"lower\"\nwhere = \"y < -3\"\nvalue = [0, 0]\n" + pair("upper", "curved", "lower", "boundary") +
+      "[refine]\nuniform = 1\n";
+  const int factorised = iterations(cylinders + "[solver]\nalgebraic = false\n");
+  EXPECT_LE(iterations(cylinders), 1.5 * factorised + 3);
+}
+
 // Where bodies touch before anything moves, rounding alone tells whether a rough solution parts them: they stay one
 // problem, which is not solved without contact first.
 TEST(TouchingBodies, ArePairedFromTheStart) {
