@@ -27,6 +27,7 @@ class NodeReader {
       : problem_(discretization.problem), discretization_(discretization), x_(x) {
     for (const double v : x) size_ = std::max(size_, std::fabs(v));
     gradient_ = functional::gradient(problem_, x);
+    before_ = gradient_before();
   }
 
   // Direction k of a slot; only those that are bounded are read.
@@ -97,7 +98,7 @@ class NodeReader {
     node.law = law;
     if (!node.friction) return;
     bool sticks = true;
-    double work = 0;
+    double work = 0, limits = 0;
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
@@ -107,10 +108,14 @@ class NodeReader {
       const double force = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
       sticks = sticks && std::fabs(moved) <= at_rest * size_;
       work += force * moved;
+      limits += before_.empty() ? 0 : before_[Offset{slot} * B + k] * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
     node.sticks = sticks;
-    node.dissipated = sticks ? 0 : std::max(-work, 0.0);  // what is left of the other sign is rounding
+    // What slips does so at the limit, which goes from that of the last step to this one's. A given one has been there
+    // before the first step, which knows no last one.
+    const bool first = law.bound > 0 && limits == 0;
+    node.dissipated = sticks ? 0 : (std::max(-work, 0.0) + (first ? std::max(-work, 0.0) : limits)) / 2;
     if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
@@ -253,6 +258,22 @@ class NodeReader {
     return out;
   }
 
+  // Likewise with the numbers that functionals had at the end of the last load step; empty without any.
+  std::vector<double> gradient_before() const {
+    if (gradient_.empty() || problem_.constraints.before.empty()) return {};
+    LevelView<B> level = functional::view(problem_);
+    level.data = problem_.constraints.before.data();
+    level.x = const_cast<double*>(x_.data());
+    std::vector<double> out(gradient_.size()), hessian(gradient_.size() * B);
+    std::vector<double> lower(gradient_.size(), -infinity), upper(gradient_.size(), infinity);
+    std::vector<Flags> critical(gradient_.size() / B);
+    for (const Segment<B>& s : problem_.segments)
+      if (const Linearisation<B>* phi = s.obstacle->linearisation())
+        phi->linearise(level, s.first, s.last,
+                       {out.data(), hessian.data(), lower.data(), upper.data(), critical.data()});
+    return out;
+  }
+
   // A x - b, of the component alone.
   double residual(Index p, int k) const {
     double Ax[B];
@@ -302,7 +323,7 @@ class NodeReader {
   const DiscreteProblem<B>& problem_;
   const Discretization<B>& discretization_;
   const std::vector<double>& x_;
-  std::vector<double> gradient_;  // of functionals
+  std::vector<double> gradient_, before_;  // of functionals
   double size_ = 0;
 };
 
