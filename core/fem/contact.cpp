@@ -10,6 +10,8 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/coincidence_set.hpp"
 #include "core/fem/force_split.hpp"
+#include "core/fem/held_in_set.hpp"
+#include "core/fem/meeting_faces.hpp"
 #include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/functional.hpp"
@@ -466,12 +468,12 @@ class Covered {
 
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
-void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairs, Index obstacle,
+void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization, Index obstacle,
              double least_force, const std::vector<double>& start, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
   ContactTotals<B> totals(summary);
-  const Covered<B> covered(pairs, obstacle);
+  const Covered<B> covered(discretization.pairs.get(), obstacle);
   const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
@@ -479,7 +481,12 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     node.area = (std::max(node.covered, node.least_covered) + node.taken) * surface.area(node);
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
-    if (in_body) totals.add(node);
+  }
+  if constexpr (B == 1) {
+    const auto found = held_in_set(nodes, surface, obstacle, state.nodes, discretization.held);
+    const auto known = state.nodes.insert(state.nodes.end(), found.begin(), found.end());
+    std::inplace_merge(state.nodes.begin(), known, state.nodes.end(),
+                       [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   }
   if (in_body) {
     if constexpr (B == 1) summary.area = coincidence_set(nodes, obstacle, state.nodes);
@@ -488,9 +495,9 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
     summary.peaks_at_edge = recovered.peaks_at_edge;
-    for (const ContactNode<B>& node : state.nodes)
-      if (node.obstacle == obstacle) totals.add(node);
   }
+  for (const ContactNode<B>& node : state.nodes)
+    if (node.obstacle == obstacle) totals.add(node);
   totals.finish();
 }
 
@@ -522,21 +529,24 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     for (int k = 0; k < B; ++k)
       if (reader.bounded(slot, k)) state.nodes.push_back(reader.read(slot, k));
   }
-  for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
+  if (B > 1)  // of scalar ones see held_in_set()
+    for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  const std::vector<double> u = to_global(discretization.problem, x);
+  MeetingFaces<D, B>(nodes, model, discretization, u, state.nodes).divide();
   add_functionals(reader, model, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
-  std::vector<double> start;
-  start.reserve(state.nodes.size());
-  for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
+  std::vector<double> start;  // directions alone bend
+  if (B > 1)
+    for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
-    measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],
-            start, state);
+    measure(nodes, model, discretization, static_cast<Index>(obstacle), positive_force * largest[obstacle], start,
+            state);
   return state;
 }
 
