@@ -142,7 +142,7 @@ class MeetingFaces {
     if (!(sum > 0)) return;
     for (std::size_t k = 0; k < meet.size(); ++k) {
       ContactNode<B>& node = *meet[k];
-      if (k > 0 && areas[k] == 0) node.obstacle = -1;
+      if (k > 0 && areas[k] == 0) node.obstacle = -1, node.contact = false;
       node.area = sum;  // done
       const double part = areas[k] / sum;
       node.pressure *= part;
