@@ -12,6 +12,7 @@
 #include "apps/signorini/show.hpp"
 #include "apps/signorini/show_steps.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/meeting_faces.hpp"
 #include "core/io/convergence.hpp"
 #include "core/io/steps_table.hpp"
 #include "core/io/warning_kinds.hpp"
@@ -43,21 +44,22 @@ ContactFields contact_fields(const Nodes<D>& nodes, const Results<D, B>& results
                        std::vector<double>(size),
                        std::vector<double>(B > 1 ? 3 * size : 0),
                        std::vector<double>(B > 1 ? 3 * size : 0)};
-  const auto add = [&](const ContactNode<B>& node) {
+  const auto add = [&](const ContactNode<B>& node, double part = 1) {
     fields.gap[node.vertex] = std::fmin(fields.gap[node.vertex], node.gap);
-    fields.pressure[node.vertex] += node.recovered;
-    fields.nodal_pressure[node.vertex] += node.pressure;
+    fields.pressure[node.vertex] += part * node.recovered;
+    fields.nodal_pressure[node.vertex] += part * node.pressure;
     const double contact = !node.contact ? 0 : !node.friction ? 1 : node.sticks ? 3 : 2;
     fields.contact[node.vertex] = std::max(fields.contact[node.vertex], contact);
     if (B == 1 || !(node.area > 0)) return;
     for (int i = 0; i < B; ++i) {
       const std::size_t at = 3 * std::size_t(node.vertex) + i;
-      fields.tangential[at] += node.traction[i];
-      fields.normal[at] += (node.force[i] - node.tangential[i]) / node.area;
+      fields.tangential[at] += part * node.traction[i];
+      fields.normal[at] += part * (node.force[i] - node.tangential[i]) / node.area;
     }
   };
-  std::ranges::for_each(results.contact.nodes, add);
-  std::ranges::for_each(results.masters, add);
+  const std::vector<ContactNode<B>>& all = results.contact.nodes;
+  for (const ContactNode<B>& node : all) add(node, part_of_meeting(all, node));
+  for (const ContactNode<B>& node : results.masters) add(node);
   for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
     *field = nodes.per_vertex(std::move(*field), 1);
   if (B > 1)

@@ -11,6 +11,8 @@
 #include "core/fem/coincidence_set.hpp"
 #include "core/fem/contact_surface.hpp"
 #include "core/fem/force_split.hpp"
+#include "core/fem/held_in_set.hpp"
+#include "core/fem/meeting_faces.hpp"
 #include "core/fem/pressure_recovery.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/functional.hpp"
@@ -28,6 +30,7 @@ class NodeReader {
       : problem_(discretization.problem), discretization_(discretization), x_(x) {
     for (const double v : x) size_ = std::max(size_, std::fabs(v));
     gradient_ = functional::gradient(problem_, x);
+    before_ = gradient_before();
   }
 
   // Direction k of a slot; only those that are bounded are read.
@@ -93,7 +96,7 @@ class NodeReader {
     node.law = law;
     if (!node.friction) return;
     bool sticks = true;
-    double work = 0;
+    double work = 0, limits = 0;
     for (int k = 0; k < B; ++k) {
       if (!(problem_.constraints.tangential[slot] >> k & 1u)) continue;
       const double moved = x_[Offset{p} * B + k] - problem_.constraints.last[Offset{slot} * B + k];
@@ -103,10 +106,14 @@ class NodeReader {
       const double force = hidden ? -gradient_[Offset{slot} * B + k] : residual(p, k);
       sticks = sticks && std::fabs(moved) <= at_rest * size_;
       work += force * moved;
+      limits += before_.empty() ? 0 : before_[Offset{slot} * B + k] * moved;
       for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
     }
     node.sticks = sticks;
-    node.dissipated = sticks ? 0 : std::max(-work, 0.0);  // what is left of the other sign is rounding
+    // What slips does so at the limit, which goes from that of the last step to this one's. A given one has been there
+    // before the first step, which knows no last one.
+    const bool first = law.bound > 0 && limits == 0;
+    node.dissipated = sticks ? 0 : (std::max(-work, 0.0) + (first ? std::max(-work, 0.0) : limits)) / 2;
     if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);
     for (int i = 0; i < B; ++i) node.force[i] += node.tangential[i];
   }
@@ -257,6 +264,22 @@ class NodeReader {
     return out;
   }
 
+  // Likewise with the numbers that functionals had at the end of the last load step; empty without any.
+  std::vector<double> gradient_before() const {
+    if (gradient_.empty() || problem_.constraints.before.empty()) return {};
+    LevelView<B> level = functional::view(problem_);
+    level.data = problem_.constraints.before.data();
+    level.x = const_cast<double*>(x_.data());
+    std::vector<double> out(gradient_.size()), hessian(gradient_.size() * B);
+    std::vector<double> lower(gradient_.size(), -infinity), upper(gradient_.size(), infinity);
+    std::vector<Flags> critical(gradient_.size() / B);
+    for (const Segment<B>& s : problem_.segments)
+      if (const Linearisation<B>* phi = s.obstacle->linearisation())
+        phi->linearise(level, s.first, s.last,
+                       {out.data(), hessian.data(), lower.data(), upper.data(), critical.data()});
+    return out;
+  }
+
   // A x - b, of the component alone.
   double residual(Index p, int k) const {
     double Ax[B];
@@ -306,7 +329,7 @@ class NodeReader {
   const DiscreteProblem<B>& problem_;
   const Discretization<B>& discretization_;
   const std::vector<double>& x_;
-  std::vector<double> gradient_;  // of functionals
+  std::vector<double> gradient_, before_;  // of functionals
   double size_ = 0;
 };
 
@@ -452,12 +475,12 @@ class Covered {
 
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
-void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairs, Index obstacle,
+void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization, Index obstacle,
              double least_force, const std::vector<double>& start, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
   ContactTotals<B> totals(summary);
-  const Covered<B> covered(pairs, obstacle);
+  const Covered<B> covered(discretization.pairs.get(), obstacle);
   const bool in_body = surface.in_body();
   for (ContactNode<B>& node : state.nodes) {
     if (node.obstacle != obstacle) continue;
@@ -466,7 +489,12 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
     if constexpr (B > 1)
       for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
-    if (in_body) totals.add(node);
+  }
+  if constexpr (B == 1) {
+    const auto found = held_in_set(nodes, surface, obstacle, state.nodes, discretization.held);
+    const auto known = state.nodes.insert(state.nodes.end(), found.begin(), found.end());
+    std::inplace_merge(state.nodes.begin(), known, state.nodes.end(),
+                       [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   }
   if (in_body) {
     if constexpr (B == 1) summary.area = coincidence_set(nodes, obstacle, state.nodes);
@@ -475,9 +503,9 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
     summary.peaks_at_edge = recovered.peaks_at_edge;
-    for (const ContactNode<B>& node : state.nodes)
-      if (node.obstacle == obstacle) totals.add(node);
   }
+  for (const ContactNode<B>& node : state.nodes)
+    if (node.obstacle == obstacle) totals.add(node);
   totals.finish();
 }
 
@@ -509,23 +537,26 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
     for (int k = 0; k < B; ++k)
       if (reader.bounded(slot, k)) state.nodes.push_back(reader.read(slot, k));
   }
-  for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
+  if (B > 1)  // of scalar ones see held_in_set()
+    for (const HeldBound<B>& held : discretization.held) state.nodes.push_back(reader.read(held));
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+  const std::vector<double> u = to_global(discretization.problem, x);
+  MeetingFaces<D, B>(nodes, model, discretization, u, state.nodes).divide();
   add_functionals(reader, model, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
-  std::vector<double> start;
-  if (std::ranges::any_of(model.obstacles, [](const auto& term) { return acts_on_faces(term); })) {
+  std::vector<double> start;  // directions alone bend
+  if (B > 1 && std::ranges::any_of(model.obstacles, [](const auto& term) { return acts_on_faces(term); })) {
     start.reserve(state.nodes.size());
     for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
   }
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
-    measure(nodes, model, discretization.pairs.get(), static_cast<Index>(obstacle), positive_force * largest[obstacle],
-            start, state);
+    measure(nodes, model, discretization, static_cast<Index>(obstacle), positive_force * largest[obstacle], start,
+            state);
   return state;
 }
 

@@ -35,6 +35,8 @@ class ContactSurface {
   }
   /// Numbers in Mesh::boundary of the faces that count at a node.
   std::vector<Index> faces(const ContactNode<B>& node) const;
+  /// All of them that the obstacle acts on.
+  const std::vector<Index>& all_faces() const { return surface_.faces; }
   Plane plane() const { return plane_; }
   /// Planes that fixes make planes of symmetry beside the surface.
   const std::vector<Flat<D>>& walls() const { return walls_; }

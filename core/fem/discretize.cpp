@@ -94,8 +94,7 @@ class Discretizer {
     add_segments();
     check_admissible_sets(nodes, model, problem());
     out_.fixes = std::move(fixes_);
-    if (B > 1)
-      for (const Bound<B>& bound : held_) hold(bound);
+    for (const Bound<B>& bound : held_) hold(bound);
     release(bounds_);  // of scalar bodies as much as their matrix, which is to come
   }
 
