@@ -12,24 +12,13 @@
 #include "apps/signorini/slice.hpp"
 #include "core/fem/element.hpp"
 #include "core/fem/fixes.hpp"
+#include "core/fem/walls.hpp"
 
 namespace signorini {
 namespace {
 
 /// Cosine of the angle to the eye from which on a face shows nothing but its edge.
 constexpr double seen_from_the_side = 0.1;
-
-/// Largest edge of the box around a mesh.
-template <int D>
-double extent(const Mesh<D>& mesh) {
-  double widest = 0;
-  for (int k = 0; k < D; ++k) {
-    const auto [low, high] = std::minmax_element(mesh.points.begin(), mesh.points.end(),
-                                                 [k](const auto& a, const auto& b) { return a[k] < b[k]; });
-    widest = std::max(widest, (*high)[k] - (*low)[k]);
-  }
-  return widest;
-}
 
 /// Factor by which displacements are drawn: one when they can be seen, else a round number that makes them visible.
 template <int D>

@@ -146,9 +146,11 @@ class MeetingFaces {
       node.area = sum;  // done
       const double part = areas[k] / sum;
       node.pressure *= part;
-      node.dissipated *= part;
       for (double& f : node.force) f *= part;
-      for (double& f : node.tangential) f *= part;
+      if constexpr (B > 1) {
+        node.dissipated *= part;
+        for (double& f : node.tangential) f *= part;
+      }
     }
   }
 
