@@ -10,14 +10,16 @@ target_compile_options(signorini_headers PRIVATE ${eigen_warnings})
 target_precompile_headers(signorini_headers PRIVATE <Eigen/Core> <fmt/format.h> <fmt/ranges.h> <algorithm> <array> <cmath>
   <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <span> <string> <string_view> <utility> <vector>)
 
-# signorini_precompiled(FOLDER): for every library made in FOLDER or below that uses these headers.
+# signorini_precompiled(FOLDER): for every library made in FOLDER or below that uses these headers, but for those that
+# round otherwise: what is inline in the headers would be rounded as it was when they were compiled.
 function(signorini_precompiled folder)
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
     get_target_property(libraries ${target} LINK_LIBRARIES)
+    get_target_property(options ${target} COMPILE_OPTIONS)
     list(REMOVE_ITEM libraries signorini_settings)
-    if(type MATCHES "(MODULE|OBJECT|SHARED|STATIC)_LIBRARY" AND libraries MATCHES "signorini|fmt")
+    if(type MATCHES "(MODULE|OBJECT|SHARED|STATIC)_LIBRARY" AND libraries MATCHES "signorini|fmt" AND NOT options MATCHES "ffp-contract")
       target_precompile_headers(${target} REUSE_FROM signorini_headers)
     endif()
   endforeach()
