@@ -542,8 +542,8 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
   if (!discretization.held.empty())
     std::stable_sort(state.nodes.begin(), state.nodes.end(),
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
-  const std::vector<double> u = to_global(discretization.problem, x);
-  MeetingFaces<D, B>(nodes, model, discretization, u, state.nodes).divide();
+  if (model.obstacles.size() > 1 || !discretization.held.empty())
+    MeetingFaces<D, B>(nodes, model, discretization, to_global(discretization.problem, x), state.nodes).divide();
   add_functionals(reader, model, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)

@@ -100,6 +100,7 @@ class MeetingFaces {
         if (const ContactNode<B>* front = find(bound.vertex, bound.obstacle, pushes)) {
           ContactNode<B>& node = hidden.emplace_back(*front);
           node.obstacle = bound.obstacle;
+          scale(0, node);  // until it is divided
         }
       }
     }
@@ -140,17 +141,29 @@ class MeetingFaces {
     }
     if (meet.front()->held) sum += take(faces_of_fixes(*meet.front()), meet.front()->vertex, taken);
     if (!(sum > 0)) return;
+    // Of nearly parallel ones each has a force of its own, and keeps it. Held ones have the whole force each.
+    const bool held = meet.front()->held;
+    const auto added = [](const Iterator node) { return node->pressure == 0; };
+    const auto pressing = std::ranges::find_if_not(meet, added);
+    if (pressing == meet.end() || (!held && std::ranges::none_of(meet, added))) return;
+    const ContactNode<B> whole = **pressing;
     for (std::size_t k = 0; k < meet.size(); ++k) {
       ContactNode<B>& node = *meet[k];
+      if (!held && meet[k] != *pressing && !added(meet[k])) continue;
       if (k > 0 && areas[k] == 0) node.obstacle = -1, node.contact = false;
       node.area = sum;  // done
-      const double part = areas[k] / sum;
-      node.pressure *= part;
-      for (double& f : node.force) f *= part;
-      if constexpr (B > 1) {
-        node.dissipated *= part;
-        for (double& f : node.tangential) f *= part;
-      }
+      node.pressure = whole.pressure, node.force = whole.force;
+      if constexpr (B > 1) node.dissipated = whole.dissipated, node.tangential = whole.tangential;
+      scale(areas[k] / sum, node);
+    }
+  }
+
+  static void scale(double part, ContactNode<B>& node) {
+    node.pressure *= part;
+    for (double& f : node.force) f *= part;
+    if constexpr (B > 1) {
+      node.dissipated *= part;
+      for (double& f : node.tangential) f *= part;
     }
   }
 

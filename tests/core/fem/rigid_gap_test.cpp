@@ -23,6 +23,14 @@ ObstacleTerm<D> rigid(std::shared_ptr<const DistanceFunction> shape, const std::
   return out;
 }
 
+/// A node said to be in contact.
+ContactNode<2> touching(Index node) {
+  ContactNode<2> out{};
+  out.vertex = node;
+  out.contact = true;
+  return out;
+}
+
 /// A disk under the square's bottom that touches it in the middle.
 std::shared_ptr<const DistanceFunction> disk(double radius) {
   return geometry::sphere({0.5, -radius}, radius, false, 1, "disk");
@@ -45,7 +53,7 @@ TEST(DeformedContact, IsTheTrueDistanceOfTheMovedBoundary) {
     const double distance = std::hypot(x - 0.5, y + radius) - radius;
     deepest = std::max(deepest, -distance);
     if (mesh.points[p][0] > 0.2) continue;
-    state.nodes.push_back({p, 0, true, false, 0, 0, 0, {}, {}});
+    state.nodes.push_back(touching(p));
     opening = std::max(opening, distance);
   }
   ASSERT_GT(opening, 0);
@@ -120,7 +128,7 @@ TEST(DeformedContact, TellsEdgesFromCurvature) {
   ContactState<2> state;
   state.obstacles.resize(1);
   for (Index p = 0; p < mesh.vertices(); ++p)
-    if (mesh.points[p][1] == 0 && mesh.points[p][0] == 0.5) state.nodes.push_back({p, 0, true});
+    if (mesh.points[p][1] == 0 && mesh.points[p][0] == 0.5) state.nodes.push_back(touching(p));
   ASSERT_EQ(state.nodes.size(), 1u);
   const auto over_edge = [&](std::shared_ptr<const DistanceFunction> shape) {
     model.obstacles = {rigid<2>(shape, "bottom")};
