@@ -43,7 +43,7 @@ struct Discretization {
   std::vector<Index> functional;  ///< per slot: the obstacle whose functional acts there, -1: none; empty without any
   std::vector<FacetSource<B>> facets;            ///< per face of problem.constraints
   std::vector<ReducedBound<B>> reduced;          ///< by ascending `at`
-  std::vector<HeldBound<B>> held;                ///< by ascending node; elasticity only
+  std::vector<HeldBound<B>> held;                ///< by ascending node; of scalars where they touch
   std::vector<FixedDirections<B>> fixes;         ///< by ascending node
   std::shared_ptr<const PairedBodies<B>> pairs;  ///< where bodies may touch each other; null: none
   PrescribedRows<B> prescribed;                  ///< one for each of `fixes`
