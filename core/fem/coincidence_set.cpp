@@ -78,13 +78,6 @@ class EdgeOfSet {
 
   double density(Index p) const { return in_contact(p) ? density_.at(p) : unknown; }
 
-  /// A few much larger ones, as on a ridge of the obstacle, do not change it.
-  static double median(std::vector<double>& values) {
-    const auto middle = values.begin() + (std::ssize(values) - 1) / 2;
-    std::ranges::nth_element(values, middle);
-    return *middle;
-  }
-
   static constexpr double unknown = -1;
   const Nodes<D>& nodes_;
   const std::vector<ContactNode<1>>& contact_;

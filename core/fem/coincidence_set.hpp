@@ -1,9 +1,18 @@
 #pragma once
+#include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "core/fem/contact.hpp"
 
 namespace signorini {
+
+/// A few much larger ones, as on a ridge of the obstacle, do not change it. Reorders them; there is at least one.
+inline double median(std::vector<double>& values) {
+  const auto middle = values.begin() + (std::ssize(values) - 1) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
 
 /// The measure of the set on which a function rests on a scalar obstacle that acts on the whole body.
 ///

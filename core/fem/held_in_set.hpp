@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fem/coincidence_set.hpp"
 #include "core/fem/contact_surface.hpp"
 #include "core/fem/element.hpp"
 
@@ -75,13 +76,6 @@ class HeldSurroundings {
     std::vector<Index> corners;
     double size;
   };
-
-  /// A few much larger ones, as on a ridge of the obstacle, do not change it.
-  static double median(std::vector<double>& values) {
-    const auto middle = values.begin() + (std::ssize(values) - 1) / 2;
-    std::ranges::nth_element(values, middle);
-    return *middle;
-  }
 
   enum State : char { off, presses, holds };
   std::vector<char> state_;      // per node
