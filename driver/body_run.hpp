@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "core/component/registry.hpp"
-#include "core/fem/strain.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/recovery/strain.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/io/report.hpp"
 #include "core/io/warning.hpp"
 #include "core/sdk/stepping.hpp"
-#include "driver/adaptation.hpp"
 #include "driver/dirichlet_neumann.hpp"
-#include "driver/memory.hpp"
-#include "driver/nested_solver.hpp"
-#include "driver/progress.hpp"
-#include "driver/results.hpp"
+#include "driver/levels/adaptation.hpp"
+#include "driver/levels/nested_solver.hpp"
+#include "driver/reports/results.hpp"
+#include "driver/scene/memory.hpp"
+#include "driver/scene/progress.hpp"
 #include "estimators/estimate.hpp"
 
 namespace signorini {

@@ -11,13 +11,14 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/fem/contact.hpp"
-#include "core/fem/paired_sides.hpp"
+#include "core/fem/pairs/paired_bodies.hpp"
+#include "core/fem/pairs/paired_sides.hpp"
+#include "core/fem/recovery/contact.hpp"
 #include "core/mesh/join.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"
-#include "driver/build_model.hpp"
-#include "driver/problem.hpp"
+#include "driver/scene/build_model.hpp"
+#include "driver/scene/problem.hpp"
 
 namespace signorini {
 namespace {

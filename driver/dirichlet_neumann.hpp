@@ -4,7 +4,7 @@
 
 #include "core/component/registry.hpp"
 #include "core/sdk/stepping.hpp"
-#include "driver/nested_solver.hpp"
+#include "driver/levels/nested_solver.hpp"
 
 namespace signorini {
 

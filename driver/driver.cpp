@@ -13,11 +13,11 @@
 #include "core/scene/read_tables.hpp"
 #include "core/scene/uses_t.hpp"
 #include "driver/components.hpp"
-#include "driver/contact_warnings.hpp"
-#include "driver/fitting_order.hpp"
-#include "driver/merge.hpp"
-#include "driver/problem.hpp"
-#include "driver/touching_bodies.hpp"
+#include "driver/reports/merge.hpp"
+#include "driver/scene/fitting_order.hpp"
+#include "driver/scene/problem.hpp"
+#include "driver/scene/touching_bodies.hpp"
+#include "driver/warnings/contact_warnings.hpp"
 
 namespace signorini {
 namespace {

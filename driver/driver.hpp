@@ -11,7 +11,7 @@
 #include "core/scene/scene.hpp"
 #include "core/sdk/stepping.hpp"
 #include "driver/body_run.hpp"
-#include "driver/progress.hpp"
+#include "driver/scene/progress.hpp"
 
 namespace signorini {
 

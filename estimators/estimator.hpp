@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/model.hpp"
-#include "core/fem/nodes.hpp"
+#include "core/fem/elements/nodes.hpp"
+#include "core/fem/model/model.hpp"
 #include "core/solver/discrete_problem.hpp"
 #include "estimators/estimate.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/rounding.hpp"
-#include "core/fem/force_split.hpp"
+#include "core/solver/force_split.hpp"
 
 namespace signorini {
 

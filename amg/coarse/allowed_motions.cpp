@@ -1,6 +1,6 @@
 #include "amg/coarse/allowed_motions.hpp"
 
-#include "amg/coarse/cone_projection.hpp"
+#include "core/base/cone_projection.hpp"
 #include "core/base/types.hpp"
 
 namespace signorini {

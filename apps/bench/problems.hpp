@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "apps/bench/processor_time.hpp"
-#include "core/fem/discretize.hpp"
-#include "driver/build_model.hpp"
+#include "core/fem/assembly/discretize.hpp"
 #include "driver/components.hpp"
-#include "driver/nested_solver.hpp"
-#include "driver/problem.hpp"
+#include "driver/levels/nested_solver.hpp"
+#include "driver/scene/build_model.hpp"
+#include "driver/scene/problem.hpp"
 
 namespace signorini::bench {
 

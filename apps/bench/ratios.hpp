@@ -1,9 +1,9 @@
 #pragma once
-#include "apps/bench/linear.hpp"
+#include "apps/bench/matrices/linear.hpp"
 #include "apps/bench/problems.hpp"
-#include "apps/bench/traffic.hpp"
+#include "apps/bench/shares/traffic.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/fem/nested.hpp"
+#include "core/fem/elements/nested.hpp"
 
 /// What is measured within one run, as a ratio.
 namespace signorini::bench {

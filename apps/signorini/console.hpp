@@ -7,7 +7,7 @@
 #include "apps/signorini/heartbeat.hpp"
 #include "apps/signorini/run_status.hpp"
 #include "core/io/warning.hpp"
-#include "driver/progress.hpp"
+#include "driver/scene/progress.hpp"
 
 namespace signorini {
 

@@ -12,7 +12,7 @@
 #include "apps/signorini/show.hpp"
 #include "apps/signorini/show_steps.hpp"
 #include "core/base/error.hpp"
-#include "core/fem/meeting_faces.hpp"
+#include "core/fem/recovery/meeting_faces.hpp"
 #include "core/io/convergence.hpp"
 #include "core/io/steps_table.hpp"
 #include "core/io/warning_kinds.hpp"

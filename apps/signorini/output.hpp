@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/stress.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/io/atomic_files.hpp"
 #include "core/io/vtu_writer.hpp"
-#include "driver/results.hpp"
+#include "driver/reports/results.hpp"
 
 namespace signorini {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "driver/progress.hpp"
+#include "driver/scene/progress.hpp"
 
 namespace signorini {
 

@@ -10,9 +10,9 @@
 #include "apps/signorini/drawn_level.hpp"
 #include "apps/signorini/show.hpp"
 #include "apps/signorini/slice.hpp"
-#include "core/fem/element.hpp"
-#include "core/fem/fixes.hpp"
-#include "core/fem/walls.hpp"
+#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/conditions/walls.hpp"
+#include "core/fem/elements/element.hpp"
 
 namespace signorini {
 namespace {

@@ -15,9 +15,9 @@
 #include "core/base/stopwatch.hpp"
 #include "core/io/output_place.hpp"
 #include "driver/driver.hpp"
-#include "driver/error_estimate.hpp"
-#include "driver/numbers.hpp"
-#include "driver/touching_bodies.hpp"
+#include "driver/reports/error_estimate.hpp"
+#include "driver/scene/numbers.hpp"
+#include "driver/scene/touching_bodies.hpp"
 
 namespace signorini {
 namespace {

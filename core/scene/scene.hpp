@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/fem/model.hpp"
+#include "core/fem/model/model.hpp"
 #include "core/geometry/body_geometry.hpp"
 #include "core/geometry/geometry.hpp"
 #include "core/input/field.hpp"
@@ -62,7 +62,7 @@ struct Scene {
     bool order_chosen = false;         ///< by it, and not by the scene
     std::optional<Pressure> pressure;  ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
-    std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/touching_bodies.hpp
+    std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/scene/touching_bodies.hpp
 
     /// Whether a table for that body is for this one, or for one of its parts.
     bool answers_to(std::string_view body) const {

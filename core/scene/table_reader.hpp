@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/fem/model.hpp"
+#include "core/fem/model/model.hpp"
 #include "core/input/field.hpp"
 #include "core/input/raw.hpp"
 #include "core/scene/scene.hpp"

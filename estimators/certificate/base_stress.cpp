@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/fem/discretize.hpp"
+#include "core/fem/assembly/discretize.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {

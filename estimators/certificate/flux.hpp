@@ -1,6 +1,6 @@
 #pragma once
-#include "core/fem/gradient.hpp"
-#include "core/fem/material.hpp"
+#include "core/fem/elements/gradient.hpp"
+#include "core/fem/model/material.hpp"
 
 namespace signorini {
 

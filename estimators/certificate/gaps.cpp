@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/component/failure.hpp"
-#include "core/fem/element.hpp"
-#include "core/fem/select.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/select.hpp"
 
 namespace signorini {
 namespace {

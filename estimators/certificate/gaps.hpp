@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "core/fem/model.hpp"
-#include "core/fem/nodes.hpp"
+#include "core/fem/elements/nodes.hpp"
+#include "core/fem/model/model.hpp"
 #include "estimators/certificate/incidence.hpp"
 #include "estimators/certificate/reasons.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "core/fem/fixes.hpp"
+#include "core/fem/conditions/fixes.hpp"
 
 namespace signorini {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/fem/select.hpp"
+#include "core/fem/elements/select.hpp"
 #include "core/mesh/quadrature.hpp"
 
 namespace signorini {

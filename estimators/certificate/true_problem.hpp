@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "core/fem/element.hpp"
-#include "core/fem/fixes.hpp"
-#include "core/fem/material.hpp"
-#include "core/fem/model.hpp"
-#include "core/fem/nodes.hpp"
+#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/nodes.hpp"
+#include "core/fem/model/material.hpp"
+#include "core/fem/model/model.hpp"
 #include "estimators/certificate/gaps.hpp"
 #include "estimators/certificate/incidence.hpp"
 #include "estimators/certificate/reasons.hpp"

@@ -49,7 +49,7 @@ compare() {
       return from == to || (from, to) in arrow || (from, "everything") in arrow || (from, top_of(to)) in arrow
     }
     function top_of(path) { sub(/\/.*/, "", path); return path }
-    function inner(folder) { return folder ~ /^(core|amg)\// || folder == "amg" }
+    function inner(folder) { return folder ~ /^(core|amg|driver)\// || folder == "amg" }
     FNR == NR {
       row[$1]
       count = split($2, other, " ")
@@ -157,9 +157,9 @@ try_table() {
 selftest() {
   local folder
   failed=0
-  try good core/fem/a.cpp '#include "core/base/types.hpp"'
+  try good core/fem/model/a.cpp '#include "core/base/types.hpp"'
   try good core/geometry/cgal/a.cpp '#include "core/geometry/a.hpp"'
-  try good transfer/a.cpp '#include "core/fem/a.hpp"'
+  try good transfer/a.cpp '#include "core/fem/model/a.hpp"'
   try good amg/a.cpp '#include "transfer/a.hpp"'
   try good amg/a.cpp '#include "amg/linear/a.hpp"'
   try good amg/black_box/a.cpp '#include "amg/coarsening/a.hpp"'
@@ -170,16 +170,16 @@ selftest() {
   try good apps/a.cpp '#include "obstacles/contact/a.hpp"'
   try good core/geometry/cgal/a.cpp '#include <CGAL/Mesh_3.h>'
   try good apps/bench/peers/a.cpp '#include <Eigen/CholmodSupport>'
-  try good core/fem/a.cpp '// frame/wo''rk/home is no path'
+  try good core/fem/model/a.cpp '// frame/wo''rk/home is no path'
   for folder in transfer smoothers amg c estimators obstacles driver apps tests; do
     try wrong core/base/a.cpp "#include \"$folder/a.hpp\""
   done
   for folder in core transfer smoothers amg estimators driver; do
     try wrong "$folder/a.hpp" '  #  include "obstacles/contact/a.hpp"'
   done
-  try wrong core/base/a.cpp '#include "core/fem/a.hpp"'
+  try wrong core/base/a.cpp '#include "core/fem/model/a.hpp"'
   try wrong core/algebra/a.hpp '#include "core/solver/a.hpp"'
-  try wrong core/geometry/cgal/a.cpp '#include "core/fem/a.hpp"'
+  try wrong core/geometry/cgal/a.cpp '#include "core/fem/model/a.hpp"'
   try wrong core/elsewhere/a.cpp '#include <vector>'
   try wrong elsewhere/a.cpp '#include <vector>'
   try wrong amg/a.cpp '#include "core/elsewhere/a.hpp"'
@@ -193,7 +193,7 @@ selftest() {
   try wrong smoothers/a.cpp '#include "transfer/a.hpp"'
   try wrong smoothers/a.cpp '#include "../transfer/a.hpp"'
   try wrong obstacles/contact/a.cpp '#include "obstacles/scalar/a.hpp"'
-  try wrong core/fem/a.cpp '#include <CGAL/Mesh_3.h>'
+  try wrong core/fem/model/a.cpp '#include <CGAL/Mesh_3.h>'
   try wrong apps/a.cpp '#include <cholmod.h>'
   try wrong docs/a.md "see /""home/somebody/notes"
   # shellcheck disable=SC2016

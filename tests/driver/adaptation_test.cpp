@@ -1,4 +1,4 @@
-#include "driver/adaptation.hpp"
+#include "driver/levels/adaptation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "driver/balance_warnings.hpp"
+#include "driver/warnings/balance_warnings.hpp"
 
 #include "tests/driver/warned.hpp"
 

@@ -1,4 +1,4 @@
-#include "driver/contact_warnings.hpp"
+#include "driver/warnings/contact_warnings.hpp"
 
 #include "tests/driver/warned.hpp"
 

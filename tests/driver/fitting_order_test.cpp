@@ -1,5 +1,5 @@
 // Quadratic elements that would not fit into memory are linear instead, and that is said.
-#include "driver/fitting_order.hpp"
+#include "driver/scene/fitting_order.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "apps/scenes/tables.hpp"
 #include "core/base/proc.hpp"
 #include "driver/driver.hpp"
-#include "driver/problem.hpp"
+#include "driver/scene/problem.hpp"
 
 namespace signorini::test {
 namespace {

@@ -1,5 +1,5 @@
 // The memory of all bodies together has to be there, before any is refined.
-#include "driver/memory.hpp"
+#include "driver/scene/memory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

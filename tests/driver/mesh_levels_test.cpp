@@ -1,5 +1,5 @@
 // Levels come, go and are replaced while a solver lives, which knows the last step as before.
-#include "driver/mesh_levels.hpp"
+#include "driver/levels/mesh_levels.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include "apps/scenes/tables.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/solver/local_coordinates.hpp"
-#include "driver/build_model.hpp"
 #include "driver/components.hpp"
-#include "driver/nested_solver.hpp"
-#include "driver/problem.hpp"
+#include "driver/levels/nested_solver.hpp"
+#include "driver/scene/build_model.hpp"
+#include "driver/scene/problem.hpp"
 #include "tests/support/on_mesh.hpp"
 
 namespace signorini::test {

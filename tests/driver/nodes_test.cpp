@@ -7,11 +7,11 @@
 #include "amg/registration.hpp"
 #include "apps/scenes/tables.hpp"
 #include "core/mesh/refine.hpp"
-#include "driver/build_model.hpp"
 #include "driver/components.hpp"
-#include "driver/nested_solver.hpp"
-#include "driver/problem.hpp"
-#include "driver/results.hpp"
+#include "driver/levels/nested_solver.hpp"
+#include "driver/reports/results.hpp"
+#include "driver/scene/build_model.hpp"
+#include "driver/scene/problem.hpp"
 #include "tests/support/torn.hpp"
 
 namespace signorini::test {

@@ -1,4 +1,4 @@
-#include "driver/strain_warnings.hpp"
+#include "driver/warnings/strain_warnings.hpp"
 
 #include "tests/driver/warned.hpp"
 

@@ -1,15 +1,15 @@
 #pragma once
 #include <utility>
 
-#include "core/fem/assemble.hpp"
-#include "core/fem/contact.hpp"
-#include "core/fem/discretize.hpp"
-#include "core/fem/error_norm.hpp"
-#include "core/fem/nested.hpp"
-#include "core/fem/probe.hpp"
-#include "core/fem/rigid_gap.hpp"
-#include "core/fem/select.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/assembly/assemble.hpp"
+#include "core/fem/assembly/discretize.hpp"
+#include "core/fem/elements/nested.hpp"
+#include "core/fem/elements/probe.hpp"
+#include "core/fem/elements/select.hpp"
+#include "core/fem/recovery/contact.hpp"
+#include "core/fem/recovery/error_norm.hpp"
+#include "core/fem/recovery/rigid_gap.hpp"
+#include "core/fem/recovery/stress.hpp"
 
 /// What takes nodes, for meshes alone, whose nodes then are numbered as the vertices. Only tests may take that for
 /// granted.

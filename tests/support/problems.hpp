@@ -2,11 +2,12 @@
 #include <cmath>
 
 #include "amg/registration.hpp"
-#include "core/fem/assemble.hpp"
-#include "core/fem/discretize.hpp"
-#include "core/fem/nested.hpp"
+#include "core/fem/assembly/assemble.hpp"
+#include "core/fem/assembly/discretize.hpp"
+#include "core/fem/elements/nested.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/mesh/structured.hpp"
+#include "core/solver/interpolate.hpp"
 #include "methods/solve.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/obstacles.hpp"

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "core/fem/element.hpp"
-#include "core/fem/nodes.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/nodes.hpp"
 
 /// Meshes whose nodes are not their vertices: torn apart, and glued together by nodes that are numbered at random.
 namespace signorini::test {

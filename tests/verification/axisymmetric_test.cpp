@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
-#include "core/fem/element.hpp"
-#include "core/fem/select.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/select.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"

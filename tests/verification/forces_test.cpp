@@ -1,4 +1,4 @@
-#include "core/fem/forces.hpp"
+#include "core/fem/recovery/forces.hpp"
 
 #include "tests/verification/run.hpp"
 #include "tests/verification/scene_text.hpp"

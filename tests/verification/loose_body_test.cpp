@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/base/error.hpp"
-#include "core/fem/select.hpp"
+#include "core/fem/elements/select.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"

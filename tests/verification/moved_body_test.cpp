@@ -1,6 +1,6 @@
 // Stiff bodies that prescribed values, obstacles and loads move far beside what they deform: their forces are small
 // beside stiffness times way.
-#include "core/fem/element.hpp"
+#include "core/fem/elements/element.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 

@@ -1,6 +1,7 @@
 // Where the matrix of a coarser mesh is the Galerkin product of the finer one's, the solver takes it over.
 #include "apps/scenes/tables.hpp"
-#include "core/fem/nested.hpp"
+#include "core/fem/elements/nested.hpp"
+#include "core/solver/interpolate.hpp"
 #include "core/solver/multigrid.hpp"
 #include "methods/configuration.hpp"
 #include "run.hpp"

@@ -1,6 +1,6 @@
 // Partial slip of a line contact and of a point contact, loaded, unloaded and loaded the other way, against Cattaneo
 // and Mindlin. docs/measured/friction.md has finer meshes.
-#include "apps/bench/partial_slip.hpp"
+#include "apps/bench/friction/partial_slip.hpp"
 #include "run.hpp"
 #include "tests/support/nightly.hpp"
 

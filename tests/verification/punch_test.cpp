@@ -1,5 +1,5 @@
 // A flat punch on a block between smooth walls: uniform stress whatever the mesh and wherever the block stands.
-#include "core/fem/stress.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/mesh/structured.hpp"
 #include "mesh_file.hpp"
 #include "run.hpp"

@@ -1,5 +1,5 @@
 // Quadratic elements: orders of convergence on smooth problems, and the cycles that they take beside linear ones.
-#include "core/fem/error_norm.hpp"
+#include "core/fem/recovery/error_norm.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 

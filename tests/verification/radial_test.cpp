@@ -1,5 +1,5 @@
 // Obstacle problems with rotational symmetry and known solutions: orders of convergence and the free boundary.
-#include "core/fem/error_norm.hpp"
+#include "core/fem/recovery/error_norm.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 #include "tests/support/nightly.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
-#include "core/fem/element.hpp"
+#include "core/fem/elements/element.hpp"
 #include "random_body.hpp"
 #include "run.hpp"
 

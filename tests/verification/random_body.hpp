@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/fem/element.hpp"
+#include "core/fem/elements/element.hpp"
 #include "tests/random_scenes/view.hpp"
 #include "tests/support/random.hpp"
 

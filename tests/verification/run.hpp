@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "amg/registration.hpp"
-#include "driver/build_model.hpp"
 #include "driver/components.hpp"
-#include "driver/nested_solver.hpp"
-#include "driver/problem.hpp"
-#include "driver/results.hpp"
+#include "driver/levels/nested_solver.hpp"
+#include "driver/reports/results.hpp"
+#include "driver/scene/build_model.hpp"
+#include "driver/scene/problem.hpp"
 #include "tests/support/on_mesh.hpp"
 
 /// Scenes solved as `signorini solve` does it, with all that a test wants to look at.

@@ -4,7 +4,7 @@
 
 #include <complex>
 
-#include "core/fem/error_norm.hpp"
+#include "core/fem/recovery/error_norm.hpp"
 #include "run.hpp"
 #include "scene_text.hpp"
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/base/error.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/mesh/build.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mesh/simplex.hpp"

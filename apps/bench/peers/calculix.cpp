@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/bench/friction_scenes.hpp"
+#include "apps/bench/friction/friction_scenes.hpp"
 #include "apps/bench/peers/calculix_program.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "apps/bench/scratch_folder.hpp"

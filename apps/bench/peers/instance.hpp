@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/matrices.hpp"
+#include "apps/bench/matrices/matrices.hpp"
 
 namespace signorini::bench {
 

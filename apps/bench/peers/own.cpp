@@ -6,15 +6,16 @@
 #include <stdexcept>
 
 #include "amg/black_box.hpp"
-#include "apps/bench/linear.hpp"
+#include "apps/bench/matrices/linear.hpp"
 #include "apps/bench/peers/instance.hpp"
 #include "apps/bench/problems.hpp"
 #include "apps/bench/processor_time.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/fem/nested.hpp"
+#include "core/fem/elements/nested.hpp"
 #include "core/solver/convergence.hpp"
+#include "core/solver/interpolate.hpp"
 
 namespace signorini::bench {
 namespace {

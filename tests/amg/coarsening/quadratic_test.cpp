@@ -6,7 +6,7 @@
 #include <Eigen/SparseCore>
 
 #include "amg/black_box.hpp"
-#include "core/fem/discretize.hpp"
+#include "core/fem/assembly/discretize.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/amg/matrices.hpp"
 #include "tests/core/fem/support.hpp"

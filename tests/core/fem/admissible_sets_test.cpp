@@ -1,6 +1,6 @@
 // What an obstacle admits at a node has to be the box of its bounds: one that derives from the interface itself, with a
 // sweep of its own, is asked for it.
-#include "core/fem/admissible_sets.hpp"
+#include "core/fem/assembly/admissible_sets.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // After a solve the functionals of obstacles are asked whether the result is due to faults of theirs.
-#include "core/fem/check_functionals.hpp"
+#include "core/fem/assembly/check_functionals.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,13 @@
-#include "core/fem/contact.hpp"
+#include "core/fem/recovery/contact.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <numeric>
 
-#include "core/fem/nested.hpp"
+#include "core/fem/elements/nested.hpp"
 #include "core/mesh/refine.hpp"
+#include "core/solver/interpolate.hpp"
 #include "tests/core/fem/support.hpp"
 
 namespace signorini::testing {

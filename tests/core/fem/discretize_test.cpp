@@ -1,4 +1,4 @@
-#include "core/fem/discretize.hpp"
+#include "core/fem/assembly/discretize.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fem/fixes.hpp"
+#include "core/fem/conditions/fixes.hpp"
 
 #include <gtest/gtest.h>
 

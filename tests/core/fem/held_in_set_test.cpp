@@ -1,5 +1,5 @@
 // Values prescribed where a scalar obstacle touches: the contact reaches as far as the boundary.
-#include "core/fem/held_in_set.hpp"
+#include "core/fem/recovery/held_in_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/fem/assemble.hpp"
-#include "core/fem/select.hpp"
+#include "core/fem/assembly/assemble.hpp"
+#include "core/fem/elements/select.hpp"
 #include "tests/core/fem/support.hpp"
 
 namespace signorini::testing {

@@ -1,5 +1,5 @@
 // Obstacles that meet at nodes: each has its part of the force there, and the pressure is that of all.
-#include "core/fem/meeting_faces.hpp"
+#include "core/fem/recovery/meeting_faces.hpp"
 
 #include <gtest/gtest.h>
 

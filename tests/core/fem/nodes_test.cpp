@@ -1,18 +1,18 @@
 // Nothing takes the number of a node for that of a vertex: a mesh torn apart and glued together by nodes with random
 // numbers gives what the whole mesh does.
-#include "core/fem/nodes.hpp"
+#include "core/fem/elements/nodes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/fem/assemble.hpp"
-#include "core/fem/contact.hpp"
-#include "core/fem/error_norm.hpp"
-#include "core/fem/forces.hpp"
-#include "core/fem/nested.hpp"
-#include "core/fem/probe.hpp"
-#include "core/fem/rigid_gap.hpp"
-#include "core/fem/rigid_motions.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/assembly/assemble.hpp"
+#include "core/fem/elements/nested.hpp"
+#include "core/fem/elements/probe.hpp"
+#include "core/fem/motions/rigid_motions.hpp"
+#include "core/fem/recovery/contact.hpp"
+#include "core/fem/recovery/error_norm.hpp"
+#include "core/fem/recovery/forces.hpp"
+#include "core/fem/recovery/rigid_gap.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/geometry/shapes.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"

@@ -1,5 +1,5 @@
 // How deep two bodies overlap: whatever vertices and faces coincide, in any place, size and position.
-#include "core/fem/overlap.hpp"
+#include "core/fem/pairs/overlap.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "core/fem/error_norm.hpp"
-#include "core/fem/stress.hpp"
+#include "core/fem/recovery/error_norm.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/solver/convergence.hpp"
 #include "tests/core/fem/support.hpp"
 

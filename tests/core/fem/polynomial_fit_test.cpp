@@ -1,4 +1,4 @@
-#include "core/fem/polynomial_fit.hpp"
+#include "core/fem/elements/polynomial_fit.hpp"
 
 #include <gtest/gtest.h>
 

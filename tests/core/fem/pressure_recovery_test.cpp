@@ -1,5 +1,5 @@
 // Pressures from means: exact means in, the pressure at nodes out.
-#include "core/fem/pressure_recovery.hpp"
+#include "core/fem/recovery/pressure_recovery.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fem/probe.hpp"
+#include "core/fem/elements/probe.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/fem/rigid_gap.hpp"
+#include "core/fem/recovery/rigid_gap.hpp"
 
 #include <gtest/gtest.h>
 

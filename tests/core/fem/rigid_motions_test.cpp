@@ -1,5 +1,5 @@
 // The motions that prescribed values leave free, counted by hand.
-#include "core/fem/rigid_motions.hpp"
+#include "core/fem/motions/rigid_motions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/fem/cut_faces.hpp"
-#include "core/fem/element.hpp"
-#include "core/fem/select.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/select.hpp"
+#include "core/fem/recovery/cut_faces.hpp"
 #include "core/mesh/boundary.hpp"
 #include "core/mesh/refine.hpp"
 #include "support.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/base/error.hpp"
-#include "core/fem/assemble.hpp"
+#include "core/fem/assembly/assemble.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
 

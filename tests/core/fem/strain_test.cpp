@@ -1,5 +1,5 @@
 // Sizes of strains of fields whose strains are known.
-#include "core/fem/strain.hpp"
+#include "core/fem/recovery/strain.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/fem/discretize.hpp"
+#include "core/fem/assembly/discretize.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "tests/support/on_mesh.hpp"

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "apps/bench/friction_law.hpp"
-#include "apps/bench/friction_scenes.hpp"
+#include "apps/bench/friction/friction_law.hpp"
+#include "apps/bench/friction/friction_scenes.hpp"
 #include "driver/driver.hpp"
 
 namespace signorini::test {

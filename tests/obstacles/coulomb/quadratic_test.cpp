@@ -1,5 +1,5 @@
 // Friction with quadratic elements: uniform stress exactly, the law at every node, and partial slip.
-#include "apps/bench/partial_slip.hpp"
+#include "apps/bench/friction/partial_slip.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
 #include "run.hpp"
@@ -115,7 +115,7 @@ TEST(QuadraticFriction, TendsToWhatLinearElementsDo) {
   EXPECT_LE(dissipated.value.back(), 0.05);
 }
 
-// Cattaneo's line contact, see apps/bench/partial_slip.hpp.
+// Cattaneo's line contact, see apps/bench/friction/partial_slip.hpp.
 TEST(QuadraticFriction, PartialSlipOfALineContact) {
   const bench::PartialSlip slip = bench::solve_partial_slip({2, 2, false, {"body.0.order=2"}});
   const bench::PartialSlipStep& step = slip.steps[1];

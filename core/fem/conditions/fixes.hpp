@@ -1,0 +1,52 @@
+#pragma once
+#include "core/fem/elements/nodes.hpp"
+#include "core/fem/model/model.hpp"
+
+namespace signorini {
+
+/// Directions along which the unknowns v of one node are prescribed: direction[k] . v = value[k]. The directions are
+/// orthonormal; a direction within rounding of a coordinate axis is exactly that axis.
+template <int B>
+struct FixedDirections {
+  Index vertex = 0;  ///< the node
+  int count = 0;
+  double direction[B][B] = {};
+  double value[B] = {};
+  /// Number in Model::fixes that each comes from, -1: the axis of an axisymmetric body, or a plane of symmetry.
+  Index fix[B] = {};
+
+  /// Adds the condition d . v = v0 (d a unit vector), solved for the part of d that is not yet prescribed. Nothing
+  /// happens where there is no such part; then what is returned says what holds instead.
+  struct Found {
+    Index fix = -1;  ///< the one that prescribes most of d
+    double by = 0;   ///< how far its value is from v0
+  };
+  Found add(const double* d, double v0, Index number);
+  /// Only coordinate axes.
+  bool along_axes() const;
+};
+
+/// Two conditions that contradict each other.
+struct FixConflict {
+  Index earlier, later;  ///< numbers in Model::fixes; the later one holds
+  Index vertices;        ///< at so many of them
+};
+
+/// All Dirichlet conditions of a model, per node, ascending. Where conditions contradict each other in a direction,
+/// the later [[fix]] holds. In a normal frame the components are those along the outer normal, averaged over the picked
+/// faces around the vertex, and along the tangents (see tangents()); where these faces fall into groups whose normals
+/// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal.
+/// On the axis of an axisymmetric elastic body, r = 0, the radial displacement is zero, and on planes of symmetry the
+/// one across them; Error(Exit::input) where a fix prescribes another one.
+template <int D, int B>
+std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model);
+
+template <int D, int B>
+std::vector<FixConflict> fix_conflicts(const Nodes<D>& nodes, const Model<B>& model);
+
+/// Unit tangents to a unit normal: D = 2: the normal turned by +90 degrees; D = 3: first the projection of the
+/// coordinate axis that is farthest from the normal, then the cross product of both.
+std::array<Point<2>, 1> tangents(const Point<2>& normal);
+std::array<Point<3>, 2> tangents(const Point<3>& normal);
+
+}  // namespace signorini

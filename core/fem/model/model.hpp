@@ -1,0 +1,94 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/input/field.hpp"
+#include "core/mortar/pairing.hpp"
+#include "core/sdk/obstacle.hpp"
+#include "core/sdk/settings.hpp"
+
+namespace signorini {
+
+/// Boundary faces picked by a named part, or by an expression that is nonzero at all vertices of the face, on the
+/// coarsest mesh.
+struct Selection {
+  std::optional<std::string> part;
+  std::optional<Field> where;
+  std::string origin;  ///< for messages: "scene.toml:12: fix.0"
+};
+
+/// Across a plane mesh. Axisymmetric: it is the meridian (r, z) of a body of revolution.
+enum class Plane { strain, stress, axisymmetric };
+enum class Frame { global, normal };
+
+/// Of nearly incompressible material: whether its pressure has unknowns of its own, see
+/// core/fem/incompressible/pressure_space.hpp. Linear: continuous within a material, with an unknown per corner of an
+/// element; constant: one per element.
+enum class Pressure { none, linear, constant };
+
+/// Dirichlet condition: one field per component, empty where the component is free.
+template <int B>
+struct Fix {
+  Selection on;
+  std::array<std::optional<Field>, B> value;
+  Frame frame = Frame::global;
+};
+
+/// A traction or flux (with `on`), or a body force or source (without).
+template <int B>
+struct Load {
+  std::optional<Selection> on;
+  std::array<Field, B> value;
+  std::array<Index, 2> regions = {-1, -1};  ///< of a body force: the first and the last that it acts in; -1: all
+};
+
+/// Of two bodies that may touch each other the one that is to be the slave.
+enum class Slave { automatic, body, other };
+
+/// An obstacle and the vertices it may touch: those of the selected faces, or all when `on` is empty.
+template <int B>
+struct ObstacleTerm {
+  std::shared_ptr<const Obstacle<B>> obstacle;
+  std::optional<Selection> on;
+  std::string origin;
+  /// Of a rigid obstacle: bounds at a vertex are its distances to this shape.
+  std::shared_ptr<const DistanceFunction> shape = {};
+  /// The same where it was at the last load step; null where that is not known, or it does not move.
+  std::shared_ptr<const DistanceFunction> shape_before = {};
+  /// Where it has any: they know what the obstacle wrongly asked of them.
+  std::shared_ptr<const Settings> settings = {};
+  /// Of an obstacle between two bodies the faces of the second one, the master; those of `on` are the slave's.
+  std::optional<Selection> other = {};
+  /// Of these two which one shall be the slave, see choose_slaves(), and how faces find each other.
+  Slave slave = Slave::body;
+  Pairing pairing = Pairing::normal;
+  bool resolve = false;  ///< they may overlap however deep at the start
+  bool renew = true;     ///< they find each other where the last load step has moved them to
+};
+
+/// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
+template <int B>
+struct Model {
+  Field diffusion = 1;                 ///< B = 1
+  Field young = 1, poisson = 0;        ///< B > 1
+  Plane plane = Plane::strain;         ///< D = 2; of B = 1 only whether it is axisymmetric
+  Pressure pressure = Pressure::none;  ///< B > 1
+  std::vector<Fix<B>> fixes;
+  std::vector<Load<B>> loads;
+  std::vector<ObstacleTerm<B>> obstacles;
+  double t = 1;                 ///< step parameter
+  bool follows = false;         ///< another load step: friction counts from the solution of the last one
+  std::string origin = "body";  ///< of the body, for messages: "scene.toml:3: body.0"
+};
+
+/// Whether parts of the model may touch each other.
+template <int B>
+bool is_paired(const Model<B>& model) {
+  return std::ranges::any_of(model.obstacles, [](const ObstacleTerm<B>& term) { return term.other.has_value(); });
+}
+
+}  // namespace signorini

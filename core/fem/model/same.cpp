@@ -1,0 +1,44 @@
+#include "core/fem/model/same.hpp"
+
+#include <algorithm>
+
+namespace signorini {
+namespace {
+
+bool same(const Selection& a, double ta, const Selection& b, double tb) {
+  if (a.part != b.part || a.where.has_value() != b.where.has_value()) return false;
+  return !a.where || a.where->same(ta, *b.where, tb);
+}
+
+template <int B>
+bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
+  if (a.on.has_value() != b.on.has_value() || (a.on && !same(*a.on, ta, *b.on, tb))) return false;
+  return std::equal(a.value.begin(), a.value.end(), b.value.begin(),
+                    [&](const Field& x, const Field& y) { return x.same(ta, y, tb); });
+}
+
+}  // namespace
+
+template <int B>
+bool same_stiffness(const Model<B>& a, const Model<B>& b) {
+  const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
+  if (B == 1) return same(&Model<B>::diffusion);
+  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
+         a.pressure == b.pressure;
+}
+
+template <int B>
+bool same_loads(const Model<B>& a, const Model<B>& b) {
+  return std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
+                    [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); });
+}
+
+#define SIGNORINI_INSTANTIATE(B)                                  \
+  template bool same_stiffness(const Model<B>&, const Model<B>&); \
+  template bool same_loads(const Model<B>&, const Model<B>&);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
+#undef SIGNORINI_INSTANTIATE
+
+}  // namespace signorini

@@ -1,0 +1,382 @@
+#include "core/fem/pairs/paired_bodies.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/dot.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
+#include "core/fem/conditions/bounds.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/elements/select.hpp"
+#include "core/fem/pairs/added_gap.hpp"
+#include "core/fem/pairs/paired_sides.hpp"
+#include "core/mesh/join.hpp"
+#include "core/mesh/mirror.hpp"
+
+namespace signorini {
+namespace {
+
+/// What is left of a normal up to which a fix counts as being across it, with friction: cosine of 10 degrees, by which
+/// a curved surface may be inclined at a plane of symmetry.
+constexpr double nearly_across = 0.985;
+
+/// Where the bodies of an obstacle overlap most at the start, with what its option `gap` adds to their distance. What
+/// is deep is known by the nearest faces; how far `gap` presses bodies that are apart, by the pairs.
+template <int D>
+Overlap<D> deepest_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides, double t,
+                           const DeepestOverlap<D>& of_pairs) {
+  const auto overlap = start_overlap<D>(mesh, term, sides, t);
+  if (of_pairs.slave_face < 0) return overlap.value_or(Overlap<D>{});
+  const Index face = sides.slave[of_pairs.slave_face];
+  const bool pressed = added_on_face<D>(mesh, term, of_pairs.place, face) < 0;
+  if (!overlap || (pressed && of_pairs.depth > overlap->depth)) return {of_pairs.depth, of_pairs.place, face};
+  return *overlap;
+}
+
+/// More than an element of the coarsest mesh: what is admitted does not depend on refinement.
+template <int D>
+void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Overlap<D>& deepest) {
+  if (deepest.slave_face < 0) return;
+  if (deepest.depth <= std::ldexp(longest_edge(mesh, mesh.boundary[deepest.slave_face]), mesh.refinements)) return;
+  input_error(term.origin,
+              fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
+                          "element of the coarsest mesh; expected bodies apart from each other, or touching, or "
+                          "resolve = true, which presses them apart",
+                          deepest.depth, fmt::join(deepest.place, ", ")));
+}
+
+/// Couples one obstacle after the other.
+template <int D>
+class Coupler {
+ public:
+  Coupler(const Nodes<D>& nodes, const Model<D>& model, const std::vector<FixedDirections<D>>& fixes,
+          const std::vector<Point<D>>& shift)
+      : nodes_(nodes),
+        model_(model),
+        fixes_(fixes),
+        shift_(shift),
+        slave_of_(nodes.size(), -1),
+        master_of_(nodes.size(), -1) {}
+
+  void add(Index obstacle) {
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
+    const Mesh<D>& mesh = nodes_.mesh();
+    const PairedFaces faces = paired_faces(mesh, term, model_.t);
+    const std::vector<Point<D>> points = shifted_points(obstacle, faces.slave);
+    const MortarCoupling<D> found = term.obstacle->functional()
+                                        ? couple_sides_with_friction<D>(nodes_, model_, term, faces, fixes_, points)
+                                        : couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, points);
+    if (shift_.empty() && !term.resolve)
+      refuse_deep<D>(mesh, term, deepest_overlap<D>(mesh, term, faces, model_.t, found.deepest));
+    const std::size_t before = rows_.size();
+    for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
+    if (found.nodes() > 0 && rows_.size() == before)
+      input_error(term.origin,
+                  "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
+                  "the master off them; expected free nodes, or the other body as the slave");
+  }
+
+  std::shared_ptr<const PairedBodies<D>> take() {
+    std::ranges::sort(rows_, {}, &Row::node);
+    auto jumps = std::make_shared<Jumps<D>>();
+    for (const Row& row : rows_) {
+      jumps->vector.push_back(row.node);
+      jumps->column.insert(jumps->column.end(), row.column.begin(), row.column.end());
+      jumps->weight.insert(jumps->weight.end(), row.weight.begin(), row.weight.end());
+      jumps->row.push_back(static_cast<Offset>(jumps->column.size()));
+      jumps->project.insert(jumps->project.end(), row.project.begin(), row.project.end());
+    }
+    out_.jumps = std::move(jumps);
+    return std::make_shared<const PairedBodies<D>>(std::move(out_));
+  }
+
+ private:
+  struct Row {
+    Index node;
+    std::vector<Index> column;
+    std::vector<double> weight;
+    std::array<double, D * D> project;
+  };
+
+  void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
+    const Index p = nodes_.of_vertex(found.node[k]);
+    Point<D> normal = found.normal[k];
+    keep_within<D>(nodes_.mesh().mirrors, nodes_.at(p), normal);
+    normalise(normal);
+    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
+    if (!free) return;
+    const bool with_friction = model_.obstacles[obstacle].obstacle->functional() != nullptr;
+    if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
+    take_side(slave_of_, master_of_, p, obstacle);
+    PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
+    // Bounds are reduced to what is free later on, but for friction, whose coordinates are to be free.
+    for (int i = 0; i < D; ++i) node.away[i] = with_friction ? -free->direction[i] : -normal[i];
+    const double before = shift_.empty() ? 0 : dot(shift_[obstacle], normal);
+    node.part = found.part(k);
+    node.covered = found.covered[k];
+    node.taken = found.taken[k];
+    node.gap = found.distance(k) + before;
+    if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
+    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});
+    for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
+      row.column.push_back(nodes_.of_vertex(found.column[j]));
+      row.weight.push_back(found.value[j]);
+      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, row.column.back(), obstacle);
+    }
+  }
+
+  /// All of the slave's body is moved, for what is inside it is looked for; of a body that touches itself its side.
+  std::vector<Point<D>> shifted_points(Index obstacle, const std::vector<Index>& slave) const {
+    if (shift_.empty()) return {};
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
+    const auto moved = of_one_body(term) ? slave : faces_of_body(nodes_.mesh(), *term.on, model_.t);
+    std::vector<Point<D>> points = nodes_.mesh().points;
+    for (const Index f : moved)
+      for (const Index v : nodes_.mesh().boundary[f].vertices)
+        for (int i = 0; i < D; ++i) points[v][i] = nodes_.mesh().points[v][i] + shift_[obstacle][i];
+    return points;
+  }
+
+  [[noreturn]] void refuse_inclined(Index p, Index obstacle) const {
+    input_error(
+        model_.obstacles[obstacle].origin,
+        fmt::format("with friction, meets a direction prescribed at ({}) that is neither along the slave's normal "
+                    "nor across it, which is not available in this version; expected the other body as the "
+                    "slave, or another fix",
+                    fmt::join(nodes_.at(p), ", ")));
+  }
+
+  std::array<double, D * D> onto_free(Index p) const {
+    const FixedDirections<D>* fixed = fixed_at(fixes_, p);
+    std::array<double, D * D> out{};
+    for (int i = 0; i < D; ++i) out[i * (D + 1)] = 1;
+    for (int k = 0; fixed && k < fixed->count; ++k)
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j) out[i * D + j] -= fixed->direction[k][i] * fixed->direction[k][j];
+    return out;
+  }
+
+  /// Along the surfaces only friction holds the bodies together. What the master moves along the normal the slave's
+  /// node makes up for along what is free of it: oblique where these differ.
+  static std::array<double, D * D> along(const FreeNormal<D>& free, const Point<D>& normal) {
+    std::array<double, D * D> out;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) out[i * D + j] = free.direction[i] * normal[j] / free.part;
+    return out;
+  }
+
+  /// Between the same two bodies one obstacle does for both; else the sides have to be others.
+  [[noreturn]] void refuse_node(Index p, Index obstacle, Index taken, bool twice) const {
+    const ObstacleTerm<D>&term = model_.obstacles[obstacle], &before = model_.obstacles[taken];
+    if (between_the_same(term, before))
+      input_error(term.origin,
+                  fmt::format("at ({}) is between the same two bodies as {}, which is not available in this version; "
+                              "expected one obstacle with the faces of both ('where', 'other_where'), or faces apart "
+                              "from each other",
+                              fmt::join(nodes_.at(p), ", "), before.origin));
+    input_error(term.origin,
+                fmt::format("at ({}) {} lets the same body touch another one, {}, which is not available in this "
+                            "version; expected faces apart from each other{}",
+                            fmt::join(nodes_.at(p), ", "), before.origin,
+                            twice ? "as the slave both times" : "as the slave there and the master here, or so",
+                            twice ? "" : ", or the two bodies of one of them exchanged"));
+  }
+
+  static bool between_the_same(const ObstacleTerm<D>& a, const ObstacleTerm<D>& b) {
+    const auto bodies = [](const ObstacleTerm<D>& term) {
+      return std::set{body_of(term.on->part.value_or("")), body_of(term.other->part.value_or(""))};
+    };
+    return bodies(a) == bodies(b);
+  }
+
+  /// A node is on one slave side, or on master sides.
+  void take_side(std::vector<Index>& side, const std::vector<Index>& other, Index p, Index obstacle) {
+    const bool twice = &side == &slave_of_ && side[p] >= 0 && side[p] != obstacle;
+    if (twice || other[p] >= 0) refuse_node(p, obstacle, twice ? side[p] : other[p], twice);
+    side[p] = obstacle;
+  }
+
+  const Nodes<D>& nodes_;
+  const Model<D>& model_;
+  const std::vector<FixedDirections<D>>& fixes_;
+  const std::vector<Point<D>>& shift_;
+  std::vector<Index> slave_of_, master_of_;  // per node: obstacle, -1: none
+  std::vector<Row> rows_;
+  PairedBodies<D> out_;
+};
+
+}  // namespace
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
+                                                   const std::vector<FixedDirections<D>>& fixes,
+                                                   const std::vector<Point<D>>& shift) {
+  if (!is_paired(model)) return nullptr;
+  Coupler<D> coupler(nodes, model, fixes, shift);
+  for (std::size_t k = 0; k < model.obstacles.size(); ++k)
+    if (model.obstacles[k].other) coupler.add(static_cast<Index>(k));
+  return coupler.take();
+}
+
+template <int D>
+Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const PairedBodies<D>& all,
+                  const PairedBodies<D>& near, const std::vector<double>& u) {
+  std::vector<double> length(static_cast<std::size_t>(nodes.size()));
+  for (const Index f : select_faces(nodes.mesh(), *model.obstacles[obstacle].on, model.t))
+    for (const Index p : nodes.of_face(f))
+      length[p] = std::max(length[p], longest_edge(nodes.mesh(), nodes.mesh().boundary[f]));
+  const bool any = std::ranges::find(near.nodes, obstacle, &PairedNode<D>::obstacle) != near.nodes.end();
+  const PairedBodies<D>& pairs = any ? near : all;
+  const Jumps<D>& jumps = *pairs.jumps;
+  Slip<D> out;
+  double count = 0;
+  for (const PairedNode<D>& node : pairs.nodes) {
+    if (node.obstacle != obstacle) continue;
+    const auto s = std::ranges::lower_bound(jumps.vector, node.node) - jumps.vector.begin();
+    for (int i = 0; i < D; ++i) {
+      double jump = u[Offset{node.node} * D + i];
+      for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
+        jump -= jumps.weight[k] * u[Offset{jumps.column[k]} * D + i];
+      out.mean[i] += jump / node.part;
+    }
+    out.length += length[node.node];
+    ++count;
+  }
+  for (double& c : out.mean) c /= std::max(count, 1.0);
+  out.length /= std::max(count, 1.0);
+  return out;
+}
+
+namespace {
+
+/// What is left between the bodies at each pair, and how much they have come nearer there at most.
+struct Distances {
+  std::vector<double> left;       // by the number of the jump
+  std::vector<char> acts_anyway;  // likewise: whether or not they touch
+  double closed = 0;
+  double moved = 0;  // by how much bodies have moved at most there
+};
+
+/// Whether a functional acts on bodies that do not touch: all do but friction that only what presses causes.
+template <int D>
+bool acts_anyway(const Obstacle<D>& obstacle, const FunctionalNumbers<D>& numbers) {
+  const Friction* friction = obstacle.friction();
+  return !friction || friction->law(numbers.data.data()).bound != 0;
+}
+
+template <int D>
+Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all, std::vector<double> u) {
+  const Jumps<D>& jumps = *all.jumps;
+  Distances out{std::vector<double>(jumps.vector.size(), infinity), std::vector<char>(jumps.vector.size())};
+  for (const Index p : jumps.vector)
+    for (int i = 0; i < D; ++i) out.moved = std::max(out.moved, std::abs(u[Offset{p} * D + i]));
+  to_jumps(jumps, u);
+  std::vector<FunctionalNumbers<D>> numbers;
+  for (const Bound<D>& bound : collect_bounds(nodes, model, numbers, &all)) {
+    if (!model.obstacles[bound.obstacle].other) continue;
+    double along = 0;
+    for (int i = 0; i < D; ++i) along += bound.direction[i] * u[Offset{bound.vertex} * D + i];
+    const auto at = std::ranges::lower_bound(jumps.vector, bound.vertex) - jumps.vector.begin();
+    out.left[static_cast<std::size_t>(at)] = std::min(along - bound.lower, bound.upper - along);
+    if (bound.data >= 0 && acts_anyway(*model.obstacles[bound.obstacle].obstacle, numbers[bound.data]))
+      out.acts_anyway[static_cast<std::size_t>(at)] = true;
+    out.closed = std::max(out.closed, std::abs(along));
+  }
+  return out;
+}
+
+template <int D>
+bool has(const PairedBodies<D>& pairs, Index node) {
+  return std::ranges::binary_search(pairs.jumps->vector, node);
+}
+
+/// Some of all jumps.
+template <int B>
+Jumps<B> chosen(const Jumps<B>& all, const std::vector<char>& keep) {
+  Jumps<B> out;
+  for (Index s = 0; s < all.size(); ++s) {
+    if (!keep[s]) continue;
+    out.vector.push_back(all.vector[s]);
+    out.column.insert(out.column.end(), all.column.begin() + all.row[s], all.column.begin() + all.row[s + 1]);
+    out.weight.insert(out.weight.end(), all.weight.begin() + all.row[s], all.weight.begin() + all.row[s + 1]);
+    out.row.push_back(static_cast<Offset>(out.column.size()));
+    const auto project = all.project.begin() + Offset{s} * B * B;
+    out.project.insert(out.project.end(), project, project + B * B);
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const Model<D>& model,
+                                                    const PairedBodies<D>& all, const std::vector<double>& u,
+                                                    const PairedBodies<D>* also) {
+  constexpr double near = 0.25;  // of what they have come nearer
+  const Distances distance = distances(nodes, model, all, u);
+  const Jumps<D>& jumps = *all.jumps;
+  const double reach = std::max(near * distance.closed, rounding_of_differences * distance.moved);
+  std::vector<char> keep(jumps.vector.size());
+  for (std::size_t s = 0; s < keep.size(); ++s)
+    keep[s] = distance.left[s] <= reach || distance.acts_anyway[s] || (also && has(*also, jumps.vector[s]));
+  PairedBodies<D> out;
+  out.jumps = std::make_shared<const Jumps<D>>(chosen(jumps, keep));
+  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
+  return std::make_shared<const PairedBodies<D>>(std::move(out));
+}
+
+template <int D>
+bool same_jumps(const PairedBodies<D>& a, const PairedBodies<D>& b) {
+  return std::ranges::equal(a.nodes, b.nodes,
+                            [](const PairedNode<D>& p, const PairedNode<D>& q) {
+                              return p.node == q.node && p.obstacle == q.obstacle && p.away == q.away;
+                            }) &&
+         *a.jumps == *b.jumps;
+}
+
+template <int D>
+std::shared_ptr<const PairedBodies<D>> with_new_gaps(const PairedBodies<D>& all, const PairedBodies<D>& chosen) {
+  PairedBodies<D> out;
+  out.jumps = chosen.jumps;
+  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
+  return std::make_shared<const PairedBodies<D>>(std::move(out));
+}
+
+template <int D>
+bool touches_elsewhere(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all,
+                       const PairedBodies<D>& chosen, const std::vector<double>& u) {
+  const Distances distance = distances(nodes, model, all, u);
+  for (std::size_t s = 0; s < distance.left.size(); ++s)
+    if ((distance.left[s] < 0 || distance.acts_anyway[s]) && !has(chosen, all.jumps->vector[s])) return true;
+  return false;
+}
+
+template std::shared_ptr<const PairedBodies<2>> near_contact(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&,
+                                                             const std::vector<double>&, const PairedBodies<2>*);
+template std::shared_ptr<const PairedBodies<3>> near_contact(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&,
+                                                             const std::vector<double>&, const PairedBodies<3>*);
+template bool same_jumps(const PairedBodies<2>&, const PairedBodies<2>&);
+template bool same_jumps(const PairedBodies<3>&, const PairedBodies<3>&);
+template std::shared_ptr<const PairedBodies<2>> with_new_gaps(const PairedBodies<2>&, const PairedBodies<2>&);
+template std::shared_ptr<const PairedBodies<3>> with_new_gaps(const PairedBodies<3>&, const PairedBodies<3>&);
+template bool touches_elsewhere(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&, const PairedBodies<2>&,
+                                const std::vector<double>&);
+template bool touches_elsewhere(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&, const PairedBodies<3>&,
+                                const std::vector<double>&);
+template std::shared_ptr<const PairedBodies<2>> pair_bodies<2>(const Nodes<2>&, const Model<2>&,
+                                                               const std::vector<FixedDirections<2>>&,
+                                                               const std::vector<Point<2>>&);
+template std::shared_ptr<const PairedBodies<3>> pair_bodies<3>(const Nodes<3>&, const Model<3>&,
+                                                               const std::vector<FixedDirections<3>>&,
+                                                               const std::vector<Point<3>>&);
+template Slip<2> slip_past(const Nodes<2>&, const Model<2>&, Index, const PairedBodies<2>&, const PairedBodies<2>&,
+                           const std::vector<double>&);
+template Slip<3> slip_past(const Nodes<3>&, const Model<3>&, Index, const PairedBodies<3>&, const PairedBodies<3>&,
+                           const std::vector<double>&);
+
+}  // namespace signorini

@@ -1,0 +1,42 @@
+#pragma once
+#include <optional>
+
+#include "core/fem/recovery/contact.hpp"
+#include "core/mesh/chords.hpp"
+
+namespace signorini {
+
+/// How one obstacle and the body lie to each other after the solve. Lengths; of scalar unknowns differences of them.
+struct DeformedContact {
+  double penetration = 0;   ///< of the deformed boundary's vertices, the largest
+  double opening = 0;       ///< the largest distance of vertices where contact is claimed
+  double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle, or difference of any two
+  Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
+  double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
+  SmoothedOver smoothed{};  ///< likewise
+  /// The obstacle's normal turns at once where the vertex moves of the largest of these distances.
+  bool over_edge = false;
+};
+
+/// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between
+/// rigid shapes and the boundary where it has come to. Nothing where the obstacle cannot tell them there; NaN where
+/// nothing of the other body is in front. Obstacles without a shape have no other conditions than those that were
+/// solved: of these what is left is their violation.
+/// @param u global coordinates, B per vertex
+template <int D, int B>
+std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
+                                                const ContactState<B>& state, const std::vector<double>& u);
+
+/// How far the undeformed body is inside a rigid obstacle.
+struct StartDepth {
+  double depth = 0;        ///< of the deepest vertex
+  double extent = 0;       ///< of the body along the normal there
+  bool completely = true;  ///< no vertex of the boundary lies outside; then `depth` is that of any vertex
+};
+
+/// Nothing where it is not rigid, or fails.
+/// @param everywhere asks the whole boundary, not just the part the obstacle acts on
+template <int D>
+std::optional<StartDepth> start_depth(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, bool everywhere);
+
+}  // namespace signorini

@@ -1,0 +1,16 @@
+#pragma once
+#include <vector>
+
+#include "driver/levels/own_numbers.hpp"
+
+namespace signorini {
+
+/// What the next load step needs to know of a solution on a level.
+template <int B>
+struct LevelSolution {
+  std::vector<double> u;  ///< global coordinates; of the last solve on the finest mesh, not accepted yet: none
+  OwnNumbers<B> numbers;
+  std::vector<double> pressure;
+};
+
+}  // namespace signorini

@@ -1,0 +1,570 @@
+#include "driver/levels/nested_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "amg/black_box/nested_start.hpp"
+#include "amg/coarsening/hierarchy.hpp"
+#include "core/base/error.hpp"
+#include "core/base/release.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/fem/assembly/admissible_sets.hpp"
+#include "core/fem/assembly/check_functionals.hpp"
+#include "core/fem/elements/nested.hpp"
+#include "core/fem/incompressible/pressure_load.hpp"
+#include "core/mesh/families.hpp"
+#include "core/solver/admissible.hpp"
+#include "core/solver/interpolate.hpp"
+#include "core/solver/local_coordinates.hpp"
+#include "core/solver/sticking.hpp"
+#include "driver/levels/level_choice.hpp"
+#include "driver/levels/level_start.hpp"
+#include "driver/levels/moved_problem.hpp"
+#include "driver/levels/near_null_space.hpp"
+#include "driver/motions/loose_body.hpp"
+#include "methods/near_start.hpp"
+#include "methods/nested_iteration.hpp"
+#include "methods/solve.hpp"
+
+namespace signorini {
+namespace {
+
+/// What rounding of the assembled matrix does, in units of what it does to products with it: an entry comes from about
+/// so many operations. (Cantilevers from 100:1 to 1000:1 in six units of length each differ by 2 to 7 of them.)
+constexpr double of_assembly = 6;
+
+/// Friction opposes the motion since the last step, of which u is the displacement, relative to the obstacle, whose own
+/// motion is there already.
+template <int B>
+void remember(const std::vector<double>& u, Discretization<B>& discretization) {
+  Constraints<B>& c = discretization.problem.constraints;
+  const std::vector<double> x = c.last.empty() ? std::vector<double>() : to_local(discretization.problem, u);
+  for (std::size_t slot = 0; !x.empty() && slot < c.vector.size(); ++slot)
+    for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
+  for (HeldBound<B>& held : discretization.held)
+    for (int k = 0; k < B; ++k) held.last[k] += u[Offset{held.bound.vertex} * B + k];
+}
+
+template <int D, int B>
+std::vector<Prolongation> between_meshes(const MeshLevels<D, B>& levels, std::size_t first) {
+  std::vector<Prolongation> between;
+  for (std::size_t k = first + 1; k < levels.size(); ++k)
+    between.push_back(prolongation(*levels[k].refinement, levels[k - 1].nodes, levels[k].nodes));
+  return between;
+}
+
+void add_force(const std::vector<double>& force, double sign, std::vector<double>& load) {
+  for (std::size_t k = 0; k < force.size(); ++k) load[k] += sign * force[k];
+}
+
+template <int D, int B>
+using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
+
+}  // namespace
+
+template <int D, int B>
+NestedSolver<D, B>::NestedSolver(const MeshHierarchy<D>& hierarchy, const Scene::Solver& options,
+                                 const Registry& registry, const Progress& progress, Times& times,
+                                 std::vector<Nodes<D>> nodes)
+    : levels_(hierarchy, nodes.empty() ? nodes_of(hierarchy) : std::move(nodes)),
+      options_(options),
+      pairs_(levels_),
+      registry_(registry),
+      progress_(progress),
+      times_(times),
+      monitor_([this](const IterationRecord& record) {
+        progress_.cycle(record);
+        return !progress_.is_ended();
+      }),
+      matrices_(0, 0, {}) {
+  choose_levels();
+}
+
+/// Which meshes are levels depends on all of them and on how the hierarchy is to be. Of others nothing is kept.
+template <int D, int B>
+void NestedSolver<D, B>::choose_levels() {
+  if (chosen_for_ == options_.hierarchy) return;
+  const Stopwatch watch;
+  chosen_for_ = options_.hierarchy;
+  const std::vector<const Mesh<D>*> meshes = levels_.meshes();
+  first_ = first_mesh<D>(meshes, options_, B, nodes().order());
+  factorised_ = factorised_meshes<D>(meshes, options_, B);
+  matrices_ = LevelMatrices<B>(first_, factorised_, between_meshes(levels_, first_));
+  continued_ = false;
+  pairs_.begin_at(first_);
+  for (MeshLevel<D, B>& level : levels_) level.kept.reset();
+  times_.setup += watch.elapsed();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::append(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
+  spared_ = nullptr;
+  levels_.append(mesh, refinement, std::move(nodes));
+  chosen_for_.clear();
+  choose_levels();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::drop_finest() {
+  spared_ = nullptr;
+  levels_.drop_finest();
+  chosen_for_.clear();
+  choose_levels();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::replace_finest(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
+  spared_ = nullptr;
+  levels_.replace_finest(mesh, refinement, std::move(nodes));
+  chosen_for_.clear();
+  choose_levels();
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::size_t level) {
+  progress_.stop_if_interrupted();
+  Stopwatch watch;
+  MeshLevel<D, B>& here = levels_[level];
+  progress_.phase(fmt::format("level {}: {} vertices", level, here.mesh->vertices()));
+  Solution<B> solution;
+  if (auto renewed = renew_level(model, level)) {
+    solution.discretization = std::move(*renewed);
+  } else {
+    here.changed = true;
+    solution.discretization = discretize<D, B>(here.nodes, model, here.pairs);
+    Assemblies& count = times_.assemblies;
+    ++count.stiffness, ++count.load, ++count.constraints;
+  }
+  if (here.changed) find_pressure_space(model, level);
+  if (level == first_ && here.changed) matrices_.forget_products();
+  DiscreteProblem<B>& problem = solution.discretization.problem;
+  if (model.follows && !here.before.u.empty()) remember(here.before.u, solution.discretization);
+  rest_where_prescribed(problem);
+  if (model.follows) here.before.numbers.hand_to(solution.discretization);
+  problem.cheap_to_factorise = level < factorised_;
+  if (!here.force.empty()) {
+    Discretization<B>& discretization = solution.discretization;
+    add_force(here.force, 1, discretization.load);
+    problem.b = local_forces(problem, discretization.load);
+    discretization.prescribed.take_load(problem.b);
+    prescribe(problem, discretization.prescribed);
+  }
+  solution.x = problem.start;
+  if (!solution.discretization.functional.empty()) {
+    const LooseBody<D, B> body(here.nodes, model, solution.discretization);
+    problem.loose = here.before.u.empty() && body.needs_friction();
+    body.require_minimum();  // where friction is too weak coarse meshes tell it early
+  }
+  times_.assemble += watch.elapsed();
+  return solution;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBodies<B>>> pairs,
+                                      std::vector<std::vector<double>> forces) {
+  pairs_.give(std::move(pairs));
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    MeshLevel<D, B>& level = levels_[k];
+    if (level.kept) add_force(level.force, -1, level.kept->discretization.load);  // back to the model's own
+    level.force = forces.empty() ? std::vector<double>{} : std::move(forces[k]);
+  }
+}
+
+/// Where bodies may touch each other.
+template <int D, int B>
+void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
+  if (D != B || !is_paired(model)) return;
+  const Stopwatch watch;
+  if (!pairs_.find(model)) drop_algebraic_levels();
+  times_.setup += watch.elapsed();
+}
+
+/// Unknowns of a mesh are jumps where a solution on the next coarser one nearly touches.
+template <int D, int B>
+void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
+  if (!pairs_.may_narrow(level)) return;
+  const Stopwatch watch;
+  pairs_.narrow_by_coarser(model, level, to_global(coarse.discretization.problem, coarse.x));
+  times_.setup += watch.elapsed();
+}
+
+/// Without a coarser mesh a rough solution tells where bodies touch. It need not be one: cycles may be slow with jumps
+/// all over, most where bodies are far apart, and whether they touch elsewhere is looked at afterwards.
+template <int D, int B>
+void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
+  constexpr double roughly = 1e-3;
+  constexpr int a_few = 30;
+  if (!pairs_.may_narrow(first_)) return;
+  SolverOptions options = options_;
+  options.tolerance = std::max(options.tolerance, roughly);
+  options.max_iterations = std::min(options.max_iterations, a_few);
+  solve_level(model, first_, options, nullptr, solution);
+  dropped_.insert(dropped_.end(), solution.summary.stages.begin(), solution.summary.stages.end());
+  narrow_first(model, solution);
+}
+
+/// Once the coarsest mesh has a solution it is a level like the others.
+template <int D, int B>
+void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
+  if (!pairs_.may_narrow(first_)) return;
+  const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
+  if (!pairs_.narrow(model, first_, u)) return;
+  drop_algebraic_levels();
+  std::vector<double> pressure = std::move(coarse.pressure);
+  coarse = discretize_level(model, first_);
+  coarse.pressure = std::move(pressure);
+  coarse.x = to_local(coarse.discretization.problem, u);
+  continue_algebraically(coarse.discretization.problem);
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::drop_algebraic_levels() {
+  matrices_.drop_algebraic();
+  continued_ = false;
+}
+
+/// Interpolation between the meshes up to this one is one between the jumps that they have now.
+template <int D, int B>
+void NestedSolver<D, B>::connect_jumps(std::size_t level) {
+  const Stopwatch watch;
+  pairs_.connect(level, matrices_.between_meshes());
+  times_.setup += watch.elapsed();
+}
+
+/// Where bodies touch each other elsewhere than was thought, the problem with jumps there as well, and the solution as
+/// a start.
+template <int D, int B>
+bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution) {
+  const std::size_t finest = levels_.size() - 1;
+  if (!pairs_.at(finest)) return false;
+  const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
+  if (!pairs_.widen(model, u)) return false;
+  connect_jumps(finest);
+  Solution<B> next = discretize_level(model, finest);
+  next.x = to_local(next.discretization.problem, u);
+  make_admissible(next.discretization.problem, next.x);
+  next.summary = std::move(solution.summary);
+  next.pressure = std::move(solution.pressure);
+  solution = std::move(next);
+  return true;
+}
+
+/// From what the last solve left, if that is all there.
+template <int D, int B>
+std::optional<Discretization<B>> NestedSolver<D, B>::renew_level(const Model<B>& model, std::size_t level) {
+  MeshLevel<D, B>& here = levels_[level];
+  auto kept = std::exchange(here.kept, std::nullopt);
+  if (!kept) return {};
+  DiscreteProblem<B>& problem = kept->discretization.problem;
+  if (level + 1 < levels_.size()) {
+    GalerkinMatrix<B>* matrix = matrices_.of(level);
+    if (!matrix) return {};
+    problem.A = std::move(matrix->A);
+    problem.fixed = std::move(matrix->off);
+  }
+  const Assembled assembled = renew(here.nodes, kept->model, model, kept->discretization, here.pairs);
+  here.changed = !assembled.same_matrix();
+  times_.assemblies.stiffness += assembled.stiffness;
+  times_.assemblies.load += assembled.load;
+  ++times_.assemblies.constraints;
+  return std::move(kept->discretization);
+}
+
+/// Meshes that are no refinements have none: starts on them know the displacements' part of the material alone.
+template <int D, int B>
+void NestedSolver<D, B>::find_pressure_space(const Model<B>& model, std::size_t level) {
+  MeshLevel<D, B>& here = levels_[level];
+  here.pressure_space.reset();
+  if constexpr (D == B) {
+    if (model.pressure == Pressure::none || here.mesh->families.empty()) return;
+    PressureSpace<D> space = signorini::pressure_space(here.nodes, model);
+    if (space.size > 0) here.pressure_space.emplace(std::move(space));
+  }
+}
+
+/// A pressure of the next coarser mesh on this one; zero where that has none.
+template <int D, int B>
+std::vector<double> NestedSolver<D, B>::refined_pressure(std::size_t level, const std::vector<double>& coarse) const {
+  if constexpr (D == B) {
+    const MeshLevel<D, B>&here = levels_[level], &below = levels_[level - 1];
+    if (here.pressure_space && !coarse.empty() && below.pressure_space)
+      return prolongate(*below.pressure_space, *below.mesh, coarse, *here.refinement, *here.pressure_space, *here.mesh);
+  }
+  return {};
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse) {
+  if (coarse.x.empty()) return;
+  DiscreteProblem<B>& problem = coarse.discretization.problem;
+  for (auto* values : {&problem.b, &problem.start}) release(*values);  // which are new in every solve
+  problem.constraints = {};
+  level.kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(coarse.discretization)});
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::take_back(const Model<B>& model, Discretization<B> last) {
+  levels_.finest().kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(last)});
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::forget_matrices() {
+  for (MeshLevel<D, B>& level : levels_) level.kept.reset();
+  drop_algebraic_levels();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
+  if (continued_) return;
+  continued_ = true;
+  if (factorised_ > 0) return;
+  const auto coarsening = coarsening_below(options_, B, coarsest.A.size());
+  if (!coarsening) return;
+  Stopwatch watch;
+  const auto transfer = [this] { return registry_.create<Transfer<B>>("transfer", options_.transfer); };
+  AlgebraicSettings settings = algebraic_settings(options_);
+  settings.stretched = is_stretched(*levels_[0].mesh, B);
+  auto modes = *coarsening == Coarsening::aggregation
+                   ? near_null_space<D, B>(levels_[first_].nodes, coarsest.jumps.get())
+                   : NearNullSpace{};
+  const auto aggregator = registry_.create<Aggregator>("aggregates", options_.aggregates);
+  auto below = algebraic_hierarchy<B>(coarsest, transfer, enough_vectors, settings, std::move(modes), *aggregator);
+  matrices_.continue_below(std::move(below.prolongations), std::move(below.matrices));
+  ++times_.assemblies.hierarchies;
+  times_.setup += watch.elapsed();
+}
+
+/// For a start on the finest mesh, which alone has to hold the whole problem.
+template <int D, int B>
+void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
+  if (factorised_ > 0 || !coarsening_below(options_, B, levels_[first_].nodes.size())) return;
+  try {
+    Solution<B> coarsest = discretize_level(model, first_);
+    continue_algebraically(coarsest.discretization.problem);
+  } catch (const Error&) {
+    progress_.phase(fmt::format("no levels below the coarsest mesh: {}", failure()));
+  }
+  matrices_.forget_products();
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
+  const MeshLevel<D, B>& here = levels_[level];
+  const DiscreteProblem<B>& problem = solution.discretization.problem;
+  std::optional<CoarserStep<B>> coarser;
+  if (!coarse.x.empty())
+    coarser.emplace(CoarserStep<B>{coarse.discretization.problem, coarse.x, coarse.pressure, levels_[level - 1].before,
+                                   matrices_.above(level - 1)});
+  const CoarserStep<B>* known = coarser ? &*coarser : nullptr;
+  if (here.pressure_space) {
+    const auto refined = [&](const std::vector<double>& pressure) { return refined_pressure(level, pressure); };
+    start_with_pressure(problem, here.before, known, refined, solution.x, solution.pressure);
+  } else {
+    std::vector<std::vector<double>> starts;
+    if (options_.start == "nested") starts.push_back(std::move(solution.x));
+    solution.x = start_after(problem, here.before, known, std::move(starts));
+  }
+}
+
+/// The problem on the finest mesh, with the solution of the last step if that is so near that no coarser one is asked.
+/// Where bodies touch, what slides and nearly incompressible material are always begun on the coarsest mesh.
+/// @param solution none: coarser meshes come first in any case
+template <int D, int B>
+bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solution<B>>& solution) {
+  const std::size_t finest = levels_.size() - 1;
+  const MeshLevel<D, B>& here = levels_[finest];
+  if (options_.start != "nested" || here.before.u.empty() || pairs_.given() || is_paired(model)) return false;
+  solution = discretize_level(model, finest);
+  const DiscreteProblem<B>& problem = solution->discretization.problem;
+  if (here.changed || here.pressure_space || !solution->discretization.functional.empty()) return false;
+  const auto matrices = matrices_.matrices_below(finest);
+  if (matrices.empty()) return false;
+  const Stopwatch watch;
+  std::vector<double> x = to_local(problem, here.before.u);
+  const bool near = is_near(problem, matrices_.below(finest), matrices, x);
+  if (near) solution->x = std::move(x);
+  times_.solve += watch.elapsed();
+  return near;
+}
+
+/// The start comes from the next coarser mesh, below all meshes from algebraic levels.
+/// @param begun what discretize_level() gives, where that is there already
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse,
+                                            std::optional<Solution<B>> begun) {
+  if (!coarse.x.empty()) {
+    if (level == first_ + 1) narrow_first(model, coarse);
+    pair_near_contact(model, level, coarse);
+  }
+  connect_jumps(level);
+  Solution<B> solution = begun ? std::move(*begun) : discretize_level(model, level);
+  DiscreteProblem<B>& problem = solution.discretization.problem;
+  const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
+  if (first) continue_algebraically(problem);
+  const Stopwatch watch;
+  if (refined) {
+    const Prolongation& P = matrices_.above(level - 1);
+    solution.x = interpolate(coarse.discretization.problem, coarse.x, P, problem);
+    stick_between(coarse.discretization.problem, coarse.x, P, problem, solution.x);
+  }
+  if (first) {
+    problem.galerkin = matrices_.products_below(level);
+    solution.x = nested_start(problem, matrices_.between_algebraic(), options_, registry_, monitor_, &dropped_);
+  }
+  if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
+  if (!levels_[level].before.u.empty()) start_after_step(level, coarse, solution);
+  times_.solve += watch.elapsed();
+  if (refined) {
+    const Stopwatch sharing;
+    matrices_.share(coarse.discretization.problem, level, problem,
+                    levels_[level - 1].changed || levels_[level].changed);
+    times_.setup += sharing.elapsed();
+    keep(model, levels_[level - 1], coarse);
+  }
+  return solution;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
+                                     const LooseBody<D, B>* body, Solution<B>& solution) {
+  progress_.stop_if_interrupted();
+  const MeshLevel<D, B>& here = levels_[level];
+  if (level == first_) continue_algebraically(solution.discretization.problem);
+  solution.discretization.problem.galerkin = matrices_.products_below(level);
+  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x,
+                        solution.pressure);
+  std::optional<LoadOf<D, B>> pressure;
+  if constexpr (D == B) {
+    if (here.pressure_space) {
+      pressure.emplace(*here.pressure_space, solution.discretization, std::move(solution.pressure));
+      solution.discretization.problem.following = &*pressure;
+    }
+  }
+  probe_functionals(here.nodes, model, solution.discretization, solution.x);
+  const bool result = level + 1 == levels_.size() && options.tolerance <= options_.tolerance;
+  progress_.solving({result, options.tolerance, 1 << levels_.finest().mesh->mirrors.size()});
+  try {
+    std::optional<ElementsAside<D>> aside;
+    if (spared_ && level + 1 == levels_.size()) aside.emplace(*spared_);
+    solution.summary = signorini::solve<B>(solution.discretization.problem, matrices_.below(level), solution.x, options,
+                                           registry_, monitor_);
+  } catch (const Error& error) {  // the solver knows no scene
+    if (error.status() != Exit::interrupted) {
+      blame_functionals(here.nodes, model, solution.discretization, solution.x);
+      if (!std::ranges::all_of(solution.x, [](double v) { return std::isfinite(v); }))
+        check_admissible_sets(here.nodes, model, solution.discretization.problem, true);
+    }
+    throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
+  }
+  if (spared_) restore_elements(*spared_);
+  check_functionals(here.nodes, model, solution.discretization, solution.x);
+  solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
+  solution.summary.add_rounding(moved.back(), options.tolerance);
+  if constexpr (D == B) {
+    if (pressure) {
+      pressure->apply();
+      pressure->press_on_prescribed();
+      solution.pressure = pressure->values();
+    }
+  }
+  solution.discretization.problem.following = nullptr;
+  solution.discretization.problem.galerkin = {};
+  solution.summary.finest_level = static_cast<int>(level - first_);
+  times_.setup += solution.summary.setup_seconds;
+  times_.solve += solution.summary.solve_seconds;
+  if (!result) progress_.stop_if_interrupted();  // else what there is may be kept
+  if (solution.summary.outcome == Outcome::unbounded)
+    throw Error(Exit::no_solution, fmt::format("{}: {}", model.origin, solution.summary.reason));
+}
+
+/// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
+template <int D, int B>
+void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
+  const LooseBody<D, B> body(nodes(), model, solution.discretization);
+  const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
+  if (moves) body.require_minimum();
+  SolverOptions options = options_;
+  if (may_fall_back())
+    options.max_iterations =
+        std::min(options.max_iterations, moves ? automatic::attempt(automatic::Kind::levels_of_matrix).most_steps
+                                               : automatic::patience_with_friction);
+  solve_level(model, levels_.size() - 1, options, moves ? &body : nullptr, solution);
+  while (solution.summary.converged() && !progress_.is_ended() && pair_more(model, solution)) {
+    std::vector<Stage> before = std::move(solution.summary.stages);
+    solve_level(model, levels_.size() - 1, options, nullptr, solution);
+    solution.summary.put_in_front(std::move(before));
+  }
+  if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+  if (!moves && !body.held() && solution.summary.converged() && body.is_far_away(solution.x)) {
+    solution.summary.outcome = Outcome::stuck;
+    solution.summary.reason =
+        "friction does not hold the body against the loads: it would come to rest only so far away that linearised "
+        "contact means nothing there";
+  }
+}
+
+/// The solution on the next coarser mesh than the finest one, as far as that gives a start.
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
+  Solution<B> coarse;
+  const auto solve = [&](std::size_t k, const SolverOptions& options, bool) -> std::string {
+    const std::size_t level = first_ + k;
+    MeshLevel<D, B>& here = levels_[level];
+    Solution<B> solution = begin_level(model, level, coarse);
+    std::optional<LooseBody<D, B>> body;
+    if (solution.discretization.functional.empty()) body.emplace(here.nodes, model, solution.discretization);
+    solve_level(model, level, options, body ? &*body : nullptr, solution);
+    here.now.u = to_global(solution.discretization.problem, solution.x);
+    here.now.numbers = {solution.discretization, solution.x};
+    here.now.pressure = solution.pressure;
+    coarse = std::move(solution);
+    return "";
+  };
+  const auto failed = [&](std::size_t k, Stage stage) {
+    stage.reason = fmt::format("level {} gives no start: {}", first_ + k, stage.reason);
+    progress_.phase(stage.reason);
+    dropped_.push_back(std::move(stage));
+    coarse = {};
+    matrices_.forget_products();
+  };
+  nested_iteration<B>(levels_.size() - 1 - first_, options_, solve, failed);
+  return coarse;
+}
+
+template <int D, int B>
+Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
+  const std::size_t finest = levels_.size() - 1;
+  dropped_.clear();
+  if (spared_) restore_elements(*spared_);  // memory may have run out in the last solve
+  for (MeshLevel<D, B>& level : levels_) level.now = {};
+  pair_levels(model);
+  std::optional<Solution<B>> begun;
+  const bool near = begin_near(model, begun);
+  Solution<B> coarse;
+  if (options_.start == "nested" && !near) coarse = solve_coarser_meshes(model);
+  if (!continued_ && first_ < finest) choose_levels_below(model);
+  Solution<B> solution = near ? std::move(*begun) : begin_level(model, finest, coarse, std::move(begun));
+  coarse = {};
+  if (finest == first_) come_near(model, solution);
+  solve_finest(model, solution);
+  levels_[finest].now.numbers = {solution.discretization, solution.x};
+  levels_[finest].now.pressure = solution.pressure;
+  solution.summary.put_in_front(std::exchange(dropped_, {}));
+  return solution;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::accept() {
+  pairs_.accept();
+  for (MeshLevel<D, B>& level : levels_) level.before = std::exchange(level.now, {});
+}
+
+template class NestedSolver<2, 1>;
+template class NestedSolver<3, 1>;
+template class NestedSolver<2, 2>;
+template class NestedSolver<3, 3>;
+
+}  // namespace signorini

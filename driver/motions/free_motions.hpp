@@ -1,0 +1,66 @@
+#pragma once
+#include <vector>
+
+#include "core/fem/assembly/discretize.hpp"
+#include "core/fem/motions/rigid_motions.hpp"
+
+namespace signorini {
+
+/// Motions without energy that the prescribed values of a body leave, what loads do along them, and what bounds leave
+/// of them. Motions are coefficients of the columns of `free`.
+template <int D, int B>
+struct FreeMotions {
+  /// Parts of the most that is possible: work of loads, components of motions.
+  static constexpr double negligible = 1e-10;
+  static constexpr double projected = 1e-13;  ///< of what is projected: rounding
+  static constexpr double decided = 1e-8;     ///< singular values of what forces forbid, relative to the largest
+
+  /// What a bound leaves to motions c: lower <= row . c <= upper.
+  struct Room {
+    Index vertex;
+    Eigen::RowVectorXd row;
+    double lower, upper;
+    double normal;  ///< component of the bounded direction along the one that presses against friction
+  };
+
+  /// Keeps references to all of them.
+  FreeMotions(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization);
+
+  /// Whether there are none.
+  bool none() const { return free.cols() == 0; }
+
+  /// What the bounds leave to an iterate; those that are not part of the problem, too.
+  std::vector<Room> gaps(const std::vector<double>& x) const;
+  /// The same to an admissible iterate.
+  std::vector<Room> rooms(const std::vector<double>& x) const;
+
+  /// Zero where there is none.
+  double coefficient_of_friction(Index slot) const;
+  /// The component across the obstacle at a slot with friction, -1 elsewhere.
+  int normal_component(Index slot) const;
+
+  /// Moves x (local coordinates) but for prescribed components.
+  /// @param motion of all modes: free times the coefficients
+  void add(const Eigen::VectorXd& motion, std::vector<double>& x) const;
+
+  /// Calls visit(slot) for those whose bounds are the faces of a polyhedron.
+  template <class Visit>
+  void each_polyhedron(const Visit& visit) const {
+    const Constraints<B>& c = discretization.problem.constraints;
+    for (Index slot = 0; slot < c.size(); ++slot)
+      if (c.has_facets(slot)) visit(slot);
+  }
+
+  const Nodes<D>& nodes;
+  const Model<B>& model;
+  const Discretization<B>& discretization;
+  const RigidMotions<D, B> motions;
+  const Eigen::MatrixXd free;  ///< columns: an orthonormal basis
+  Eigen::VectorXd work;        ///< of the loads along each of them
+  double most_work = 0;        ///< that loads of this size could do along a motion of length one
+
+ private:
+  void add_work();
+};
+
+}  // namespace signorini

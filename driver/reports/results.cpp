@@ -1,0 +1,280 @@
+#include "driver/reports/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/recovery/between_nodes.hpp"
+#include "core/fem/recovery/cut_faces.hpp"
+#include "core/io/warning_kinds.hpp"
+#include "core/mesh/mirror.hpp"
+#include "driver/reports/contact_report.hpp"
+#include "driver/scene/materials.hpp"
+#include "driver/scene/numbers.hpp"
+
+namespace signorini {
+
+template <int D, int B>
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
+                      std::vector<SlaveChoice> slaves, std::vector<Point<B>> shift) {
+  Results<D, B> out{to_global(solution.discretization.problem, solution.x),
+                    contact_state(nodes, model, solution.discretization, solution.x),
+                    {},
+                    {},
+                    {},
+                    solution.pressure,
+                    {},
+                    {},
+                    std::move(slaves),
+                    std::move(shift),
+                    conditions_across(nodes.mesh(), model)};
+  out.slaves.resize(model.obstacles.size());
+  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
+  out.masters = master_side(nodes, model, out.counterforces, out.u);
+  const auto back = totals(out.counterforces, model.obstacles.size(), true);
+  const auto along = totals(out.counterforces, model.obstacles.size(), true, &NodalForce<B>::tangential);
+  for (std::size_t k = 0; k < back.size(); ++k)
+    for (int i = 0; i < B; ++i) {
+      out.contact.obstacles[k].force[i] += back[k][i];
+      out.contact.obstacles[k].tangential_force[i] += along[k][i];
+    }
+  out.forces = forces(model, solution.discretization, out.contact, solution.x);
+  for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+    out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
+    out.between_nodes.push_back(violation_between_nodes(nodes, model, k, out.contact, out.u));
+  }
+  return out;
+}
+
+namespace {
+
+/// Replaces a point by its image on the side of each plane of symmetry that is meshed.
+template <int D>
+Planes move_to_part(const Mesh<D>& mesh, Point<D>& x) {
+  Planes beyond = 0;
+  for (std::size_t m = 0; m < mesh.mirrors.size(); ++m) {
+    const Mirror& mirror = mesh.mirrors[m];
+    const auto side = [&](const Point<D>& p) { return p[mirror.axis] - mirror.at; };
+    const bool above = std::ranges::any_of(mesh.points, [&](const Point<D>& p) { return side(p) > 0; });
+    if (!(above ? side(x) < 0 : side(x) > 0)) continue;
+    x = reflected<D>(mirror, x);
+    beyond |= 1u << m;
+  }
+  return beyond;
+}
+
+}  // namespace
+
+template <int D>
+Probes<D> locate_probes(const Mesh<D>& mesh, const Scene& scene, std::size_t body) {
+  Probes<D> probes;
+  for (const int number : numbers_of(scene.probes, scene.bodies[body])) {
+    const Scene::Probe& probe = scene.probes[number];
+    Point<D> at;
+    std::copy_n(probe.at.begin(), D, at.begin());
+    probes.beyond.push_back(move_to_part<D>(mesh, at));
+    probes.names.push_back(probe.name);
+    probes.places.push_back(locate<D>(mesh, at, probe.source.of("at")));
+  }
+  return probes;
+}
+
+namespace {
+
+/// Of the whole of what each condition stands for.
+template <int B>
+std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
+                                       const std::vector<std::array<double, B>>& forces,
+                                       const std::vector<Mirror>& mirrors, const std::vector<Planes>& across) {
+  std::vector<ForceReport> reports;
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const auto whole = Whole(mirrors, across[k]).total(forces[k]);
+    reports.push_back({numbers[k], {whole.begin(), whole.end()}});
+  }
+  return reports;
+}
+
+/// Adds the forces of the tables that belong to a body; numbers[k] is the table of forces[k].
+template <int B, class Table>
+void add_forces(const std::vector<std::array<double, B>>& forces, const std::vector<int>& numbers,
+                const std::vector<Table>& tables, std::string Table::*of, const std::string& body,
+                std::vector<double>& total) {
+  total.resize(B);
+  for (std::size_t k = 0; k < forces.size(); ++k)
+    for (int i = 0; i < B; ++i)
+      if (tables[numbers[k]].*of == body) total[i] += forces[k][i];
+}
+
+/// Of a body, or of its parts: what touches one of them pushes the other one back.
+template <int D, int B>
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Results<D, B>& results,
+                                    const Whole& whole) {
+  const Forces<B>& forces = results.forces;
+  const ContactForces<B> contact = contact_forces(results);
+  std::vector<std::string> names{body.name};
+  if (!body.parts.empty()) names.clear();
+  for (const Scene::Body& part : body.parts) names.push_back(part.name);
+  const std::vector<int> obstacles = numbers_of(scene.obstacles, body);
+  std::vector<BalanceReport> out;
+  for (const std::string& name : names) {
+    BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
+    add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name,
+                  balance.applied);
+    add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name,
+                  balance.reactions);
+    add_forces<B>(contact.on_body, obstacles, scene.obstacles, &Scene::Obstacle::body, name, balance.contact);
+    add_forces<B>(contact.on_other, obstacles, scene.obstacles, &Scene::Obstacle::other, name, balance.contact);
+    for (std::vector<double>* sum : {&balance.applied, &balance.reactions, &balance.contact}) *sum = whole.total(*sum);
+  }
+  return out;
+}
+
+Summary of_whole(Summary summary, const Whole& whole) {
+  summary.energy *= whole.copies();
+  for (IterationRecord& record : summary.history) record.energy *= whole.copies();
+  return summary;
+}
+
+std::vector<std::string> plane_names(const std::vector<Mirror>& mirrors) {
+  std::vector<std::string> names;
+  names.reserve(mirrors.size());
+  for (const Mirror& mirror : mirrors) names.push_back(plane_name(mirror));
+  return names;
+}
+
+template <int D>
+Index on_axis(const Nodes<D>& nodes) {
+  Index count = 0;
+  for (Index p = 0; p < nodes.size(); ++p) count += nodes.at(p)[0] == 0;
+  return count;
+}
+
+}  // namespace
+
+template <int D, int B>
+StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes, const Results<D, B>& results,
+                       double t, const Summary& summary, std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
+  const std::vector<Mirror>& mirrors = nodes.mesh().mirrors;
+  const Whole whole(mirrors, all_planes(nodes.mesh()));
+  StepReport report;
+  report.t = t;
+  report.summary = of_whole(summary, whole);
+  const Forces<B>& forces = results.forces;
+  report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
+  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
+  const bool axisymmetric = body.plane == Plane::axisymmetric;
+  report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
+                    plane_names(mirrors), whole.copies(), body.order, body.order_chosen}};
+  report.balance = balances(scene, body, results, whole);
+  report.contact = contact_reports(scene, nodes, results, t, number);
+  for (std::size_t k = 0; k < probes.names.size(); ++k) {
+    const auto value = evaluate<B>(nodes, probes.places[k], results.u);
+    const auto probe = std::ranges::find(scene.probes, probes.names[k], &Scene::Probe::name);
+    report.probes.push_back({probes.names[k], probe->body, {value.begin(), value.end()}});
+    for (std::size_t m = 0; m < mirrors.size() && B == D; ++m)
+      if (probes.beyond[k] >> m & 1u) report.probes.back().value[mirrors[m].axis] *= -1;
+  }
+  return report;
+}
+
+template <int D>
+Warnings scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
+  if (body.equation != Scene::Equation::elasticity || (D == 2 && body.plane == Plane::stress)) return {};
+  const Field ratio = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
+  double poisson = ratio.constant().value_or(0);
+  if (!ratio.constant())
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) poisson = std::max(poisson, ratio(site_in(mesh, e, 1)));
+  if (poisson < 0.45 || (body.order == 2 && body.pressure != Pressure::none)) return {};
+  if (body.order == 2)
+    return {warning<"locking">(poisson, "quadratic elements of displacements alone lose accuracy in",
+                               "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not")};
+  return {warning<"locking">(
+      poisson, "linear elements are too stiff for",
+      fmt::format("and refinement helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at "
+                  "0.49, and 290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not "
+                  "lock",
+                  2 * poisson / (1 - 2 * poisson)))};
+}
+
+namespace {
+
+/// @param alike further places with this expression
+Warning cut_warning(const CutSelection& cut, const std::vector<std::string>& alike, int dimension) {
+  std::string off;
+  if (cut.wrong > 0) off += fmt::format(", though it does not hold on about {:.2g} of these", cut.wrong);
+  if (cut.missed > 0) off += fmt::format(", and it holds on about {:.2g} more", cut.missed);
+  return warning<"cut-faces">(cut.selection->origin, cut.selection->where->text(), dimension == 2 ? "edges" : "faces",
+                              cut.picked, off,
+                              alike.empty() ? "" : fmt::format("; the same at {}", fmt::join(alike, ", ")));
+}
+
+/// One for each expression, which may stand in several places.
+template <int D>
+Warnings cut_warnings(const std::vector<CutSelection>& cuts) {
+  Warnings warnings;
+  std::vector<const CutSelection*> told;
+  for (const CutSelection& cut : cuts) {
+    const auto same = [&](const CutSelection* other) {
+      return other->selection->where->text() == cut.selection->where->text() &&
+             other->selection->part == cut.selection->part && other->wrong == cut.wrong && other->missed == cut.missed;
+    };
+    if (std::ranges::any_of(told, same)) continue;
+    told.push_back(&cut);
+    std::vector<std::string> alike;
+    for (const CutSelection& other : cuts)
+      if (&other != &cut && same(&other)) alike.push_back(other.selection->origin);
+    warnings.push_back(cut_warning(cut, alike, D));
+  }
+  return warnings;
+}
+
+/// An expression of t says where an obstacle is, and not how it moves along its own surface.
+bool drags_unknown(const Scene::Obstacle& obstacle) {
+  const auto* shape = obstacle.shape ? std::get_if<Scene::ExpressionShape>(&*obstacle.shape) : nullptr;
+  if (!shape) return false;
+  return shape->distance.uses_t() || std::ranges::any_of(shape->normal, [](const Field& n) { return n.uses_t(); });
+}
+
+}  // namespace
+
+template <int D, int B>
+Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model, std::size_t body) {
+  Warnings warnings;
+  const std::vector<int> fixes = numbers_of(scene.fixes, scene.bodies[body]);
+  for (const FixConflict& conflict : fix_conflicts(nodes, model))
+    warnings.push_back(warning<"conflicting-fixes">(scene.fixes[fixes[conflict.later]].source.table,
+                                                    scene.fixes[fixes[conflict.earlier]].source.table,
+                                                    conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
+  for (Warning& warning : cut_warnings<D>(cut_selections(nodes.mesh(), model))) warnings.push_back(std::move(warning));
+  const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];
+    if (!model.obstacles[k].obstacle->functional() || !drags_unknown(obstacle)) continue;
+    warnings.push_back(warning<"unknown-drag">(obstacle.source.of("distance")));
+  }
+  return warnings;
+}
+
+#define SIGNORINI_RESULTS(D, B)                                                                                        \
+  template Results<D, B> results<D, B>(const Nodes<D>&, const Model<B>&, const Solution<B>&, std::vector<SlaveChoice>, \
+                                       std::vector<Point<B>>);                                                         \
+  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,       \
+                                  const Summary&, std::size_t);                                                        \
+  template Warnings model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
+SIGNORINI_RESULTS(2, 1)
+SIGNORINI_RESULTS(3, 1)
+SIGNORINI_RESULTS(2, 2)
+SIGNORINI_RESULTS(3, 3)
+
+template Probes<2> locate_probes(const Mesh<2>&, const Scene&, std::size_t);
+template Probes<3> locate_probes(const Mesh<3>&, const Scene&, std::size_t);
+template Warnings scene_warnings(const Scene&, const Mesh<2>&, std::size_t);
+template Warnings scene_warnings(const Scene&, const Mesh<3>&, std::size_t);
+
+}  // namespace signorini

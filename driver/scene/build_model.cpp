@@ -1,0 +1,193 @@
+#include "driver/scene/build_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <type_traits>
+
+#include "core/base/error.hpp"
+#include "core/component/failure.hpp"
+#include "core/component/settings.hpp"
+#include "core/scene/rigid_shape.hpp"
+#include "core/scene/specs.hpp"
+#include "driver/scene/materials.hpp"
+#include "driver/scene/numbers.hpp"
+#include "driver/scene/touching_bodies.hpp"
+
+namespace signorini {
+namespace {
+
+template <int B>
+auto constructor(const ObstacleType& type) {
+  if constexpr (B == 1) return type.create1;
+  if constexpr (B == 2) return type.create2;
+  if constexpr (B == 3) return type.create3;
+}
+
+template <int B>
+[[noreturn]] void wrong_equation(const Scene::Obstacle& scene, const ObstacleType& type) {
+  const bool scalar = type.create1, elastic = type.create2 || type.create3;
+  const std::string& place = scene.source.of("type");
+  if (B == 1 && elastic)
+    input_error(place, fmt::format("the obstacle type '{}' is for elastic bodies, and body '{}' has equation = "
+                                   "'diffusion'; expected a type for scalar unknowns, such as 'scalar'",
+                                   scene.type, scene.body));
+  if (B > 1 && scalar && !elastic)
+    input_error(place, fmt::format("the obstacle type '{}' is for scalar unknowns, and body '{}' has equation = "
+                                   "'elasticity'; expected a type for elastic bodies, such as 'contact'",
+                                   scene.type, scene.body));
+  input_error(place, fmt::format("the obstacle type '{}' knows no problem with {} unknowns per vertex", scene.type, B));
+}
+
+/// The keys of a shape that was forgotten are no unknown options.
+void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
+  const std::span options(type.options, type.option_count);
+  for (const auto& [entry, raw] : scene.options.entries) {
+    const std::string& key = entry;  // a binding cannot be captured everywhere
+    if (std::ranges::any_of(options, [&](const OptionSpec& option) { return key == option.name; })) continue;
+    for (const ShapeSpec& shape : obstacle_shapes())
+      if (find_key(shape.keys, key))
+        input_error(raw.origin, fmt::format("missing key 'shape': '{}' is a key of shape '{}'", key, shape.name));
+  }
+}
+
+/// Where a call failed: a fault of the plugin is told with its file.
+std::string blamed(const Status& status, const Scene::Obstacle& scene, const Registry& registry, const char* call) {
+  if (!is_fault_of_plugin(status)) return scene.source.table;
+  return fmt::format("{}: {}: the {} of '{}' failed", scene.source.table, registry.entry("obstacle", scene.type).file,
+                     call, scene.type);
+}
+
+/// @param plugin where messages begin
+void check_descriptor(const ObstacleDescriptor& descriptor, int block, const std::string& plugin) {
+  constexpr int most_directions = std::extent_v<decltype(descriptor.direction)>;
+  const auto refuse = [&](const std::string& what) { throw Error(Exit::plugin, plugin + " " + what); };
+  if (const int found = descriptor.directions; found < 0 || found > most_directions)
+    refuse(fmt::format("describes {} directions, expected 0 to {}", found, most_directions));
+  if (const int found = descriptor.data; found < 0 || found > most_data)
+    refuse(fmt::format("has {} numbers of its own, expected 0 to {}", found, most_data));
+  for (int k = 0; k < descriptor.directions; ++k) {
+    const auto& [name, components, values] = descriptor.direction[k];
+    if (!name || !*name) refuse(fmt::format("describes direction {} without a name", k));
+    if (components < 1 || components > block)
+      refuse(fmt::format("describes {} components of '{}', expected 1 to {}", components, name, block));
+    if (values < 1) refuse(fmt::format("describes {} values of '{}', expected at least 1", values, name));
+  }
+}
+
+/// Tells an obstacle that depends on its step which one it is.
+template <int B>
+void begin_step(Obstacle<B>& obstacle, const LoadStep& step, const Scene::Obstacle& scene, const Registry& registry) {
+  auto* stepping = dynamic_cast<Stepping*>(&obstacle);
+  if (!stepping) return;
+  Status status;
+  stepping->begin(step, status);
+  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "beginning of a step"));
+}
+
+/// The obstacle with the settings it holds on to.
+template <int B>
+ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, const Registry& registry,
+                                const LoadStep& step) {
+  const double t = step.to;
+  const ObstacleType& type = registry.obstacle(scene.type);
+  const std::string& origin = scene.source.table;
+  const auto create = constructor<B>(type);
+  if (!create) wrong_equation<B>(scene, type);
+  if (scene.other.empty() && type.takes_body)
+    input_error(origin, fmt::format("missing key 'other': the obstacle type '{}' acts between two bodies", scene.type));
+  if (scene.shape && !type.takes_shape)
+    input_error(scene.source.of("shape"), fmt::format("the obstacle type '{}' takes no shape", scene.type));
+  if (!scene.shape && type.takes_shape) expect_shape(scene, type);
+  if (!scene.other.empty() && !type.takes_body)
+    input_error(scene.source.of("other"),
+                fmt::format("the obstacle type '{}' acts on one body, expected no 'other'", scene.type));
+  std::shared_ptr<const DistanceFunction> shape;
+  if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
+  auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},
+                                   scene.options, scene.core_keys(), shape, t);
+  Status status;
+  std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
+  check_asked(*settings, origin);  // first: what it then complains about may be due to it
+  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "constructor"));
+  if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
+  check_descriptor(obstacle->descriptor(), B, fmt::format("{}: the plugin of '{}'", origin, scene.type));
+  if (obstacle->functional() && !obstacle->linearisation())
+    throw Error(Exit::plugin,
+                fmt::format("{}: the plugin of '{}' has a functional without its linearisation", origin, scene.type));
+  begin_step(*obstacle, step, scene, registry);
+  check_asked(*settings, origin);
+  std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
+  return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
+}
+
+template <int B>
+Fix<B> fix(const Scene::Body& body, const Scene::Fix& given) {
+  Fix<B> result{on_mesh_of(body, given.body, given.on), {}, given.frame};
+  std::copy_n(given.value.begin(), B, result.value.begin());
+  return result;
+}
+
+template <int B>
+Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& given) {
+  Load<B> result{given.on, {}};
+  std::copy_n(given.value.begin(), B, result.value.begin());
+  if (given.on) result.on = on_mesh_of(body, given.body, *given.on);
+  if (given.on || body.parts.empty()) return result;
+  const auto part = std::ranges::find(body.parts, given.body, &Scene::Body::name) - body.parts.begin();
+  const auto [first, count] = regions_of_part(scene, body, static_cast<std::size_t>(part));
+  result.regions = {first, first + count - 1};
+  return result;
+}
+
+}  // namespace
+
+template <int B>
+Model<B> build_model(const Scene& scene, int dimension, const Registry& registry, const LoadStep& step,
+                     std::size_t number) {
+  const Scene::Body& body = scene.bodies[number];
+  Model<B> model;
+  model.diffusion = coefficient(scene, body, &Scene::Body::diffusion, &Scene::Material::diffusion);
+  model.young = coefficient(scene, body, &Scene::Body::young, &Scene::Material::young);
+  model.poisson = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
+  model.plane = body.plane;
+  model.pressure = body.pressure.value_or(Pressure::none);
+  model.t = step.to;
+  model.origin = body.source.table;
+  for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(body, scene.fixes[k]));
+  for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene, body, scene.loads[k]));
+  for (const int k : numbers_of(scene.obstacles, body)) {
+    const Scene::Obstacle& obstacle = scene.obstacles[k];
+    ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, step));
+    if (term.on) term.on = on_mesh_of(body, obstacle.body, *term.on);
+    if (obstacle.other.empty()) continue;
+    term.other =
+        on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
+    term.slave = obstacle.slave;
+    term.pairing = obstacle.pairing;
+    term.resolve = obstacle.resolve;
+    term.renew = obstacle.renew;
+  }
+  return model;
+}
+
+template <int B>
+void place_before(const Scene& scene, int dimension, double t, std::size_t body, Model<B>& model) {
+  std::size_t next = 0;
+  for (const int k : numbers_of(scene.obstacles, scene.bodies[body])) {
+    ObstacleTerm<B>& term = model.obstacles[next++];
+    const auto& shape = scene.obstacles[k].shape;
+    if (!term.obstacle->functional() || !shape || std::holds_alternative<Scene::SurfaceShape>(*shape)) continue;
+    term.shape_before = rigid_shape(*shape, dimension, t, term.origin);
+  }
+}
+
+template void place_before(const Scene&, int, double, std::size_t, Model<1>&);
+template void place_before(const Scene&, int, double, std::size_t, Model<2>&);
+template void place_before(const Scene&, int, double, std::size_t, Model<3>&);
+template Model<1> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
+template Model<2> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
+template Model<3> build_model(const Scene&, int, const Registry&, const LoadStep&, std::size_t);
+
+}  // namespace signorini
