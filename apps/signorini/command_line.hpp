@@ -12,6 +12,7 @@ namespace signorini {
 /// What the program was started with, by command.
 struct Arguments {
   SolveArguments solve;
+  ChartArguments chart;
   QpArguments qp;
   PluginCheckArguments plugin_check;
   PluginNewArguments plugin_new;

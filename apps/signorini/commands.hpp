@@ -12,6 +12,8 @@ struct SolveArguments {
   std::filesystem::path out;  ///< empty: the scene's name in the current folder
   std::vector<std::string> overrides;
   bool quiet = false;
+  std::optional<double> accuracy;  ///< elements and mesh are chosen for it
+  std::string of = "energy";       ///< of what
 };
 
 /// Error(Exit::not_converged) where what was written is no solution.
@@ -33,6 +35,21 @@ void qp_command(const QpArguments& arguments);
 
 /// `signorini check`: says what would be solved.
 void check_command(const std::filesystem::path& scene, const std::vector<std::string>& overrides);
+
+/// `signorini chart`.
+struct ChartArguments {
+  std::filesystem::path scene;
+  std::filesystem::path out;  ///< empty: the scene's name in the current folder
+  std::vector<std::string> overrides;
+  std::string of = "energy", against = "seconds";
+  std::vector<double> exact;  ///< of what is shown; empty: not known
+  double budget = 20;         ///< seconds that a run may take
+  std::optional<double> accuracy;
+  bool quiet = false;
+};
+
+/// Error(Exit::not_converged) where no setting has the accuracy that is asked for.
+void chart_command(const ChartArguments& arguments);
 
 /// `signorini list`: the components of a kind ("obstacles", "smoothers"...), or all when `kinds` is empty.
 void list_command(const std::string& kinds);

@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
   }
   if (app->got_subcommand("solve")) solve_command(arguments.solve);
   if (app->got_subcommand("check")) check_command(arguments.solve.scene, arguments.solve.overrides);
+  if (app->got_subcommand("chart")) chart_command(arguments.chart);
   if (app->got_subcommand("qp")) qp_command(arguments.qp);
   if (app->got_subcommand("list")) list_command(arguments.list_kinds);
   if (const CLI::App& given = innermost(*app); full_name(given) == "signorini plugin check")

@@ -16,6 +16,7 @@
 #include "core/io/convergence.hpp"
 #include "core/io/steps_table.hpp"
 #include "core/io/warning_kinds.hpp"
+#include "driver/scene/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -243,6 +244,24 @@ void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const No
         result_panels<D, B>(shown(hierarchy, nodes, results, stress, contact, numbers), report.warnings);
     if (!panels.empty()) draw.panels(file, panels);
   });
+}
+
+std::optional<Panel> solution_panel(Driver& driver) {
+  std::optional<Panel> out;
+  Warnings notes;
+  for (std::size_t body = 0; body < driver.bodies(); ++body)
+    driver.visit(body, [&]<int D, int B>(const BodyRun<D, B>& run) {
+      const auto panels = result_panels<D, B>(
+          shown(run.hierarchy(), run.nodes(), run.results(), run.stress(), contact_fields(run.nodes(), run.results()),
+                numbers_of(driver.scene().obstacles, run.body())),
+          notes);
+      if (panels.empty() || panels.front().patches.empty()) return;
+      if (!out)
+        out = panels.front();
+      else
+        out->patches.insert(out->patches.end(), panels.front().patches.begin(), panels.front().patches.end());
+    });
+  return out;
 }
 
 void draw_steps(AtomicFiles& files, Report& report) {

@@ -1,10 +1,13 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/fem/recovery/stress.hpp"
 #include "core/io/atomic_files.hpp"
+#include "core/io/picture.hpp"
 #include "core/io/vtu_writer.hpp"
+#include "driver/driver.hpp"
 #include "driver/reports/results.hpp"
 
 namespace signorini {
@@ -69,6 +72,9 @@ template <int D, int B>
 void draw_result(AtomicFiles& files, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                  const Results<D, B>& results, const std::vector<Stress>& stress, const ContactFields& contact,
                  const std::vector<int>& numbers, const std::string& suffix, Report& report);
+
+/// What result.png shows first, of all bodies at once; nothing where meshes are too fine to be drawn.
+std::optional<Panel> solution_panel(Driver& driver);
 
 /// The forces of the obstacles over the steps, where there are several; else nothing.
 void draw_steps(AtomicFiles& files, Report& report);

@@ -7,9 +7,11 @@
 #include <optional>
 #include <utility>
 
+#include "apps/signorini/chart/search.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/output.hpp"
+#include "apps/signorini/text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/heap.hpp"
 #include "core/base/stopwatch.hpp"
@@ -245,13 +247,29 @@ void set_aside(const std::filesystem::path& folder, const std::filesystem::path&
   fs::rename(report, folder / old_report, none);
 }
 
+/// Those that are given, and those that an accuracy asks for.
+std::vector<std::string> overrides_of(const SolveArguments& arguments) {
+  std::vector<std::string> out = arguments.overrides;
+  if (!arguments.accuracy) return out;
+  const Stopwatch watch;
+  const Console progress(arguments.quiet);
+  const chart::Found found = chart::search(arguments.scene, arguments.overrides, arguments.of, *arguments.accuracy,
+                                           [&](const std::string& what) { progress.phase(what); });
+  progress.end();
+  out.insert(out.end(), found.keys.begin(), found.keys.end());
+  if (!arguments.quiet)
+    say("accuracy: error of {} about {:.1e} with {}; found in {:.2g} s\n", arguments.of, found.error,
+        fmt::join(found.keys, " "), watch.elapsed());
+  return out;
+}
+
 }  // namespace
 
 void solve_command(const SolveArguments& arguments) {
   Stopwatch watch;
   const std::filesystem::path folder = arguments.out.empty() ? arguments.scene.stem() : arguments.out;
   set_aside(folder, arguments.scene);
-  const Scene scene = read_scene(arguments.scene, arguments.overrides);
+  const Scene scene = read_scene(arguments.scene, overrides_of(arguments));
   const Console progress(arguments.quiet, live(scene), scene.title);
   Driver driver(scene, progress);
   AtomicFiles files(folder, is_result_file, inputs(scene));

@@ -49,7 +49,7 @@ struct Panel {
 struct Painter {
   /// Residual, algebraic error and contact nodes over the iterations, as a PNG file.
   void (*convergence)(const std::filesystem::path& picture, const std::vector<IterationRecord>& history);
-  /// Panels side by side, likewise.
+  /// Panels side by side, as a PNG or an SVG file, as its name says.
   void (*panels)(const std::filesystem::path& picture, const std::vector<Panel>& panels);
 };
 

@@ -52,7 +52,7 @@ void draw_convergence(const std::filesystem::path& picture, const std::vector<It
     last = std::max(last, static_cast<double>(record.iteration));
     most = std::max(most, static_cast<double>(record.contact_nodes));
   }
-  Sheet sheet(width, height);
+  Sheet sheet(width, height, picture);
   const Axis iterations = linear_axis(0.5, last + 0.5, 1);
   Plot plot(sheet, area, iterations, axis_of(residual, error));
   Plot counts(sheet, area, iterations, widened_axis(0, most, 1));
@@ -67,7 +67,7 @@ void draw_convergence(const std::filesystem::path& picture, const std::vector<It
   key(sheet, 130, "natural residual", Marker::disk, residuals);
   key(sheet, 370, "algebraic error", Marker::square, errors);
   key(sheet, 600, "nodes in contact", Marker::circle, nodes);
-  sheet.write(picture);
+  sheet.write();
 }
 
 }  // namespace signorini

@@ -141,7 +141,7 @@ void draw_lines(Sheet& sheet, double left, const Panel& panel) {
 }  // namespace
 
 void draw_panels(const std::filesystem::path& picture, const std::vector<Panel>& panels) {
-  Sheet sheet(panel_width * static_cast<int>(panels.size()), panel_height);
+  Sheet sheet(panel_width * static_cast<int>(panels.size()), panel_height, picture);
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const double left = panel_width * static_cast<double>(k);
     sheet.text({left + panel_width / 2.0, 30}, panels[k].title, {});
@@ -150,7 +150,7 @@ void draw_panels(const std::filesystem::path& picture, const std::vector<Panel>&
     else
       draw_raster(sheet, left, panels[k]);
   }
-  sheet.write(picture);
+  sheet.write();
 }
 
 }  // namespace signorini

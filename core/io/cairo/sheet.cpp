@@ -1,8 +1,11 @@
 #include "core/io/cairo/sheet.hpp"
 
+#include <cairo-svg.h>
+
 #include <cassert>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/io/atomic_files.hpp"
@@ -23,10 +26,18 @@ double width_of(cairo_t* cairo, const std::string& text, double size) {
   cairo_text_extents(cairo, text.c_str(), &extents);
   return extents.x_advance;
 }
+
+cairo_status_t append(void* text, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
 }  // namespace
 
-Sheet::Sheet(int width, int height)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), cairo_(cairo_create(surface_.get())) {
+Sheet::Sheet(int width, int height, std::filesystem::path file)
+    : file_(std::move(file)),
+      surface_(file_.extension() == ".svg" ? cairo_svg_surface_create_for_stream(append, &svg_, width, height)
+                                           : cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)),
+      cairo_(cairo_create(surface_.get())) {
   cairo_select_font_face(cairo_.get(), "sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   fill({0, 0}, width, height, white);
 }
@@ -112,13 +123,17 @@ void Sheet::image(Spot corner, const Raster& raster) {
   cairo_surface_destroy(image);
 }
 
-void Sheet::write(const std::filesystem::path& file) {
+void Sheet::write() {
+  if (cairo_surface_get_type(surface_.get()) == CAIRO_SURFACE_TYPE_SVG) {
+    cairo_surface_finish(surface_.get());
+    return write_text(file_, svg_);
+  }
   cairo_surface_flush(surface_.get());
   const int width = cairo_image_surface_get_width(surface_.get());
   const int height = cairo_image_surface_get_height(surface_.get());
   assert(cairo_image_surface_get_stride(surface_.get()) == 4 * width);
   const auto* pixels = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface_.get()));
-  write_text(file, png({pixels, std::size_t(width) * height}, width, height));
+  write_text(file_, png({pixels, std::size_t(width) * height}, width, height));
 }
 
 }  // namespace signorini

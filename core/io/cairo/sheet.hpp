@@ -33,7 +33,8 @@ struct Align {
 /// A white sheet to draw on.
 class Sheet {
  public:
-  Sheet(int width, int height);
+  /// @param file where it is to be written: .svg or .png
+  Sheet(int width, int height, std::filesystem::path file);
 
   void line(Spot from, Spot to, const Stroke& stroke);
   void polyline(std::span<const Spot> spots, const Stroke& stroke);
@@ -46,7 +47,7 @@ class Sheet {
   void image(Spot corner, const Raster& raster);
 
   /// Error(Exit::input) if it cannot be written.
-  void write(const std::filesystem::path& file);
+  void write();
 
  private:
   template <class T, void (*destroy)(T*)>
@@ -56,6 +57,8 @@ class Sheet {
 
   void set(const Stroke& stroke);
 
+  std::filesystem::path file_;
+  std::string svg_;  // as far as it is written
   std::unique_ptr<cairo_surface_t, Destroy<cairo_surface_t, cairo_surface_destroy>> surface_;
   std::unique_ptr<cairo_t, Destroy<cairo_t, cairo_destroy>> cairo_;
 };

@@ -1,0 +1,63 @@
+#include "apps/signorini/chart/search.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/signorini/chart/reference.hpp"
+#include "apps/signorini/console.hpp"
+#include "core/base/error.hpp"
+#include "driver/driver.hpp"
+
+namespace signorini::chart {
+namespace {
+
+/// Of one solve with these keys.
+std::vector<double> value_of(const std::filesystem::path& file, std::vector<std::string> overrides,
+                             const std::vector<std::string>& keys, const std::string& of) {
+  overrides.insert(overrides.end(), keys.begin(), keys.end());
+  const Console quiet(true);
+  Driver driver(read_scene(file, overrides), quiet);
+  const Report& report = driver.solve();
+  if (!report.converged())
+    throw Error(Exit::not_converged, fmt::format("with {}: {}", fmt::join(keys, " "), report.reason()));
+  auto value = quantity(to_json(report), of);
+  if (!value) throw Error(Exit::input, fmt::format("with {}: the result has no {}", fmt::join(keys, " "), of));
+  return *value;
+}
+
+}  // namespace
+
+void check_quantity(const Scene& scene, const std::string& of) {
+  std::vector<std::string> known{"energy"};
+  if (!scene.obstacles.empty()) known.insert(known.end(), {"force", "pressure", "area"});
+  for (const auto& probe : scene.probes) known.push_back("probe " + probe.name);
+  if (std::ranges::find(known, of) == known.end())
+    throw Error(Exit::usage, fmt::format("--of: found '{}', expected one of {}{}", of, fmt::join(known, " | "),
+                                         did_you_mean(of, known)));
+}
+
+Found search(const std::filesystem::path& file, const std::vector<std::string>& overrides, const std::string& of,
+             double accuracy, const std::function<void(const std::string&)>& say) {
+  const Scene scene = read_scene(file, overrides);
+  check_quantity(scene, of);
+  const std::vector<Setting> all = settings(scene);
+  const Setting &quadratic = all[0], &linear = all[1];
+  say(fmt::format("{}, {}", linear.name, linear.keys_of(0).back()));
+  std::vector<std::vector<double>> values{value_of(file, overrides, linear.keys_of(0), of)};
+  double error = infinity;
+  for (std::size_t k = 0; k < quadratic.values.size(); ++k) {
+    const std::vector<std::string> keys = quadratic.keys_of(k);
+    say(fmt::format("{}, {}{}", quadratic.name, keys.back(), k > 0 ? fmt::format(": error about {:.1e}", error) : ""));
+    values.push_back(value_of(file, overrides, keys, of));
+    error = error_left(of, values);
+    if (error <= accuracy) return {keys, error};
+  }
+  throw Error(Exit::not_converged,
+              fmt::format("the error of the {} is {:.1e} on the finest mesh, expected {:g}", of, error, accuracy));
+}
+
+}  // namespace signorini::chart
