@@ -1,70 +1,18 @@
 """Prints a table of docs/measured that is made of solves of scenes: solves.py TABLE   (the functions below)
 
-What is solved are scenes of apps/scenes with other keys, and those at the end of this file.
+What is solved are scenes of apps/scenes with other keys, and those made of the parts in tables.py.
 """
 import json
 import math
-import os
-import pathlib
-import resource
-import subprocess
 import sys
-import tempfile
 
-source = pathlib.Path(__file__).resolve().parents[2]
-folders = [source / "build/release/bin", source / "build/release-assert/bin"]
-program = os.environ.get("SIGNORINI") or next((f / "signorini" for f in folders if (f / "signorini").exists()), None)
-no_files = {"output.vtu": "false", "output.pictures": "false"}
-scratch = tempfile.TemporaryDirectory()
-
-
-def scene_file(scene):
-    """A scene of apps/scenes by its name, or the text of one."""
-    if "\n" not in scene:
-        return source / f"apps/scenes/{scene}.toml"
-    file = pathlib.Path(scratch.name) / "scene.toml"
-    file.write_text(scene)
-    return file
-
-
-def solved(scene, keys={}):
-    """The report; `exit` and `seconds`, those of the processor, are of the whole program."""
-    out = pathlib.Path(scratch.name) / "out"
-    settings = [part for key, value in {**no_files, **keys}.items() for part in ("--set", f"{key}={value}")]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    ended = subprocess.run([program, "solve", scene_file(scene), "--quiet", "--out", out, *settings],
-                           stderr=subprocess.PIPE, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if ended.returncode not in (0, 3, 4):
-        sys.exit(f"{scene} {settings}: {ended.stderr}")
-    report = json.loads((out / "report.json").read_text()) if ended.returncode != 4 else {}
-    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return report | {"exit": ended.returncode, "seconds": seconds}
-
-
-def cycles(report):
-    """Cycles; in brackets the method that went on where they were given up; else the exit status."""
-    if report["exit"]:
-        return f"exit {report['exit']}"
-    cyclic = [stage for stage in report["stages"] if any(name in stage["method"] for name in ("monotone", "tnnmg", "pgs"))]
-    others = [stage["method"] for stage in report["stages"] if stage not in cyclic]
-    count = sum(stage["iterations"] for stage in cyclic)
-    return f"{count} ({others[0]})" if others else str(report["iterations"])
+from tables import box, cycles, head, held, named, plane, program, row, solved
 
 
 def off(value, exact, digits=2):
     """The relative error in per cent."""
     error = 100 * (value / exact - 1)
     return f"{error:+.{digits}g} %" if abs(error) > 1e-9 else "0"
-
-
-def row(*cells):
-    print("| " + " | ".join(str(cell) for cell in cells) + " |", flush=True)
-
-
-def head(*cells):
-    row(*cells)
-    row(*["---"] * len(cells))
 
 
 # --- the tables
@@ -253,41 +201,6 @@ def memory():
         size = [2**20 * report["peak_memory_mb"] for report in (whole, bare)]
         each = [f"{bytes / bare['unknowns']:.0f}" for bytes in size]
         row(name, named(scene, keys), bare["unknowns"], f"{size[0] / 1e6:.0f}", *each)
-
-
-# --- their scenes
-
-
-def named(scene, keys):
-    return ", ".join([f"`{scene}`"] + [f"`{key}={value}`" for key, value in keys.items()])
-
-
-def box(name, dimension, to, cells):
-    return f"""[[body]]
-name = "{name}"
-shape = "{"rectangle" if dimension == 2 else "box"}"
-from = {[0] * dimension}
-to = {to}
-cells = {cells}
-order = 1
-young = 1
-poisson = 0.3
-"""
-
-
-def held(body, part, value):
-    return f'[[fix]]\nbody = "{body}"\non = "{part}"\nvalue = {value}\n'
-
-
-def plane(body, part, point, normal):
-    return f"""[[obstacle]]
-type = "contact"
-body = "{body}"
-on = "{part}"
-shape = "plane"
-point = {point}
-normal = {normal}
-"""
 
 
 tables = [lever, membrane, ball_on_block, incline, given_friction, slender, coarsening, stretched, threads, shares, output,

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "amg/registration.hpp"
+#include "apps/signorini/cheaper.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/console.hpp"
 #include "apps/signorini/text.hpp"
@@ -223,6 +224,7 @@ void check_command(const std::filesystem::path& file, const std::vector<std::str
   const auto plugins = load_plugins(scene, registry);
   say("{}{}\ndimension: {}\n", file.string(), scene.title.empty() ? "" : ": " + scene.title, dimension_of(scene));
   for (const auto& plugin : plugins) say("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
+  const std::vector<std::string> cheaper = cheaper_models(file, overrides, scene, registry);
   scene.dimension = dimension_of(scene);
   scene = with_touching_bodies(scene);
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) {
@@ -231,6 +233,7 @@ void check_command(const std::filesystem::path& file, const std::vector<std::str
     dispatch(
         scene, [&]<int D, int B>() { check<D, B>(scene, registry, body); }, body);
   }
+  for (const std::string& model : cheaper) say("cheaper: {}\n", model);
 }
 
 }  // namespace signorini

@@ -44,7 +44,7 @@ def check(place, command, section):
     if name not in code:
         wrong.append(f"{place}: {name} is no program of benchmarks, no test and no script")
         return
-    if name == "solves.py" and f"def {arguments[0]}(" not in code[name]:
+    if name in ("solves.py", "stability.py") and f"def {arguments[0]}(" not in code[name]:
         wrong.append(f"{place}: {name} has no {arguments[0]}")
     for flag in arguments:
         if flag.startswith("--") and f'"{flag}"' not in code[name]:

@@ -32,12 +32,14 @@ double relative_error(const std::string& of, const std::vector<double>& value, c
 }
 
 double error_left(const std::string& of, const std::vector<std::vector<double>>& values) {
-  constexpr double slowest = 1.5, fastest = 4, unknown = 2;
+  constexpr double slowest = 1.5, fastest = 2.5, unknown = 2;
   const auto& last = values.back();
-  const double difference = distance(values[values.size() - 2], last);
-  double ratio = unknown;
-  if (values.size() > 2 && difference > 0)
-    ratio = std::clamp(distance(values[values.size() - 3], values[values.size() - 2]) / difference, slowest, fastest);
+  double difference = distance(values[values.size() - 2], last), ratio = unknown;
+  if (values.size() > 2) {
+    const double before = distance(values[values.size() - 3], values[values.size() - 2]);
+    difference = std::max(difference, before / fastest);
+    if (difference > 0) ratio = std::max(slowest, before / difference);
+  }
   return as_error(of, difference / (ratio - 1), last);
 }
 

@@ -18,8 +18,9 @@ struct Reference {
 double relative_error(const std::string& of, const std::vector<double>& value, const std::vector<double>& exact);
 
 /// By the differences of the last three values on meshes that are refined alike, or of two of them: how far the last
-/// one is off, as an error, if each difference is as much smaller than the one before as the last one was; but at most
-/// four times, for contact comes and goes in steps, and with two values half as large.
+/// one is off, as an error. Each difference to come is taken to be as much smaller than the one before as the last one
+/// was, but at most 2.5 times: contact comes and goes in steps, and a small difference may be one by chance. With two
+/// values it is half as large.
 double error_left(const std::string& of, const std::vector<std::vector<double>>& values);
 
 /// The exact value where it is given. Else the last run of the first setting, which is an answer as good as the
