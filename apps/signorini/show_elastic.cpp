@@ -10,7 +10,7 @@
 #include "apps/signorini/drawn_level.hpp"
 #include "apps/signorini/show.hpp"
 #include "apps/signorini/slice.hpp"
-#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/conditions/directions.hpp"
 #include "core/fem/conditions/walls.hpp"
 #include "core/fem/elements/element.hpp"
 

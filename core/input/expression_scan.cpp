@@ -141,6 +141,7 @@ class Scan {
     if (!is_function && called) fail(begin, fmt::format("'{}' is no function", word));
     result_.has_variables |= is_variable;
     result_.has_t |= word == "t";
+    result_.has_place |= is_variable && word != "t";
     result_.has_normal |= is_variable && word[0] == 'n';
     wants_value_ = is_function;
     if (!is_function) return;

@@ -8,6 +8,7 @@ struct ScannedExpression {
   bool has_variables = false;
   bool has_normal = false;  ///< nx, ny or nz
   bool has_t = false;
+  bool has_place = false;  ///< x, y or z, or the normal there
 };
 
 /// Checks an expression completely (characters, length, numbers, names, numbers of arguments, brackets, order of values

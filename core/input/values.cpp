@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
+#include "core/input/expression_scan.hpp"
 #include "core/input/range.hpp"
 
 namespace signorini {
@@ -139,6 +140,14 @@ Field to_field(const RawValue& raw, std::string_view range) {
   Field field = compile_expression(*text, raw.origin);
   if (const std::optional<double> number = field.constant()) return checked(*number, raw, range);
   return range.empty() ? field : restricted(std::move(field), range);
+}
+
+Field to_field_of_t(const RawValue& raw) {
+  if (const auto* text = std::get_if<std::string>(&raw.value); text && scan_expression(*text, raw.origin).has_place)
+    input_error(raw.origin, fmt::format("expected a number or an expression in t alone, found {}, which depends on "
+                                        "the place: a total is one for all places",
+                                        in_quotes(*text)));
+  return to_field(raw);
 }
 
 const RawValue::List& to_list(const RawValue& raw, std::string_view expected) {

@@ -21,6 +21,8 @@ std::string to_text(const RawValue& raw, std::string_view range = "");
 std::string to_choice(const RawValue& raw, std::string_view range);
 /// A number or an expression. The range of an expression is checked at every evaluation.
 Field to_field(const RawValue& raw, std::string_view range = "");
+/// A number or an expression in t alone.
+Field to_field_of_t(const RawValue& raw);
 /// A list of numbers or expressions.
 std::vector<Field> to_fields(const RawValue& raw, std::string_view range = "");
 /// A list of numbers or of expressions without variables.

@@ -54,11 +54,12 @@ struct ContactReport {
 
 /// A total force on the body it acts on, one entry per unknown of a vertex.
 struct ForceReport {
-  int number = 0;  ///< of the scene's [[load]] or [[fix]], from 0
+  int number = 0;  ///< of the scene's [[load]], [[fix]] or [[spring]], from 0
   std::vector<double> force;
 };
 
-/// All that acts on one body: the totals of loads, fixes and obstacles. They sum to zero but for the algebraic error.
+/// All that acts on one body: the totals of loads, of fixes and springs, and of obstacles. They sum to zero but for the
+/// algebraic error.
 struct BalanceReport {
   std::string body;
   std::vector<double> applied, reactions, contact;
@@ -114,11 +115,11 @@ struct StepReport {
   Summary summary;
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
-  std::vector<ForceReport> applied, reactions;  ///< of each load, of each fix
-  std::vector<BalanceReport> balance;           ///< of each body
-  std::vector<BodyReport> bodies;               ///< `summary` is what they have in common, see merged()
-  std::vector<std::string> undetermined;        ///< motions of the body that nothing decides
-  std::optional<EstimateReport> estimate;       ///< of the error of the mesh; nothing where it was not asked for
+  std::vector<ForceReport> applied, reactions, springs;  ///< of each load, of each fix, of each spring
+  std::vector<BalanceReport> balance;                    ///< of each body
+  std::vector<BodyReport> bodies;                        ///< `summary` is what they have in common, see merged()
+  std::vector<std::string> undetermined;                 ///< motions of the body that nothing decides
+  std::optional<EstimateReport> estimate;  ///< of the error of the mesh; nothing where it was not asked for
 };
 
 /// A step, or part of one, that was not solved as a whole.

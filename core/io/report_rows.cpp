@@ -272,6 +272,9 @@ struct Reaction {
 struct Applied {
   ForceReport of;
 };
+struct SpringForce {
+  ForceReport of;
+};
 
 template <class T>
 std::vector<T> each(const std::vector<ForceReport>& forces) {
@@ -306,13 +309,22 @@ struct Table<Applied> {
 };
 
 template <>
+struct Table<SpringForce> {
+  static constexpr const char* name = "spring";
+  static std::vector<Row<SpringForce>> rows() {
+    return force_rows<SpringForce>("spring", "number of the scene's `[[spring]]`, from 0",
+                                   "what it exerts on the body");
+  }
+};
+
+template <>
 struct Table<BalanceReport> {
   static constexpr const char* name = "balance";
   static std::vector<Row<BalanceReport>> rows() {
     using B = BalanceReport;
     return {member("body", &B::body, "its name"),
             member("applied", &B::applied, "the sum of loads"),
-            member("reactions", &B::reactions, "the sum of what fixes exert"),
+            member("reactions", &B::reactions, "the sum of what fixes and springs exert"),
             member("contact", &B::contact, "the sum of what obstacles exert"),
             {{"sum", Kind::numbers, "of all three: zero but for the algebraic error"},
              [](const B& b) -> Json { return b.sum(); }}};
@@ -353,6 +365,8 @@ std::vector<Row<StepReport>> results() {
           objects("probes", &S::probes, "the solution at the scene's points"),
           {{"reactions", Kind::objects, "what each fix exerts", false, false, &object_spec<Reaction>},
            [](const S& s) { return as_objects(each<Reaction>(s.reactions)); }},
+          {{"springs", Kind::objects, "what each spring exerts", false, false, &object_spec<SpringForce>},
+           [](const S& s) { return as_objects(each<SpringForce>(s.springs)); }},
           {{"applied", Kind::objects, "the sum of each load", false, false, &object_spec<Applied>},
            [](const S& s) { return as_objects(each<Applied>(s.applied)); }},
           objects("balance", &S::balance, "the forces on each body"),

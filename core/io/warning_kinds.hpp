@@ -16,6 +16,16 @@ inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::scene, "conflicting-fixes",
      "{}: prescribes other values than {} at {} {} that both of them pick; the values of the later one hold",
      "two fixes prescribe different values at the same nodes", "mostly harmless; else pick faces that do not meet"},
+    {WarningKind::About::scene, "singular",
+     "{}: {} {}: where it bears a force, stresses there grow without end with smaller elements{}; expected faces, "
+     "however small, where these numbers matter",
+     "a force or a support at a point or along an edge. Its reaction is right, and so is what is far away. Stresses "
+     "next "
+     "to it belong to the mesh alone; at a point the displacement does, too",
+     "nothing, if the support only stops the body from drifting; else a small part of the boundary"},
+    {WarningKind::About::scene, "off-vertex",
+     "{}: the point ({}) is no vertex of the mesh: the nearest one is taken, ({}), which is {:.3g} away",
+     "points are vertices of the mesh", "a vertex there, by `cells` or in the mesh file"},
     {WarningKind::About::scene, "unknown-drag",
      "{}: 'distance' depends on t. It says how the obstacle moves across its surface, but not how it moves along it: "
      "friction takes the obstacle to be at rest along its surface. A plane, sphere or cylinder that moves drags the "

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/input/expression.hpp"
 #include "core/mesh/mirror.hpp"
+#include "core/scene/check_parts.hpp"
 #include "core/scene/read_tables.hpp"
 
 namespace signorini {
@@ -33,16 +33,6 @@ void refuse_unknown_body(const Scene& scene, const std::string& body, const std:
 template <class Table>
 void check_bodies(const Scene& scene, const std::vector<Table>& tables) {
   for (const Table& table : tables) refuse_unknown_body(scene, table.body, table.source.of("body"));
-}
-
-bool scalar(const Scene& scene, const std::string& body) {
-  return scene.body(body).equation == Scene::Equation::diffusion;
-}
-
-// The reader refuses such constants already; a program may have written others. Expressions are checked in use.
-void expect_finite(const Field& field, const std::string& place) {
-  if (const auto value = field.constant(); value && !std::isfinite(*value))
-    input_error(place, fmt::format("found {}, expected a finite number", *value));
 }
 
 void check_coefficients(const Scene& scene) {
@@ -82,16 +72,10 @@ void check_fixes(const Scene& scene) {
   for (const Scene::Fix& fix : scene.fixes) {
     if (std::none_of(fix.value.begin(), fix.value.end(), [](const auto& component) { return component.has_value(); }))
       input_error(fix.source.of("value"), "every component is free: nothing is fixed");
-    if (fix.frame == Frame::normal && scalar(scene, fix.body))
-      input_error(fix.source.of("frame"), "a scalar unknown has no frame 'normal'");
+    check_frame(scene, fix);
     for (const std::optional<Field>& component : fix.value)
       if (component) expect_finite(*component, fix.source.of("value"));
   }
-}
-
-void check_loads(const Scene& scene) {
-  for (const Scene::Load& load : scene.loads)
-    for (const Field& component : load.value) expect_finite(component, load.source.of("value"));
 }
 
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
@@ -146,10 +130,10 @@ bool is_touched(const Scene& scene, const Scene::Body& body) {
 
 void check_held(const Scene& scene, const std::string& place) {
   for (const Scene::Body& body : scene.bodies)
-    if (!any_of(scene.fixes, body) && !any_of(scene.obstacles, body) && !is_touched(scene, body) &&
-        scene.symmetry.planes.empty())
+    if (!any_of(scene.fixes, body) && !any_of(scene.springs, body) && !any_of(scene.obstacles, body) &&
+        !is_touched(scene, body) && scene.symmetry.planes.empty())
       input_error(scene.bodies.size() == 1 ? place : body.source.table,
-                  "there is neither [[fix]] nor [[obstacle]]: nothing holds the body");
+                  "there is neither [[fix]] nor [[spring]] nor [[obstacle]]: nothing holds the body");
 }
 
 // Across the radius every axisymmetric body is symmetric already.
@@ -168,11 +152,6 @@ void check_common_dimension(const Scene& scene) {
     if (const int found = dimension_of(body); found != 0 && found != scene.dimension)
       input_error(body.source.of("shape"), fmt::format("a body with {} dimensions, expected {} as the bodies before it",
                                                        found, scene.dimension));
-}
-
-void expect_length(std::size_t found, std::size_t expected, const std::string& place, std::string_view what) {
-  if (found != expected)
-    input_error(place, fmt::format("expected {} {}{}, found {}", expected, what, expected == 1 ? "" : "s", found));
 }
 
 // Directions of no length, as far as they are known without a position.
@@ -225,10 +204,13 @@ void check_dimension(const Scene& scene, int dimension) {
       input_error(scene.symmetry.source.of(axis_name(mirror.axis)),
                   fmt::format("a plane of symmetry across {}, and the scene has {} dimensions", axis_name(mirror.axis),
                               dimension));
-  for (const Scene::Fix& fix : scene.fixes)
+  for (const Scene::Fix& fix : scene.fixes) {
+    check_point(fix.on, dimension);
+    check_axis(fix, dimension);
     expect_length(fix.value.size(), components(fix.body), fix.source.of("value"), "component");
-  for (const Scene::Load& load : scene.loads)
-    expect_length(load.value.size(), components(load.body), load.source.of("value"), "component");
+  }
+  check_load_lengths(scene, dimension);
+  check_spring_lengths(scene, dimension);
   for (const Scene::Probe& probe : scene.probes)
     expect_length(probe.at.size(), dimension, probe.source.of("at"), "coordinate");
   for (const Scene::Obstacle& obstacle : scene.obstacles)
@@ -244,10 +226,12 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_materials(scene);
   check_bodies(scene, scene.fixes);
   check_bodies(scene, scene.loads);
+  check_bodies(scene, scene.springs);
   check_bodies(scene, scene.obstacles);
   check_bodies(scene, scene.probes);
   check_fixes(scene);
   check_loads(scene);
+  check_springs(scene);
   check_obstacles(scene);
   check_held(scene, place);
   check_symmetry(scene);

@@ -27,7 +27,8 @@ poisson = 0.3
 - The axis r = 0 is no boundary. No part has faces on it, and `on = "boundary"` leaves it out.
 - On the axis the radial displacement is zero by itself. A fix that prescribes another value there is refused.
   `axis_nodes` of the report counts the nodes on the axis.
-- Forces, areas, volumes and energies are those of the whole body. Loads are given per area or volume, as elsewhere.
+- Forces, areas, volumes and energies are those of the whole body. Loads are given per area or volume, as elsewhere, or
+  in total.
 - The first entry of a force is the integral of its radial part. Radial forces of a body of revolution have no
   resultant: hoop stresses carry them. So only the second entries of `balance` sum to zero.
 - The only rigid motion is the one along the axis. Moments are zero.
@@ -37,17 +38,34 @@ poisson = 0.3
 - In the VTU, `stress` has the radial stress as xx, the axial stress as yy, and the hoop stress as zz.
 )";
 
-constexpr const char* selection = R"(
+constexpr const char* fix_details = R"(
 - `on` or `where` picks the faces, in this table and the next ones. Both together are an error.
 - `where` is evaluated on the faces of the coarsest mesh. Finer meshes inherit the choice. The border of `where` may cut
   through faces of the coarsest mesh. A warning then says how much area is picked although `where` does not hold there,
   and how much area is left out. (Facets of a curved surface that a mesh file does not know count as picked rightly.)
+- `at` and a list of two parts pick a point and an edge, see [loads.md](loads.md#fixes-that-are-no-faces). Stresses are
+  singular there.
+- Components and tangents of each frame: [loads.md](loads.md#frames).
 )";
 
 constexpr const char* load_details = R"(
 - With `on` or `where` the load is a traction on these faces: a force per area. Without them it is a body force, per
   volume.
 - On scalar bodies the load is a flux, or a source.
+- `force` and `torque` are totals: in space forces, in the plane forces per thickness, of an axisymmetric body those of
+  the whole body of revolution. They are divided over the area of the faces as the elements have it, curved ones, too.
+  The forces at the nodes sum to them up to rounding. With `[symmetry]` they are those of both sides if the faces go on
+  beyond the plane, see there.
+- `force` and `torque` may stand together. `about` then makes them the force and the moment of the whole load as seen
+  from that point: `force = [0, 0, -5]` with `about = [3, 0, 0]` pushes as a force at that point does.
+- [loads.md](loads.md) has examples.
+)";
+
+constexpr const char* spring_details = R"(
+- The traction is -k u: it pulls as it pushes. What only pushes is an obstacle.
+- `stiffness` is per area (in the plane per length and thickness). `total` is divided by the area of the faces, of a body
+  of revolution by that of the rings, with `[symmetry]` by that on both sides if the faces go on beyond the plane.
+- `springs` of the report has the force of each. Their energy counts in `energy`.
 )";
 
 constexpr const char* obstacle_details = R"(
@@ -168,7 +186,8 @@ no boundary: no part has them, and `on = "boundary"` leaves them out.
 - Energies, and the sums in `balance`.
 - `applied`, `reactions`, and force, moment, area and dissipation of an obstacle. They are those of all faces for which
   the condition stands in the scene as it is written. A load on `right` is summed over the whole right side, and not
-  over the left.
+  over the left. The same holds for what a `[[load]]` gives in total, by `force` or `torque`: it is the sum that
+  `applied` shows.
 - Forces across a plane cancel and are zero.
 - A `probe` may lie on either side.
 
@@ -220,12 +239,17 @@ poisson = 0.3)",
 body = "block"
 on = "top"
 value = [0, 0, "-0.01*t"]          # moved down step by step; "free" leaves a component free)",
-     selection},
+     fix_details},
     {"load", R"([[load]]
 body = "block"
 where = "x == 2"
 value = [-10, 0, 0]                # a pressure of 10 on the face at x = 2)",
      load_details},
+    {"spring", R"([[spring]]
+body = "block"
+on = "left"
+stiffness = 50                     # a soft pad: per area, in all directions)",
+     spring_details},
     {"obstacle", R"([[obstacle]]
 type = "contact"
 body = "block"

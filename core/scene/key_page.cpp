@@ -80,6 +80,8 @@ constexpr Sample samples[] = {{"fix.where", "\"z > 0.5 && x < 1\""},
 const char* sample_of(KeyType type) {
   switch (type) {
     case KeyType::fields:
+    case KeyType::totals:
+    case KeyType::moment:
       return "[0, 0, 1]";
     case KeyType::point:
       return "[0, 0, 0]";

@@ -1,9 +1,32 @@
 #include "core/scene/read_tables.hpp"
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "core/scene/table_reader.hpp"
 
 namespace signorini {
+namespace {
+
+/// Of tables that need one.
+/// @param missing what an error says of the keys
+Selection picked(const TableReader& reader, const char* missing) {
+  const std::optional<Selection> on = reader.selection();
+  if (!on) input_error(reader.origin(), fmt::format("{} is given, expected one of them", missing));
+  return *on;
+}
+
+Frame frame(const TableReader& reader) {
+  const std::string name = reader.text("frame");
+  return name == "normal" ? Frame::normal : name == "cylindrical" ? Frame::cylindrical : Frame::global;
+}
+
+Scene::FrameAxis axis(const TableReader& reader) {
+  const auto given = [&](const char* key) { return reader.given(key) ? reader.point(key) : std::vector<double>(); };
+  return {given("center"), given("axis")};
+}
+
+}  // namespace
 
 Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("material")->keys, folder);
@@ -18,22 +41,46 @@ Scene::Material read_material(const RawTable& table, const std::filesystem::path
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("fix")->keys, folder);
   reader.check_keys();
-  const std::optional<Selection> on = reader.selection();
-  if (!on) input_error(reader.origin(), "neither 'on' nor 'where' is given, expected one of them");
-  return {reader.text("body"), *on, reader.values("value"),
-          reader.text("frame") == "normal" ? Frame::normal : Frame::global, reader.source()};
+  return {reader.text("body"),    picked(reader, "neither 'on' nor 'where' nor 'at'"),
+          reader.values("value"), frame(reader),
+          reader.source(),        axis(reader)};
 }
 
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("load")->keys, folder);
   reader.check_keys();
   Scene::Load load{reader.text("body"), reader.selection(), {}, reader.source()};
-  for (const std::optional<Field>& component : reader.values("value")) {
-    if (!component)
-      input_error(reader.origin("value"), "'free' belongs into [[fix]]; a load has a value per component");
-    load.value.push_back(*component);
-  }
+  if (reader.given("value"))
+    for (const std::optional<Field>& component : reader.values("value")) {
+      if (!component)
+        input_error(reader.origin("value"), "'free' belongs into [[fix]]; a load has a value per component");
+      load.value.push_back(*component);
+    }
+  if (reader.given("pressure")) load.pressure = reader.field("pressure");
+  load.force = reader.totals("force");
+  load.torque = reader.totals("torque");
+  if (reader.given("about")) load.about = reader.point("about");
+  load.frame = frame(reader);
+  load.axis = axis(reader);
   return load;
+}
+
+Scene::Spring read_spring(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("spring")->keys, folder);
+  reader.check_keys();
+  const bool total = reader.given("total");
+  if (total == reader.given("stiffness"))
+    input_error(reader.origin(total ? "total" : ""),
+                fmt::format("{} 'stiffness' {} 'total' {} given, expected one of them", total ? "both" : "neither",
+                            total ? "and" : "nor", total ? "are" : "is"));
+  if (total) reader.totals("total");  // which refuses what depends on the place
+  return {reader.text("body"),
+          picked(reader, "neither 'on' nor 'where'"),
+          reader.components(total ? "total" : "stiffness"),
+          total,
+          frame(reader),
+          reader.source(),
+          axis(reader)};
 }
 
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder) {

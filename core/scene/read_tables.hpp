@@ -12,6 +12,7 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
 Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder);
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder);
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder);
+Scene::Spring read_spring(const RawTable& table, const std::filesystem::path& folder);
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder);
 
 /// Dimension of a body by its shape; 0 when only the mesh file tells.

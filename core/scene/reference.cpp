@@ -32,6 +32,12 @@ const char* type_name(KeyType type) {
       return "list of numbers or expressions, one per dimension";
     case KeyType::values:
       return "list of numbers or expressions, one per component; for scalar bodies a single one";
+    case KeyType::components:
+      return "number or expression; or a list with one per component";
+    case KeyType::totals:
+      return "list of numbers or expressions in t, one per component; for scalar bodies a single one";
+    case KeyType::moment:
+      return "3D: list of three numbers or expressions in t; 2D: a single one";
     case KeyType::point:
       return "list of numbers, one per dimension";
     case KeyType::points:

@@ -77,19 +77,44 @@ struct Scene {
     Source source;
   };
 
+  /// Of a cylindrical frame; both empty for other ones.
+  struct FrameAxis {
+    std::vector<double> center, direction;  ///< a point, and in 3D a direction of any length
+  };
+
   struct Fix {
     std::string body;
     Selection on;
     std::vector<std::optional<Field>> value;  ///< per component, empty where free; one entry for diffusion
     Frame frame = Frame::global;
     Source source;
+    FrameAxis axis = {};
   };
 
   struct Load {
     std::string body;
     std::optional<Selection> on;  ///< without: a body force or source
-    std::vector<Field> value;     ///< per component; one entry for diffusion
+    std::vector<Field> value;     ///< per component; one entry for diffusion; empty where one of the next is given
     Source source;
+    std::optional<Field> pressure = {};
+    std::vector<Field> force = {};   ///< in total, as `value`
+    std::vector<Field> torque = {};  ///< in total: 3D three entries, 2D one
+    std::vector<double> about = {};  ///< the point that it is about; empty: the centroid
+    Frame frame = Frame::global;     ///< of `value`
+    FrameAxis axis = {};
+
+    bool is_total() const { return !force.empty() || !torque.empty(); }
+  };
+
+  /// A spring, or an elastic foundation.
+  struct Spring {
+    std::string body;
+    Selection on;
+    std::vector<Field> stiffness;  ///< one for all directions, or one per component
+    bool total = false;            ///< of all the faces, else per area
+    Frame frame = Frame::global;
+    Source source;
+    FrameAxis axis = {};
   };
 
   /// Rigid obstacles. Fields are evaluated at the vertex that asks for its distance, with its normal and the step
@@ -188,6 +213,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Fix> fixes;
   std::vector<Load> loads;
+  std::vector<Spring> springs;
   std::vector<Obstacle> obstacles;
   Solver solver;
   Refine refine;

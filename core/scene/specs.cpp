@@ -79,25 +79,65 @@ constexpr KeySpec material[] = {
 };
 
 constexpr const char* on_help = "a named part or a physical group of the mesh; \"boundary\" is all of it";
+constexpr const char* on_or_edge_help =
+    "a named part or a physical group of the mesh; \"boundary\" is all of it. A list of two parts: the edge (2D: the "
+    "points) that they have in common";
+constexpr const char* at_help = "in place of both a point: the vertex of the mesh that is nearest to it is picked";
 constexpr const char* where_help =
     "picks the boundary faces all of whose vertices satisfy the expression; those of the coarsest mesh, finer ones "
     "inherit it";
 
+constexpr const char* frame_help =
+    "normal: components along the outer normal and the tangents, for symmetry planes; cylindrical: away from an axis, "
+    "around it and along it";
+constexpr KeySpec center_key = {"center", point, "", "", "", "a point of the axis of a cylindrical frame"};
+constexpr KeySpec axis_key = {"axis", point, "", "", "", "in 3D the direction of that axis, of any length"};
+
 constexpr KeySpec fix[] = {
     {"body", text, nullptr, "", "", "name of a body"},
-    {"on", text, "", "", "", on_help},
+    {"on", texts, "", "", "", on_or_edge_help},
     {"where", condition, "", "", "", where_help},
+    {"at", point, "", "", "", at_help},
     {"value", values, nullptr, "", "", "per component the displacement (scalar bodies: the value), or \"free\""},
-    {"frame", text, "global", "global | normal", "",
-     "normal: components along the outer normal and the tangents, for symmetry planes"},
+    {"frame", text, "global", "global | normal | cylindrical", "", frame_help},
+    center_key,
+    axis_key,
 };
 
 constexpr KeySpec load[] = {
     {"body", text, nullptr, "", "", "name of a body"},
+    {"on", texts, "", "", "", on_or_edge_help},
+    {"where", condition, "", "", "", where_help},
+    {"at", point, "", "", "", at_help},
+    {"value", values, "", "", "",
+     "on faces a traction (scalar bodies: a flux), along an edge a force per length, at a point a force, else a body "
+     "force "
+     "(a source); either this, `pressure`, or what the load is in total"},
+    {"pressure", field, "", "", "", "with `on` or `where`: a traction against the outer normal"},
+    {"force", totals, "", "", "",
+     "in total (scalar bodies: a flux or a source), spread evenly over what the load acts on: area, length or volume"},
+    {"torque", moment, "", "", "",
+     "in total: about the axes through `about`, in 2D about z; spread like the displacement of a small turn"},
+    {"about", point, "", "", "",
+     "a point: `torque`, or zero, is the moment of the whole load about it, `force` included; by default the centroid "
+     "of what the load acts on"},
+    {"frame", text, "global", "global | normal | cylindrical", "", frame_help},
+    center_key,
+    axis_key,
+};
+
+constexpr KeySpec spring[] = {
+    {"body", text, nullptr, "", "", "name of a body"},
     {"on", text, "", "", "", on_help},
     {"where", condition, "", "", "", where_help},
-    {"value", values, nullptr, "", "",
-     "with `on` or `where` a traction (scalar bodies: a flux), else a body force (a source)"},
+    {"stiffness", components, "", "[0, inf)", "",
+     "force per area and displacement, for all directions or per component: an elastic foundation; either this or "
+     "`total`"},
+    {"total", components, "", "[0, inf)", "",
+     "force per displacement of a spring as a whole, spread evenly over the area; numbers or expressions in t"},
+    {"frame", text, "global", "global | normal | cylindrical", "", frame_help},
+    center_key,
+    axis_key,
 };
 
 constexpr KeySpec obstacle[] = {
@@ -215,6 +255,10 @@ const std::vector<TableSpec>& tables() {
       {"fix", true, "A Dirichlet condition: what is prescribed at the nodes of the faces picked by `on` or `where`.",
        fix},
       {"load", true, "A force that pulls or pushes.", load},
+      {"spring", true,
+       "Springs, or an elastic foundation: what pulls the body back where it moves, by a traction that is proportional "
+       "to its displacement.",
+       spring},
       {"obstacle", true, "What the body may not penetrate.", obstacle},
       {"solver", false, "How the algebraic problem is solved.", solver_keys()},
       {"refine", false, "How the mesh is refined.", refine},

@@ -11,17 +11,20 @@ enum class KeyType {
   integer,
   number,  ///< or an expression without variables
   text,
-  choice,     ///< one of several texts or whole numbers
-  texts,      ///< one text or a list of them
-  file,       ///< an existing file, relative to the scene's folder
-  condition,  ///< an expression that picks boundary faces
-  field,      ///< a number or an expression
-  fields,     ///< a field per dimension
-  values,     ///< a field per component of the unknown; a single one for scalar bodies
-  point,      ///< a number per dimension
-  points,     ///< a list of points
-  integers,   ///< a whole number per dimension
-  ascending,  ///< a list of numbers, each larger than the one before
+  choice,      ///< one of several texts or whole numbers
+  texts,       ///< one text or a list of them
+  file,        ///< an existing file, relative to the scene's folder
+  condition,   ///< an expression that picks boundary faces
+  field,       ///< a number or an expression
+  fields,      ///< a field per dimension
+  values,      ///< a field per component of the unknown; a single one for scalar bodies
+  components,  ///< a field for all components, or a list with one for each
+  totals,      ///< the same, of t alone
+  moment,      ///< a function of t for each axis; 2D: a single one
+  point,       ///< a number per dimension
+  points,      ///< a list of points
+  integers,    ///< a whole number per dimension
+  ascending,   ///< a list of numbers, each larger than the one before
 };
 
 inline constexpr std::string_view every_value = "*";  ///< the key itself

@@ -175,6 +175,23 @@ std::vector<std::optional<Field>> TableReader::values(std::string_view key) cons
   return all;
 }
 
+std::vector<Field> TableReader::components(std::string_view key) const {
+  const RawValue raw = value(spec(key));
+  const auto* list = std::get_if<RawValue::List>(&raw.value);
+  std::vector<Field> all;
+  for (const RawValue& entry : list ? *list : RawValue::List{raw}) all.push_back(to_field(entry, spec(key).range));
+  return all;
+}
+
+std::vector<Field> TableReader::totals(std::string_view key) const {
+  if (!given(key)) return {};
+  const RawValue raw = value(spec(key));
+  const auto* list = std::get_if<RawValue::List>(&raw.value);
+  std::vector<Field> all;
+  for (const RawValue& entry : list ? *list : RawValue::List{raw}) all.push_back(to_field_of_t(entry));
+  return all;
+}
+
 std::vector<std::vector<double>> TableReader::points(std::string_view key) const {
   std::vector<std::vector<double>> all;
   const RawValue raw = value(spec(key));
@@ -202,11 +219,27 @@ std::vector<double> TableReader::ascending(std::string_view key) const {
   return all;
 }
 
+/// One part, or where a table takes it the edge of two.
+Selection TableReader::parts(const std::string& key) const {
+  if (spec(key).type == KeyType::text) return {text(key), std::nullopt, origin(key)};
+  const std::vector<std::string> names = texts(key);
+  if (names.empty() || names.size() > 2)
+    input_error(origin(key),
+                fmt::format("expected one part, or two whose common edge is meant, found {}", names.size()));
+  Selection selection{names[0], std::nullopt, origin(key)};
+  if (names.size() == 2) selection.other = names[1];
+  return selection;
+}
+
 std::optional<Selection> TableReader::selection(const std::string& prefix) const {
   const std::string on = prefix + "on", where = prefix + "where";
   if (given(on) && given(where))
     input_error(origin(where), fmt::format("both '{}' and '{}' are given, expected one of them", on, where));
-  if (given(on)) return Selection{text(on), std::nullopt, origin(on)};
+  for (const std::string& key : {on, where})
+    if (given("at") && find_spec("at") && given(key))
+      input_error(origin("at"), fmt::format("both '{}' and 'at' are given, expected one of them", key));
+  if (given("at") && find_spec("at")) return Selection{{}, {}, origin("at"), {}, point("at")};
+  if (given(on)) return parts(on);
   if (given(where)) return Selection{std::nullopt, field(where), origin(where)};
   return std::nullopt;
 }

@@ -48,12 +48,16 @@ class TableReader {
   std::vector<Field> fields(std::string_view key) const;
   /// A field per component of the unknown; a single value is a list of one. "free" is empty.
   std::vector<std::optional<Field>> values(std::string_view key) const;
+  /// A single value is a list of one.
+  std::vector<Field> components(std::string_view key) const;
+  /// A function of t per entry; a single value is a list of one. Empty where the key is not given.
+  std::vector<Field> totals(std::string_view key) const;
   std::vector<double> point(std::string_view key) const;
   std::vector<std::vector<double>> points(std::string_view key) const;
   std::vector<Index> integers(std::string_view key) const;
   /// Not empty.
   std::vector<double> ascending(std::string_view key) const;
-  /// What `on` or `where` pick; nothing when neither is given, an error when both are.
+  /// What `on`, `where` or, in tables that have it, `at` pick; nothing when none is given, an error when several are.
   /// @param prefix of these keys: "other_"
   std::optional<Selection> selection(const std::string& prefix = "") const;
 
@@ -62,6 +66,7 @@ class TableReader {
   Scene::Source source() const;
 
  private:
+  Selection parts(const std::string& key) const;
   const KeySpec* find_spec(std::string_view key) const;
   const KeySpec& spec(std::string_view key) const;
   RawValue value(const KeySpec& spec) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/rounding.hpp"
+#include "core/fem/assembly/springs.hpp"
+#include "core/fem/motions/deciding_rows.hpp"
 #include "core/mesh/connected.hpp"
 
 namespace signorini {
@@ -15,6 +17,21 @@ std::vector<Index> bodies_of(const Nodes<D>& nodes, const Model<B>& model) {
   return is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>();
 }
 
+/// Those of `free` that have no energy in springs.
+template <int D, int B>
+Eigen::MatrixXd not_in_springs(const Nodes<D>& nodes, const Model<B>& model, const RigidMotions<D, B>& motions,
+                               const Eigen::MatrixXd& free) {
+  if (free.cols() == 0 || model.springs.empty()) return free;
+  DecidingRows rows(static_cast<int>(free.cols()));
+  each_spring_hold<D, B>(nodes, model, [&](const SpringHold<B>& hold) {
+    if (rows.complete()) return;
+    typename RigidMotions<D, B>::Row row = RigidMotions<D, B>::Row::Zero(motions.count());
+    for (const auto& [p, value] : hold.nodes) row += value * motions.along(p, hold.direction.data());
+    rows.add(row * free);
+  });
+  return rows.complete() ? Eigen::MatrixXd(free.rows(), 0) : Eigen::MatrixXd(free * rows.null_space());
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -23,7 +40,7 @@ FreeMotions<D, B>::FreeMotions(const Nodes<D>& nodes, const Model<B>& model, con
       model(model),
       discretization(discretization),
       motions(nodes, model.plane, bodies_of(nodes, model)),
-      free(motions.free(discretization.problem)) {
+      free(not_in_springs(nodes, model, motions, motions.free(discretization.problem))) {
   if (!none()) add_work();
 }
 

@@ -6,8 +6,8 @@
 
 namespace signorini {
 
-/// Motions without energy that the prescribed values of a body leave, what loads do along them, and what bounds leave
-/// of them. Motions are coefficients of the columns of `free`.
+/// Motions without energy, in springs either, that the prescribed values of a body leave, what loads do along them, and
+/// what bounds leave of them. Motions are coefficients of the columns of `free`.
 template <int D, int B>
 struct FreeMotions {
   /// Parts of the most that is possible: work of loads, components of motions.

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.hpp"
+#include "core/fem/assembly/springs.hpp"
 #include "core/fem/conditions/fixes.hpp"
 #include "core/fem/elements/element.hpp"
+#include "core/fem/elements/select_nodes.hpp"
 #include "core/fem/recovery/between_nodes.hpp"
 #include "core/fem/recovery/cut_faces.hpp"
 #include "core/io/warning_kinds.hpp"
@@ -31,7 +34,7 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     {},
                     std::move(slaves),
                     std::move(shift),
-                    conditions_across(nodes.mesh(), model)};
+                    conditions_across(nodes, model)};
   out.slaves.resize(model.obstacles.size());
   out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
   out.masters = master_side(nodes, model, out.counterforces, out.u);
@@ -43,6 +46,7 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
       out.contact.obstacles[k].tangential_force[i] += along[k][i];
     }
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
+  out.forces.springs = spring_forces(nodes, model, out.u);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
     out.between_nodes.push_back(violation_between_nodes(nodes, model, k, out.contact, out.u));
@@ -126,6 +130,8 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
                   balance.applied);
     add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name,
                   balance.reactions);
+    add_forces<B>(forces.springs, numbers_of(scene.springs, body), scene.springs, &Scene::Spring::body, name,
+                  balance.reactions);
     add_forces<B>(contact.on_body, obstacles, scene.obstacles, &Scene::Obstacle::body, name, balance.contact);
     add_forces<B>(contact.on_other, obstacles, scene.obstacles, &Scene::Obstacle::other, name, balance.contact);
     for (std::vector<double>* sum : {&balance.applied, &balance.reactions, &balance.contact}) *sum = whole.total(*sum);
@@ -167,6 +173,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   const Forces<B>& forces = results.forces;
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
+  report.springs = force_reports<B>(numbers_of(scene.springs, body), forces.springs, mirrors, results.across.springs);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
                     plane_names(mirrors), whole.copies(), body.order, body.order_chosen}};
@@ -243,6 +250,22 @@ bool drags_unknown(const Scene::Obstacle& obstacle) {
 
 }  // namespace
 
+/// Of a fix or a load at a point or along an edge.
+template <int D, int B>
+void warn_of_small(const Nodes<D>& nodes, const Selection& on, const char* what, Warnings& warnings) {
+  if (on.picks_faces()) return;
+  const bool point = !on.at.empty() || D == 2;
+  warnings.push_back(warning<"singular">(on.origin, what, point ? "at a point" : "along an edge",
+                                         B == D && point ? ", and so does its displacement" : ""));
+  if (on.at.empty()) return;
+  const NearVertex near = nearest_vertex(nodes, on);
+  double size = 0;
+  for (const double x : nodes.at(near.node)) size = std::max(size, std::fabs(x));
+  if (near.distance > rounding_of_bases * size)
+    warnings.push_back(warning<"off-vertex">(on.origin, fmt::format("{}", fmt::join(on.at, ", ")),
+                                             fmt::format("{}", fmt::join(nodes.at(near.node), ", ")), near.distance));
+}
+
 template <int D, int B>
 Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B>& model, std::size_t body) {
   Warnings warnings;
@@ -252,6 +275,9 @@ Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B
                                                     scene.fixes[fixes[conflict.earlier]].source.table,
                                                     conflict.vertices, conflict.vertices == 1 ? "vertex" : "vertices"));
   for (Warning& warning : cut_warnings<D>(cut_selections(nodes.mesh(), model))) warnings.push_back(std::move(warning));
+  for (const Fix<B>& fix : model.fixes) warn_of_small<D, B>(nodes, fix.on, "a fix", warnings);
+  for (const Load<B>& load : model.loads)
+    if (load.on) warn_of_small<D, B>(nodes, *load.on, "a load", warnings);
   const std::vector<int> obstacles = numbers_of(scene.obstacles, scene.bodies[body]);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[obstacles[k]];

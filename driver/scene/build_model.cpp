@@ -1,6 +1,7 @@
 #include "driver/scene/build_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <span>
@@ -9,6 +10,8 @@
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
 #include "core/component/settings.hpp"
+#include "core/fem/conditions/directions.hpp"
+#include "core/mesh/mirror.hpp"
 #include "core/scene/rigid_shape.hpp"
 #include "core/scene/specs.hpp"
 #include "driver/scene/materials.hpp"
@@ -123,21 +126,87 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
 }
 
 template <int B>
+LocalFrame<B> frame(Frame kind, const Scene::FrameAxis& axis) {
+  LocalFrame<B> out = kind;
+  std::ranges::copy(axis.center, out.center.begin());
+  std::ranges::copy(axis.direction, out.axis.begin());
+  return out;
+}
+
+template <int B>
 Fix<B> fix(const Scene::Body& body, const Scene::Fix& given) {
-  Fix<B> result{on_mesh_of(body, given.body, given.on), {}, given.frame};
+  Fix<B> result{on_mesh_of(body, given.body, given.on), {}, frame<B>(given.frame, given.axis)};
   std::copy_n(given.value.begin(), B, result.value.begin());
   return result;
+}
+
+/// The same vectors by their components in space.
+template <int B>
+std::array<Field, B> in_space(const LocalFrame<B>& frame, const std::array<Field, B>& components) {
+  if (frame.kind == Frame::global) return components;
+  std::string text = fmt::format("frame {} ({}) ({})", static_cast<int>(frame.kind), fmt::join(frame.center, ", "),
+                                 fmt::join(frame.axis, ", "));
+  for (const Field& component : components) text += "; " + component.text();
+  const bool uses_t = std::ranges::any_of(components, [](const Field& field) { return field.uses_t(); });
+  std::array<Field, B> out;
+  for (int i = 0; i < B; ++i)
+    out[i] = Field(
+        [frame, components, i](const Site& site) {
+          Point<B> x, normal;
+          std::copy_n(site.x, B, x.begin());
+          std::copy_n(site.n, B, normal.begin());
+          const auto direction = directions<B, B>(frame, x, normal);
+          double sum = 0;
+          for (int k = 0; k < B; ++k) sum += components[k](site) * direction[k][i];
+          return sum;
+        },
+        fmt::format("component {} of {}", i, text), components[0].origin(), frame.kind == Frame::normal, uses_t);
+  return out;
+}
+
+/// The traction of a pressure.
+template <int B>
+std::array<Field, B> against_normal(const Field& pressure) {
+  std::array<Field, B> value;
+  for (int i = 0; i < B; ++i)
+    value[i] =
+        Field([pressure, i](const Site& site) { return -pressure(site) * site.n[i]; },
+              fmt::format("-({}) * n{}", pressure.text(), axis_name(i)), pressure.origin(), true, pressure.uses_t());
+  return value;
+}
+
+template <int B>
+Resultant<B> resultant(const Scene::Load& given) {
+  Resultant<B> total{.force = {},
+                     .torque = given.torque,
+                     .about = {},
+                     .origin = given.source.of(given.force.empty() ? "torque" : "force")};
+  std::ranges::copy(given.force, total.force.begin());
+  if (given.about.empty()) return total;
+  std::ranges::copy(given.about, total.about.emplace().begin());
+  if (total.torque.empty()) total.torque.assign(B == 3 ? 3 : 1, Field(0.0));
+  return total;
 }
 
 template <int B>
 Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& given) {
   Load<B> result{given.on, {}};
-  std::copy_n(given.value.begin(), B, result.value.begin());
+  std::ranges::copy(given.value, result.value.begin());
+  if constexpr (B > 1) result.value = in_space<B>(frame<B>(given.frame, given.axis), result.value);
+  if (given.pressure) result.value = against_normal<B>(*given.pressure);
+  if (given.is_total()) result.total = resultant<B>(given);
   if (given.on) result.on = on_mesh_of(body, given.body, *given.on);
   if (given.on || body.parts.empty()) return result;
   const auto part = std::ranges::find(body.parts, given.body, &Scene::Body::name) - body.parts.begin();
   const auto [first, count] = regions_of_part(scene, body, static_cast<std::size_t>(part));
   result.regions = {first, first + count - 1};
+  return result;
+}
+
+template <int B>
+Spring<B> spring(const Scene::Body& body, const Scene::Spring& given) {
+  Spring<B> result{on_mesh_of(body, given.body, given.on), {}, given.total, frame<B>(given.frame, given.axis)};
+  for (std::size_t i = 0; i < B; ++i) result.stiffness[i] = given.stiffness[given.stiffness.size() == 1 ? 0 : i];
   return result;
 }
 
@@ -157,6 +226,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   model.origin = body.source.table;
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(body, scene.fixes[k]));
   for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene, body, scene.loads[k]));
+  for (const int k : numbers_of(scene.springs, body)) model.springs.push_back(spring<B>(body, scene.springs[k]));
   for (const int k : numbers_of(scene.obstacles, body)) {
     const Scene::Obstacle& obstacle = scene.obstacles[k];
     ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, step));

@@ -38,12 +38,13 @@ void add_joints(const Mesh<D>& mesh, const std::string& place, Warnings& warning
                                        and_others(all.size())));
 }
 
-/// Of the scene's fixes, loads and obstacles.
+/// Of the scene's fixes, loads, springs and obstacles.
 std::vector<Selection> selections(const Scene& scene, const Scene::Body& body) {
   std::vector<Selection> all;
   for (const int k : numbers_of(scene.fixes, body)) all.push_back(scene.fixes[k].on);
   for (const int k : numbers_of(scene.loads, body))
     if (scene.loads[k].on) all.push_back(*scene.loads[k].on);
+  for (const int k : numbers_of(scene.springs, body)) all.push_back(scene.springs[k].on);
   for (const int k : numbers_of(scene.obstacles, body))
     if (scene.obstacles[k].on) all.push_back(*scene.obstacles[k].on);
   return all;

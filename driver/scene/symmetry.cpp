@@ -11,11 +11,12 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
-#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/assembly/resultant.hpp"
+#include "core/fem/assembly/springs.hpp"
+#include "core/fem/conditions/directions.hpp"
 #include "core/fem/elements/element.hpp"
-#include "core/fem/elements/select.hpp"
+#include "core/fem/elements/select_nodes.hpp"
 #include "core/fem/model/obstacle_motion.hpp"
-#include "core/mesh/boundary.hpp"
 #include "core/mesh/mirror.hpp"
 
 namespace signorini {
@@ -23,61 +24,10 @@ namespace {
 
 constexpr double same = 1e-6;  // difference of values that are one, relative to the largest
 
-template <int D>
-Point<D> reflected_direction(const Mirror& mirror, Point<D> d) {
-  d[mirror.axis] = -d[mirror.axis];
-  return d;
-}
-
-template <int D>
-bool touches(const Mesh<D>& mesh, const std::vector<Index>& faces, const Mirror& mirror) {
-  return std::ranges::any_of(faces, [&](Index f) {
-    return std::ranges::any_of(mesh.boundary[f].vertices, [&](Index v) { return lies_on<D>(mirror, mesh.points[v]); });
-  });
-}
-
-/// Whether an expression holds at the images of the faces of the coarsest mesh where it holds: of all, of none, else an
-/// error.
-template <int D>
-bool holds_beyond(const Mesh<D>& mesh, const std::vector<Index>& faces, const Selection& on, const Mirror& mirror,
-                  double t) {
-  const Index children = faces_per_coarsest(mesh);
-  Index there = 0, count = 0;
-  for (std::size_t k = 0; k < faces.size(); k += static_cast<std::size_t>(children)) {
-    const auto corners = points_of(mesh, coarsest_face(mesh, faces[k] / children));
-    Point<D> normal = area_normal(corners);
-    normalise(normal);
-    const Point<D> image = reflected_direction<D>(mirror, normal);
-    ++count;
-    there += std::ranges::all_of(
-        corners, [&](const Point<D>& x) { return (*on.where)(site<D>(reflected<D>(mirror, x), t, image)) != 0; });
-  }
-  if (there != 0 && there != count)
-    input_error(on.origin,
-                fmt::format("'{}' picks {} faces of the coarsest mesh, and holds on {} of their images beyond "
-                            "the plane of symmetry {}; expected all, or none",
-                            on.where->text(), count, there, plane_name(mirror)));
-  return there == count;
-}
-
-template <int D>
-Planes planes_across(const Mesh<D>& mesh, const std::optional<Selection>& on, double t) {
-  if (!on) return all_planes(mesh);
-  Planes out = 0;
-  const std::vector<Index> faces = select_faces(mesh, *on, t);
-  for (std::size_t m = 0; m < mesh.mirrors.size(); ++m) {
-    const Mirror& mirror = mesh.mirrors[m];
-    const bool part_goes_on =
-        !on->part || *on->part == "boundary" || touches(mesh, faces_of(mesh, *on->part, on->origin), mirror);
-    if (part_goes_on && (!on->where || holds_beyond(mesh, faces, *on, mirror, t))) out |= 1u << m;
-  }
-  return out;
-}
-
 /// Between two bodies the other one's faces go on where the first one's do.
 template <int D, int B>
 void refuse_one_sided(const Mesh<D>& mesh, const ObstacleTerm<B>& term, Planes across, double t) {
-  const Planes missing = across & ~planes_across(mesh, term.other, t);
+  const Planes missing = across & ~planes_across(Nodes<D>(mesh), term.other, t);
   for (std::size_t m = 0; m < mesh.mirrors.size(); ++m)
     if (missing >> m & 1u)
       input_error(term.origin, fmt::format("faces of the first body are on both sides of the plane of symmetry {}, and "
@@ -99,6 +49,15 @@ std::vector<ComparedPlace<D>> places_on(const Mesh<D>& mesh, const std::vector<I
     normalise(normal);
     for (const Index v : mesh.boundary[f].vertices) out.push_back({mesh.points[v], normal});
   }
+  return out;
+}
+
+template <int D>
+std::vector<ComparedPlace<D>> places_on(const Mesh<D>& mesh, const Selection& on, double t) {
+  if (on.picks_faces()) return places_on(mesh, select_faces(mesh, on, t));
+  std::vector<ComparedPlace<D>> out;
+  const Nodes<D> nodes(mesh);
+  for (const Index p : select_nodes(nodes, on, t)) out.push_back({nodes.at(p), {}});
   return out;
 }
 
@@ -160,6 +119,8 @@ class SymmetryCheck {
       if (across.fixes[k] & bit_) check_fix(model_.fixes[k]);
     for (std::size_t k = 0; k < model_.loads.size(); ++k)
       if (across.loads[k] & bit_) check_load(model_.loads[k]);
+    for (std::size_t k = 0; k < model_.springs.size(); ++k)
+      if (across.springs[k] & bit_) check_spring(model_.springs[k]);
     for (std::size_t k = 0; k < model_.obstacles.size(); ++k)
       if (across.obstacles[k] & bit_) check_obstacle(model_.obstacles[k]);
   }
@@ -189,32 +150,45 @@ class SymmetryCheck {
   }
 
   void check_fix(const Fix<B>& fix) const {
-    Comparison<D> comparison(mirror_, fix.on.origin);
-    for (const ComparedPlace<D>& p : places_on(mesh_, select_faces(mesh_, fix.on, model_.t))) {
+    Comparison<D> values(mirror_, fix.on.origin), frames(mirror_, fix.on.origin);
+    frames.scale(1);
+    for (const ComparedPlace<D>& p : places_on(mesh_, fix.on, model_.t)) {
       const ComparedPlace<D> q = image(p);
+      const auto here = directions<D, B>(fix.frame, p.x, p.normal), there = directions<D, B>(fix.frame, q.x, q.normal);
+      const bool on_axis = is_on_axis<D, B>(fix.frame, p.x);
       for (int i = 0; i < B; ++i) {
         if (!fix.value[i]) continue;
-        double turn = sign(i);
-        if constexpr (B == D)
-          if (fix.frame == Frame::normal)
-            turn = dot(component(q.normal, i), reflected_direction<D>(mirror_, component(p.normal, i)));
-        comparison.add(p.x, (*fix.value[i])(site_of(p)), turn * (*fix.value[i])(site_of(q)));
+        double turn = 0;  // 1 or -1, where the frame is symmetric
+        for (int j = 0; j < B; ++j) turn += sign(j) * there[i][j] * here[i][j];
+        if (fix.frame.kind == Frame::cylindrical && !on_axis) frames.add(p.x, 1, std::abs(turn));
+        values.add(p.x, (*fix.value[i])(site_of(p)), turn * (*fix.value[i])(site_of(q)));
       }
     }
-    comparison.refuse("'value'");
+    frames.refuse("the frame");
+    values.refuse("'value'");
   }
 
-  /// Direction of the i-th component in the frame of a normal.
-  static Point<D> component(const Point<D>& normal, int i) { return i == 0 ? normal : tangents(normal)[i - 1]; }
-
-  void check_load(const Load<B>& load) const {
+  void check_load(const Load<B>& given) const {
+    const Load<B> load = distributed(Nodes<D>(mesh_), model_, given);
     const std::string& origin = load.on ? load.on->origin : load.value[0].origin();
     Comparison<D> comparison(mirror_, origin.empty() ? model_.origin + ", its load" : origin);
-    for (const ComparedPlace<D>& p :
-         load.on ? places_on(mesh_, select_faces(mesh_, *load.on, model_.t)) : all_places(mesh_))
+    for (const ComparedPlace<D>& p : load.on ? places_on(mesh_, *load.on, model_.t) : all_places(mesh_))
       for (int i = 0; i < B; ++i)
         comparison.add(p.x, load.value[i](site_of(p)), sign(i) * load.value[i](site_of(image(p))));
     comparison.refuse("'value'");
+  }
+
+  void check_spring(const Spring<B>& spring) const {
+    Comparison<D> comparison(mirror_, spring.on.origin);
+    const auto matrix = [&](const ComparedPlace<D>& p) {
+      return spring_matrix<D, B>(spring, 1, p.x, p.normal, model_.t);
+    };
+    for (const ComparedPlace<D>& p : places_on(mesh_, spring.on, model_.t)) {
+      const auto here = matrix(p), there = matrix(image(p));
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) comparison.add(p.x, here[i * B + j], sign(i) * sign(j) * there[i * B + j]);
+    }
+    comparison.refuse("the stiffness of the spring");
   }
 
   void check_obstacle(const ObstacleTerm<B>& term) const {
@@ -288,13 +262,15 @@ class SymmetryCheck {
 }  // namespace
 
 template <int D, int B>
-ConditionsAcross conditions_across(const Mesh<D>& mesh, const Model<B>& model) {
+ConditionsAcross conditions_across(const Nodes<D>& nodes, const Model<B>& model) {
+  const Mesh<D>& mesh = nodes.mesh();
   ConditionsAcross out;
   const auto add = [&](std::vector<Planes>& list, const std::optional<Selection>& on) {
-    list.push_back(mesh.mirrors.empty() ? 0 : planes_across(mesh, on, model.t));
+    list.push_back(mesh.mirrors.empty() ? 0 : planes_across(nodes, on, model.t));
   };
   for (const Fix<B>& fix : model.fixes) add(out.fixes, fix.on);
   for (const Load<B>& load : model.loads) add(out.loads, load.on);
+  for (const Spring<B>& spring : model.springs) add(out.springs, spring.on);
   for (const ObstacleTerm<B>& term : model.obstacles) {
     add(out.obstacles, term.on);
     if (term.other && !mesh.mirrors.empty()) refuse_one_sided(mesh, term, out.obstacles.back(), model.t);
@@ -314,7 +290,7 @@ void check_symmetry(const MeshHierarchy<D>& hierarchy, const Model<B>& model) {
   const Mesh<D>* mesh = &hierarchy.levels.front();
   for (const Mesh<D>& level : hierarchy.levels)
     if (level.vertices() <= enough) mesh = &level;
-  refuse_asymmetric(*mesh, model, conditions_across(*mesh, model));
+  refuse_asymmetric(*mesh, model, conditions_across(Nodes<D>(*mesh), model));
 }
 
 Whole::Whole(const std::vector<Mirror>& mirrors, Planes across) : copies_(1 << std::popcount(across)) {
@@ -323,7 +299,7 @@ Whole::Whole(const std::vector<Mirror>& mirrors, Planes across) : copies_(1 << s
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                          \
-  template ConditionsAcross conditions_across(const Mesh<D>&, const Model<B>&);              \
+  template ConditionsAcross conditions_across(const Nodes<D>&, const Model<B>&);             \
   template void refuse_asymmetric(const Mesh<D>&, const Model<B>&, const ConditionsAcross&); \
   template void check_symmetry(const MeshHierarchy<D>&, const Model<B>&);
 SIGNORINI_INSTANTIATE(2, 1)

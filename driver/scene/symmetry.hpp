@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/fem/elements/across.hpp"
 #include "core/fem/elements/nodes.hpp"
 #include "core/fem/model/model.hpp"
 #include "core/mesh/mesh.hpp"
@@ -9,22 +10,19 @@
 /// symmetric, and what the whole of a quantity is.
 namespace signorini {
 
-/// A bit for each of Mesh::mirrors.
-using Planes = unsigned;
-
 /// The planes that each condition goes on beyond. It stands for its images there, too; where it does not go on it is
 /// one of two that are each other's images.
 struct ConditionsAcross {
-  std::vector<Planes> fixes, loads, obstacles;  ///< as those of the model
+  std::vector<Planes> fixes, loads, springs, obstacles;  ///< as those of the model
 };
 
 /// By parts that have vertices on a plane, and by expressions that hold at the images of the faces they pick.
 /// Error(Exit::input) where an expression holds at some of these images only.
 template <int D, int B>
-ConditionsAcross conditions_across(const Mesh<D>& mesh, const Model<B>& model);
+ConditionsAcross conditions_across(const Nodes<D>& nodes, const Model<B>& model);
 
-/// Error(Exit::input) for material, fixes, loads and obstacles that are not symmetric about planes they go on beyond,
-/// as far as the vertices of this mesh and their images show.
+/// Error(Exit::input) for material, fixes, loads, springs and obstacles that are not symmetric about planes they go on
+/// beyond, as far as the vertices of this mesh and their images show.
 template <int D, int B>
 void refuse_asymmetric(const Mesh<D>& mesh, const Model<B>& model, const ConditionsAcross& across);
 
@@ -52,11 +50,5 @@ class Whole {
   int copies_;
   unsigned axes_ = 0;
 };
-
-/// All planes of a mesh.
-template <int D>
-Planes all_planes(const Mesh<D>& mesh) {
-  return (1u << mesh.mirrors.size()) - 1;
-}
 
 }  // namespace signorini

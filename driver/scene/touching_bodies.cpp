@@ -96,7 +96,9 @@ std::string side_of(const Scene::Obstacle& obstacle, bool other) {
 }
 
 Selection on_mesh_of(const Scene::Body& body, const std::string& part, Selection selection) {
-  if (!body.parts.empty()) selection.part = part_of(part, selection.part.value_or("boundary"));
+  if (body.parts.empty()) return selection;
+  selection.part = part_of(part, selection.part.value_or("boundary"));
+  if (selection.other) selection.other = part_of(part, *selection.other);
   return selection;
 }
 

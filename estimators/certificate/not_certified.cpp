@@ -10,6 +10,13 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
   if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
   if (nodes.order() != 1) reasons.emplace_back("quadratic elements are not covered, linear ones are: order = 1");
   if (model.plane == Plane::axisymmetric) reasons.emplace_back("bodies of revolution are not covered");
+  const auto fix_on_faces = [](const Fix<B>& fix) { return fix.on.picks_faces(); };
+  const auto load_on_faces = [](const Load<B>& load) { return !load.on || load.on->picks_faces(); };
+  if (!std::ranges::all_of(model.fixes, fix_on_faces) || !std::ranges::all_of(model.loads, load_on_faces))
+    reasons.emplace_back("fixes and loads at points and along edges are not covered");
+  if (std::ranges::any_of(model.fixes, [](const Fix<B>& fix) { return fix.frame.kind == Frame::cylindrical; }))
+    reasons.emplace_back("fixes in cylindrical frames are not covered");
+  if (!model.springs.empty()) reasons.emplace_back("springs are not covered");
   for (const ObstacleTerm<B>& term : model.obstacles)
     if (term.obstacle->functional())
       reasons.push_back(term.obstacle->friction()

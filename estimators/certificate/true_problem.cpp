@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fem/assembly/resultant.hpp"
+#include "core/fem/conditions/directions.hpp"
 #include "core/fem/elements/select.hpp"
 #include "core/mesh/quadrature.hpp"
 
@@ -100,7 +102,10 @@ class Builder {
     add_elements();
     add_outer_faces();
     out_.edge_load.assign(static_cast<std::size_t>(out_.incidence.edges), {});
-    for (const Load<B>& load : model_.loads) load.on ? add_traction(load) : add_source(load);
+    for (const Load<B>& given : model_.loads) {
+      const Load<B> load = distributed(nodes_, model_, given);
+      load.on ? add_traction(load) : add_source(load);
+    }
     tell_oscillation();
     add_fixes();
     add_mirrors();
@@ -258,10 +263,7 @@ class Builder {
     normalise(normal);
     for (int i = 0; i < B; ++i) {
       if (!fix.value[i]) continue;
-      std::array<double, B> direction{};
-      direction[i] = 1;
-      if constexpr (B == D)
-        if (fix.frame == Frame::normal) direction = i == 0 ? normal : tangents(normal)[i - 1];
+      const auto direction = directions<D, B>(fix.frame, {}, normal)[i];
       compare(*fix.value[i], direction, normal, outer);
       outer.fixed.add(direction.data(), 0, number);
     }

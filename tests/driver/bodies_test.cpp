@@ -116,7 +116,8 @@ void expect_refused(const std::string& text, const std::string& message) {
 }
 
 TEST(Bodies, are_all_held_and_have_as_many_dimensions) {
-  expect_refused(block.body + block.fix + film.body, "body.1: there is neither [[fix]] nor [[obstacle]]");
+  expect_refused(block.body + block.fix + film.body,
+                 "body.1: there is neither [[fix]] nor [[spring]] nor [[obstacle]]");
   expect_refused(block.body + block.fix + tables::block("flat", "[0, 0]", "[1, 1]", "[2, 2]") +
                      tables::fix("flat", "left", "[0, 0]"),
                  "a body with 2 dimensions, expected 3 as the bodies before it");

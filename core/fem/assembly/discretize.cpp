@@ -15,6 +15,7 @@
 #include "core/fem/assembly/admissible_sets.hpp"
 #include "core/fem/assembly/assemble.hpp"
 #include "core/fem/assembly/magnitude.hpp"
+#include "core/fem/assembly/springs.hpp"
 #include "core/fem/conditions/bound_coefficients.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/model/same.hpp"
@@ -132,6 +133,7 @@ class Discretizer {
 
   void assemble_stiffness() {
     problem().A = stiffness(nodes_, model_, problem().jumps.get());
+    add_springs(nodes_, model_, problem().A);
     check_stiffness(nodes_, model_, problem().A);
     if (problem().jumps) transform(*problem().jumps, problem().A);
     rotate(problem().A, problem().frames);

@@ -10,8 +10,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/conditions/directions.hpp"
 #include "core/fem/elements/element.hpp"
-#include "core/fem/elements/select.hpp"
+#include "core/fem/elements/select_nodes.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/sdk/block.hpp"
 
@@ -123,39 +124,76 @@ class FixCollector {
   }
 
   void add_fix(const Fix<B>& fix, Index number) {
+    if (!fix.on.picks_faces()) {
+      for (const Index p : select_nodes(nodes_, fix.on, t_)) {
+        at(p);
+        add_at(fix, number, p, {});
+      }
+      return;
+    }
     const Surface<D> picked = surface(nodes_, select_faces(mesh_, fix.on, t_));
     const std::vector<Point<D>> normals = node_normals(nodes_, picked);
     for (std::size_t v = 0; v < picked.nodes.size(); ++v) {
       const Index p = picked.nodes[v];
       at(p);
       if constexpr (B == D)
-        if (fix.frame == Frame::normal) {
+        if (fix.frame.kind == Frame::normal) {
           const Index* faces = picked.around.data() + picked.first[v];
           for (const Point<D>& n : group_normals<D>(mesh_, nodes_.at(p), faces, picked.first[v + 1] - picked.first[v]))
-            add_normal(fix, number, p, n);
+            add_along(directions<D, B>(fix.frame, nodes_.at(p), n), fix, number, p, n);
           continue;
         }
-      add_global(fix, number, p, normals[v]);
+      add_at(fix, number, p, normals[v]);
     }
   }
 
-  void add_global(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
+  void add_at(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
+    if (fix.frame.kind == Frame::cylindrical) return add_cylindrical(fix, number, p, normal);
+    add_along(directions<D, B>(fix.frame, nodes_.at(p), normal), fix, number, p, normal);
+  }
+
+  /// In directions that are the same at the ends of the node's edge.
+  void add_along(const std::array<std::array<double, B>, B>& direction, const Fix<B>& fix, Index number, Index p,
+                 const Point<D>& normal) {
     for (int i = 0; i < B; ++i) {
-      double axis[B] = {};
-      axis[i] = 1;
-      add(fix.value[i], number, p, normal, axis);
+      if (!fix.value[i]) continue;
+      const auto value = [&](Index q) { return (*fix.value[i])(site<D>(nodes_.at(q), t_, normal)); };
+      add(nodes_.coefficient(p, value), number, p, direction[i].data());
     }
   }
 
-  void add_normal(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
-    add(fix.value[0], number, p, normal, normal.data());
-    const auto tangent = tangents(normal);
-    for (int i = 1; i < D; ++i) add(fix.value[i], number, p, normal, tangent[i - 1].data());
+  /// The directions turn from node to node: the coefficient is that of the vectors that are prescribed. On the axis
+  /// nothing but zero is a displacement away from it or around it, and then it does not move across itself.
+  void add_cylindrical(const Fix<B>& fix, Index number, Index p, const Point<D>& normal) {
+    const auto vector_at = [&](Index q) {
+      std::array<double, B> out{};
+      const auto direction = directions<D, B>(fix.frame, nodes_.at(q), {});
+      for (int k = 0; k < B; ++k) {
+        if (!fix.value[k]) continue;
+        const double value = (*fix.value[k])(site<D>(nodes_.at(q), t_, normal));
+        if (k < 2 && value != 0 && is_on_axis<D, B>(fix.frame, nodes_.at(q))) refuse_on_axis(fix, q, k, value);
+        for (int i = 0; i < B; ++i) out[i] += value * direction[k][i];
+      }
+      return out;
+    };
+    std::array<double, B> u{};
+    for (int i = 0; i < B; ++i) u[i] = nodes_.coefficient(p, [&](Index q) { return vector_at(q)[i]; });
+    const auto direction = directions<D, B>(fix.frame, nodes_.at(p), {});
+    const bool on_axis = is_on_axis<D, B>(fix.frame, nodes_.at(p));
+    for (int k = 0; k < B; ++k) {
+      const bool across = B > 1 && k < 2 && on_axis && (fix.value[0] || fix.value[B > 1]);
+      if (fix.value[k] || across) add(block::dot<B>(direction[k].data(), u.data()), number, p, direction[k].data());
+    }
   }
 
-  void add(const std::optional<Field>& value, Index number, Index p, const Point<D>& normal, const double* direction) {
-    if (!value) return;
-    const double v0 = nodes_.coefficient(p, [&](Index q) { return (*value)(site<D>(nodes_.at(q), t_, normal)); });
+  [[noreturn]] void refuse_on_axis(const Fix<B>& fix, Index p, int component, double value) const {
+    input_error(fix.on.origin,
+                fmt::format("prescribes a displacement of {} {} the axis at ({}), which is on it; expected "
+                            "0 there, or faces off the axis",
+                            value, component == 0 ? "away from" : "around", fmt::join(nodes_.at(p), ", ")));
+  }
+
+  void add(double v0, Index number, Index p, const double* direction) {
     largest_ = std::max(largest_, std::fabs(v0));
     const auto found = fixes[slot_[p]].add(direction, v0, number);
     if (found.by > 0 && found.fix != number) doubts_.push_back({number, found.fix, p, found.by});
@@ -211,19 +249,6 @@ std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model
 template <int D, int B>
 std::vector<FixConflict> fix_conflicts(const Nodes<D>& nodes, const Model<B>& model) {
   return FixCollector<D, B>(nodes, model).conflicts();
-}
-
-std::array<Point<2>, 1> tangents(const Point<2>& normal) { return {{{-normal[1], normal[0]}}}; }
-
-std::array<Point<3>, 2> tangents(const Point<3>& normal) {
-  const auto farthest =
-      std::min_element(normal.begin(), normal.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
-      normal.begin();
-  Point<3> first{};
-  first[farthest] = 1;
-  for (int i = 0; i < 3; ++i) first[i] -= normal[farthest] * normal[i];
-  normalise(first);
-  return {first, cross(normal, first)};
 }
 
 template struct FixedDirections<1>;

@@ -35,18 +35,13 @@ struct FixConflict {
 /// All Dirichlet conditions of a model, per node, ascending. Where conditions contradict each other in a direction,
 /// the later [[fix]] holds. In a normal frame the components are those along the outer normal, averaged over the picked
 /// faces around the vertex, and along the tangents (see tangents()); where these faces fall into groups whose normals
-/// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal.
-/// On the axis of an axisymmetric elastic body, r = 0, the radial displacement is zero, and on planes of symmetry the
-/// one across them; Error(Exit::input) where a fix prescribes another one.
+/// differ by more than 30 degrees (and that do not lie on one curve), the condition holds along each group's normal. In
+/// a cylindrical one see directions(). On the axis of an axisymmetric elastic body, r = 0, the radial displacement is
+/// zero, and on planes of symmetry the one across them; Error(Exit::input) where a fix prescribes another one.
 template <int D, int B>
 std::vector<FixedDirections<B>> collect_fixes(const Nodes<D>& nodes, const Model<B>& model);
 
 template <int D, int B>
 std::vector<FixConflict> fix_conflicts(const Nodes<D>& nodes, const Model<B>& model);
-
-/// Unit tangents to a unit normal: D = 2: the normal turned by +90 degrees; D = 3: first the projection of the
-/// coordinate axis that is farthest from the normal, then the cross product of both.
-std::array<Point<2>, 1> tangents(const Point<2>& normal);
-std::array<Point<3>, 2> tangents(const Point<3>& normal);
 
 }  // namespace signorini

@@ -14,16 +14,31 @@
 namespace signorini {
 
 /// Boundary faces picked by a named part, or by an expression that is nonzero at all vertices of the face, on the
-/// coarsest mesh.
+/// coarsest mesh. Or the edge (2D: the points) that two parts have in common, or a vertex.
 struct Selection {
   std::optional<std::string> part;
   std::optional<Field> where;
-  std::string origin;  ///< for messages: "scene.toml:12: fix.0"
+  std::string origin;                     ///< for messages: "scene.toml:12: fix.0"
+  std::optional<std::string> other = {};  ///< the second part
+  std::vector<double> at = {};            ///< a point, of which the vertex is near; empty: none
+
+  bool picks_faces() const { return !other && at.empty(); }
 };
 
 /// Across a plane mesh. Axisymmetric: it is the meridian (r, z) of a body of revolution.
 enum class Plane { strain, stress, axisymmetric };
-enum class Frame { global, normal };
+enum class Frame { global, normal, cylindrical };
+
+/// What components of a condition are along, see directions().
+template <int B>
+struct LocalFrame {
+  LocalFrame(Frame of = Frame::global) : kind(of) {}  // NOLINT: most have no axis
+
+  Frame kind;
+  std::array<double, B> center{}, axis{};  ///< of a cylindrical one: a point of the axis, and in 3D its direction
+
+  bool operator==(const LocalFrame&) const = default;
+};
 
 /// Of nearly incompressible material: whether its pressure has unknowns of its own, see
 /// core/fem/incompressible/pressure_space.hpp. Linear: continuous within a material, with an unknown per corner of an
@@ -35,7 +50,16 @@ template <int B>
 struct Fix {
   Selection on;
   std::array<std::optional<Field>, B> value;
-  Frame frame = Frame::global;
+  LocalFrame<B> frame = {};
+};
+
+/// What a load is in total, numbers or functions of t.
+template <int B>
+struct Resultant {
+  std::array<Field, B> force;
+  std::vector<Field> torque;  ///< its moment: B = 3 about each axis, B = 2 about z; empty: of the force alone
+  std::optional<std::array<double, B>> about;  ///< the point that the moment is about; empty: the centroid
+  std::string origin;
 };
 
 /// A traction or flux (with `on`), or a body force or source (without).
@@ -44,6 +68,16 @@ struct Load {
   std::optional<Selection> on;
   std::array<Field, B> value;
   std::array<Index, 2> regions = {-1, -1};  ///< of a body force: the first and the last that it acts in; -1: all
+  std::optional<Resultant<B>> total = {};   ///< in place of `value`: see distributed()
+};
+
+/// A traction -k u on faces: an elastic foundation, or a spring.
+template <int B>
+struct Spring {
+  Selection on;
+  std::array<Field, B> stiffness;  ///< along each component of the frame, not negative
+  bool total = false;              ///< they are those of all the faces, else per measure
+  LocalFrame<B> frame = {};
 };
 
 /// Of two bodies that may touch each other the one that is to be the slave.
@@ -79,6 +113,7 @@ struct Model {
   Pressure pressure = Pressure::none;  ///< B > 1
   std::vector<Fix<B>> fixes;
   std::vector<Load<B>> loads;
+  std::vector<Spring<B>> springs;
   std::vector<ObstacleTerm<B>> obstacles;
   double t = 1;                 ///< step parameter
   bool follows = false;         ///< another load step: friction counts from the solution of the last one

@@ -6,21 +6,46 @@ namespace signorini {
 namespace {
 
 bool same(const Selection& a, double ta, const Selection& b, double tb) {
-  if (a.part != b.part || a.where.has_value() != b.where.has_value()) return false;
+  if (a.part != b.part || a.other != b.other || a.at != b.at || a.where.has_value() != b.where.has_value())
+    return false;
   return !a.where || a.where->same(ta, *b.where, tb);
+}
+
+template <class Fields>
+bool same_fields(const Fields& a, double ta, const Fields& b, double tb) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const Field& x, const Field& y) { return x.same(ta, y, tb); });
+}
+
+template <int B>
+bool same(const Resultant<B>& a, double ta, const Resultant<B>& b, double tb) {
+  return same_fields(a.force, ta, b.force, tb) && same_fields(a.torque, ta, b.torque, tb) && a.about == b.about;
 }
 
 template <int B>
 bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
   if (a.on.has_value() != b.on.has_value() || (a.on && !same(*a.on, ta, *b.on, tb))) return false;
-  return std::equal(a.value.begin(), a.value.end(), b.value.begin(),
-                    [&](const Field& x, const Field& y) { return x.same(ta, y, tb); });
+  if (a.total.has_value() != b.total.has_value() || (a.total && !same(*a.total, ta, *b.total, tb))) return false;
+  return same_fields(a.value, ta, b.value, tb);
+}
+
+template <int B>
+bool same(const Spring<B>& a, double ta, const Spring<B>& b, double tb) {
+  return same(a.on, ta, b.on, tb) && same_fields(a.stiffness, ta, b.stiffness, tb) && a.total == b.total &&
+         a.frame == b.frame;
+}
+
+template <int B>
+bool same_springs(const Model<B>& a, const Model<B>& b) {
+  return std::equal(a.springs.begin(), a.springs.end(), b.springs.begin(), b.springs.end(),
+                    [&](const Spring<B>& x, const Spring<B>& y) { return same(x, a.t, y, b.t); });
 }
 
 }  // namespace
 
 template <int B>
 bool same_stiffness(const Model<B>& a, const Model<B>& b) {
+  if (!same_springs(a, b)) return false;
   const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
   if (B == 1) return same(&Model<B>::diffusion);
   return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&

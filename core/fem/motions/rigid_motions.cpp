@@ -10,46 +10,13 @@
 #include "core/base/dot.hpp"
 #include "core/base/rounding.hpp"
 #include "core/fem/elements/element.hpp"
+#include "core/fem/motions/deciding_rows.hpp"
 #include "core/mesh/join.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/jumps.hpp"
 
 namespace signorini {
 namespace {
-
-/// Rows, of which only what decides their null space is kept.
-class Rows {
- public:
-  explicit Rows(int columns) : columns_(columns), rows_(std::max(capacity, 2 * columns), columns) {}
-
-  void add(const Eigen::RowVectorXd& row) {
-    rows_.row(used_++) = row;
-    if (used_ == rows_.rows()) compress();
-  }
-
-  /// Whether they surely are linearly independent in all columns.
-  bool complete() const { return complete_; }
-
-  // part of the largest one below which a singular value is zero
-  Eigen::MatrixXd null_space() const { return signorini::null_space(rows_.topRows(used_), rounding_of_bases); }
-
- private:
-  static constexpr int capacity = 64;
-  static constexpr double surely = 1e-6;
-
-  void compress() {
-    const Eigen::MatrixXd R = triangular_factor(rows_);
-    rows_.topRows(columns_) = R;
-    used_ = columns_;
-    const Eigen::VectorXd values = singular_values(R);
-    complete_ = values[columns_ - 1] > surely * values[0];
-  }
-
-  int columns_;
-  Eigen::MatrixXd rows_;
-  Eigen::Index used_ = 0;
-  bool complete_ = false;
-};
 
 /// Gauss-Jordan elimination of the columns such that each has one of the rows first <= row < last to itself; in the
 /// order of these.
@@ -167,7 +134,7 @@ auto RigidMotions<D, B>::along(const DiscreteProblem<B>& problem, Index p, int k
 
 template <int D, int B>
 Eigen::MatrixXd RigidMotions<D, B>::free(const DiscreteProblem<B>& problem) const {
-  Rows rows(count());
+  DecidingRows rows(count());
   if (axial_)
     for (int mode = 0; mode < count(); ++mode)
       if (mode != 1) rows.add(Row::Unit(count(), mode));

@@ -11,7 +11,7 @@
 namespace signorini {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double unmeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// Calls use(barycentric) with the points whose coordinates are multiples of 1/(2 P), but for the nodes.
 template <int K, int P, class Use>
@@ -88,7 +88,7 @@ class Points {
     std::vector<LocalConstraint<B>> constraints(vertices_.size());
     Status status;
     obstacle.assemble(vertices_.data(), vertices_.size(), constraints.data(), status);
-    if (!status.ok()) return unknown;
+    if (!status.ok()) return unmeasured;
     double worst = 0;
     for (std::size_t k = 0; k < constraints.size(); ++k)
       worst = std::max(worst, violation<B>(constraints[k], value_[k]));
@@ -124,7 +124,7 @@ double violation_between_nodes(const Nodes<D>& nodes, const Model<B>& model, Ind
   if constexpr (B == D)
     if (term.other) return couple_displaced(nodes, model, obstacle, u).deepest.depth;
   const bool in_body = B == 1 && !term.on;
-  if ((B > 1 && !term.shape) || (in_body && nodes.order() == 1)) return unknown;
+  if ((B > 1 && !term.shape) || (in_body && nodes.order() == 1)) return unmeasured;
   Points<D, B> points(nodes, obstacle, state, u);
   with_order(nodes, [&](auto order) {
     if (in_body) {

@@ -229,6 +229,7 @@ std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& mo
   for (const Fix<B>& fix : model.fixes) add(fix.on);
   for (const Load<B>& load : model.loads)
     if (load.on) add(*load.on);
+  for (const Spring<B>& spring : model.springs) add(spring.on);
   for (const ObstacleTerm<B>& term : model.obstacles)
     if (term.on) add(*term.on);
   return out;

@@ -11,6 +11,7 @@ struct Forces {
   std::vector<std::array<double, B>> applied;    ///< per load of the model
   std::vector<std::array<double, B>> reactions;  ///< per fix of the model
   std::vector<std::array<double, B>> contact;    ///< per obstacle of the model
+  std::vector<std::array<double, B>> springs{};  ///< per spring of the model: spring_forces()
 };
 
 /// The reaction of a fix is what A x - b of the matrix before elimination leaves along the directions that it

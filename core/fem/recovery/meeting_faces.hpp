@@ -204,6 +204,7 @@ class MeetingFaces {
   }
 
   std::vector<Index> around(Index fix, Index vertex) {
+    if (!model_.fixes[fix].on.picks_faces()) return {};
     if (fixes_.empty()) fixes_.resize(model_.fixes.size());
     std::optional<Surface<D>>& on = fixes_[fix];
     if (!on) on = surface(nodes_, select_faces(nodes_.mesh(), model_.fixes[fix].on, model_.t));

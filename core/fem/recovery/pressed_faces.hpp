@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/fem/conditions/fixes.hpp"
+#include "core/fem/conditions/directions.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/polynomial_fit.hpp"
 #include "core/fem/recovery/contact_surface.hpp"

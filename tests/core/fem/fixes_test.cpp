@@ -1,5 +1,7 @@
 #include "core/fem/conditions/fixes.hpp"
 
+#include "core/fem/conditions/directions.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tests/core/fem/support.hpp"

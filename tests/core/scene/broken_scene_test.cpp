@@ -227,7 +227,7 @@ TEST(BrokenScene, WithoutFixAndObstacleNothingHoldsTheBody) {
   std::string free = membrane.substr(0, membrane.find("[[fix]]"));
   const test::Outcome result = test::outcome([&] { test::parse(free); });
   EXPECT_EQ(result.status, Exit::input);
-  EXPECT_THAT(result.message, HasSubstr("scene.toml: there is neither [[fix]] nor [[obstacle]]"));
+  EXPECT_THAT(result.message, HasSubstr("scene.toml: there is neither [[fix]] nor [[spring]] nor [[obstacle]]"));
   EXPECT_EQ(test::outcome([&] { test::parse(free + membrane.substr(membrane.find("[[obstacle]]"))); }).message, "");
 }
 
@@ -270,8 +270,10 @@ equation = "diffusion"
 )";
   const test::Outcome result = test::outcome([&] { test::parse(membrane + second); });
   EXPECT_EQ(result.status, Exit::input);
-  EXPECT_THAT(result.message,
-              HasSubstr("scene.toml:18: body.1: there is neither [[fix]] nor [[obstacle]]: nothing holds the body"));
+  EXPECT_THAT(
+      result.message,
+      HasSubstr(
+          "scene.toml:18: body.1: there is neither [[fix]] nor [[spring]] nor [[obstacle]]: nothing holds the body"));
 }
 
 // A list of a list of a truth value is what no key of a scene is.

@@ -36,6 +36,11 @@ void read_key(const KeyPlace& place, const RawTable& table) {
       return void(reader.fields(key));
     case KeyType::values:
       return void(reader.values(key));
+    case KeyType::components:
+      return void(reader.components(key));
+    case KeyType::totals:
+    case KeyType::moment:
+      return void(reader.totals(key));
     case KeyType::point:
       return void(reader.point(key));
     case KeyType::points:

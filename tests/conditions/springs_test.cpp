@@ -1,0 +1,190 @@
+// Springs and elastic foundations against closed forms.
+#include <gmock/gmock.h>
+
+#include "core/base/error.hpp"
+#include "support.hpp"
+
+namespace signorini::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string exact = "solver.tolerance=1e-12";
+
+StepReport solved(const std::string& text, std::vector<std::string> more = {}) {
+  more.push_back(exact);
+  Driver driver(parse_scene(text, "test.toml", ".", more));
+  EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+  return driver.report().last();
+}
+
+/// A bar along x without lateral contraction, pulled by the traction p at its right end.
+struct Bar {
+  static constexpr double E = 2, p = 0.01, length = 3, height = 0.5, width = 0.25;
+  int dimension, order;
+
+  double area() const { return dimension == 2 ? height : height * width; }
+  std::string text(const std::string& springs) const {
+    const std::string body =
+        dimension == 2 ? "shape = \"rectangle\"\nfrom = [0, 0]\nto = [3, 0.5]\ncells = [3, 1]\nplane = \"stress\"\n"
+                       : "shape = \"box\"\nfrom = [0, 0, 0]\nto = [3, 0.25, 0.5]\ncells = [3, 1, 1]\n";
+    return text_of(
+        body + fmt::format("young = 2\npoisson = 0\norder = {}\n", order),
+        table("load", fmt::format("on = \"right\"\nforce = [{}{}]", p * area(), zeros())) + springs +
+            table("probe", dimension == 2 ? "name = \"end\"\nat = [3, 0.5]" : "name = \"end\"\nat = [3, 0.25, 0.5]") +
+            "[refine]\nuniform = 2\n");
+  }
+  std::string zeros() const { return dimension == 2 ? ", 0" : ", 0, 0"; }
+};
+
+TEST(Springs, hold_a_bar_that_nothing_else_holds) {
+  const double k = 0.04;
+  for (const int dimension : {2, 3})
+    for (const int order : {1, 2}) {
+      const Bar bar{dimension, order};
+      const std::string left = "on = \"left\"\n";
+      for (const std::string& keys :
+           {fmt::format("{}stiffness = {}", left, k), fmt::format("{}total = {}", left, k * bar.area()),
+            fmt::format("{}frame = \"normal\"\nstiffness = [{}, 0.3{}]", left, k, dimension == 2 ? "" : ", 0.3"),
+            fmt::format("{}stiffness = [{}, 0.3{}]", left, k, dimension == 2 ? "" : ", 0.3")}) {
+        SCOPED_TRACE(fmt::format("{}D, order {}: {}", dimension, order, keys));
+        const StepReport step = solved(bar.text(table("spring", keys)));
+        EXPECT_NEAR(step.probes[0].value[0], Bar::p / k + Bar::p * Bar::length / Bar::E, 1e-9);
+        EXPECT_NEAR(step.springs.at(0).force[0], -Bar::p * bar.area(), 1e-11);
+        EXPECT_NEAR(step.balance[0].reactions[0], -Bar::p * bar.area(), 1e-11);
+        EXPECT_THAT(step.undetermined, IsEmpty());
+        EXPECT_LE(step.summary.iterations, 12);
+      }
+    }
+}
+
+// Only along x: what the spring leaves free is told, as for fixes.
+TEST(Springs, of_one_direction_leave_the_others_free) {
+  const StepReport step = solved(Bar{2, 1}.text(table("spring", "on = \"left\"\nstiffness = [0.04, 0]")));
+  ASSERT_EQ(step.undetermined.size(), 1u);  // no turn: the left end stays upright
+  EXPECT_THAT(step.undetermined[0], HasSubstr("translation along (0, 1)"));
+  EXPECT_NEAR(step.probes[0].value[0], 0.01 / 0.04 + 0.01 * 3 / 2, 1e-9);
+}
+
+// M. Hetenyi 1946: a long beam on a Winkler foundation under q on |x| < a sinks by q / k (1 - exp(-l a) cos(l a)) in
+// the middle, l^4 = k / (4 E I). Shear adds about 2 (l h)^2 of that by E / G, here a thousandth.
+TEST(Springs, a_beam_sinks_into_a_winkler_foundation) {
+  const double l = 0.05, k = 4 * std::pow(l, 4) / 12, q = 1e-5, a = 4;
+  for (const bool half : {true, false}) {
+    const StepReport step = solved(
+        text_of(fmt::format("shape = \"rectangle\"\nfrom = [-128, 0]\nto = [128, 1]\ncells = [128, 1]\nyoung = 1\n"
+                            "poisson = 0\nplane = \"stress\"\norder = 2\n"),
+                table("load", fmt::format("where = \"y == 1 && abs(x) <= {}\"\npressure = {}", a, q)) +
+                    table("spring", fmt::format("on = \"bottom\"\nstiffness = [{}, {}]", half ? 0 : 1e-9, k)) +
+                    table("probe", "name = \"middle\"\nat = [0, 0.5]") + (half ? "[symmetry]\nx = 0\n" : "")));
+    const double w = q / k * (1 - std::exp(-l * a) * std::cos(l * a));
+    show("beam: {} of {}\n", -step.probes[0].value[1], w);
+    EXPECT_NEAR(-step.probes[0].value[1] / w, 1, 1e-3);
+    EXPECT_NEAR(step.springs[0].force[1], 2 * a * q, 1e-9 * q);
+  }
+}
+
+constexpr double nu = 0.3, mu = 1 / (2 * (1 + nu)), lambda = nu / ((1 + nu) * (1 - 2 * nu));
+
+// A disk in a springy ring, and on a springy floor: u_r = c r with 2 (lambda + mu) c = -p - k c a.
+TEST(Springs, hold_a_disk_of_revolution) {
+  const double p = 0.01, k = 0.7, a = 2, force = 0.2, floor = 0.3;
+  for (const int order : {1, 2}) {
+    const StepReport step =
+        solved(text_of(fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\n"
+                                   "poisson = 0.3\nplane = \"axisymmetric\"\norder = {}\n",
+                                   order),
+                       table("fix", "where = \"y == 0 || y == 1\"\nvalue = [\"free\", 0]") +
+                           table("load", fmt::format("on = \"right\"\npressure = {}", p)) +
+                           table("spring", fmt::format("on = \"right\"\nframe = \"normal\"\nstiffness = [{}, 0]", k)) +
+                           table("probe", "name = \"rim\"\nat = [2, 0.5]")));
+    const double c = -p / (2 * (lambda + mu) + k * a);
+    EXPECT_NEAR(step.probes[0].value[0], c * a, 1e-10);
+    EXPECT_NEAR(step.springs[0].force[0], -k * c * a * 2 * pi * a, 1e-9);
+    const StepReport sunk =
+        solved(text_of(fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\n"
+                                   "poisson = 0\nplane = \"axisymmetric\"\norder = {}\n",
+                                   order),
+                       table("load", fmt::format("on = \"top\"\nforce = [0, {}]", -force)) +
+                           table("spring", fmt::format("on = \"bottom\"\ntotal = [0, {}]", floor)) +
+                           table("probe", "name = \"top\"\nat = [1, 1]")));
+    EXPECT_NEAR(sunk.probes[0].value[1], -force / floor - force / (pi * a * a), 1e-9);
+    EXPECT_NEAR(sunk.springs[0].force[1], force, 1e-10);
+  }
+}
+
+// Two blocks in contact, the upper one loaded and held by a spring: springs beside each other bear F = (K + E A / L) d.
+TEST(Springs, hold_bodies_that_touch) {
+  const std::string material = "young = 2\npoisson = 0\n";
+  const StepReport step = solved(
+      "[[body]]\nname = \"low\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\n" + material +
+      "[[body]]\nname = \"high\"\nshape = \"rectangle\"\nfrom = [0, 1]\nto = [1, 2]\ncells = [3, 3]\n" + material +
+      "[[fix]]\nbody = \"low\"\non = \"bottom\"\nvalue = [0, 0]\n"
+      "[[load]]\nbody = \"high\"\non = \"top\"\nforce = [0, -0.03]\n"
+      "[[spring]]\nbody = \"high\"\non = \"top\"\ntotal = [0.1, 0.5]\n"
+      "[[obstacle]]\ntype = \"elastic\"\nbody = \"high\"\non = \"bottom\"\nother = \"low\"\nother_on = \"top\"\n"
+      "[[probe]]\nname = \"top\"\nbody = \"high\"\nat = [0.3, 2]\n");
+  const double d = 0.03 / (0.5 + 2.0 / 2);
+  EXPECT_NEAR(step.probes[0].value[1], -d, 1e-8);
+  EXPECT_NEAR(step.springs[0].force[1], 0.5 * d, 1e-8);
+  EXPECT_NEAR(step.contact[0].force[1], 0.03 - 0.5 * d, 1e-8);
+}
+
+// The matrix is made anew where a stiffness depends on t, and only there.
+TEST(Springs, may_depend_on_the_step) {
+  Driver driver(parse_scene(
+      Bar{2, 2}.text(table("spring", "on = \"left\"\nstiffness = [\"0.04 * t\", 0.3]")) + "[steps]\ncount = 2\n",
+      "test.toml", ".", std::vector<std::string>{exact}));
+  ASSERT_TRUE(driver.solve().converged());
+  for (const StepReport& step : driver.report().steps)
+    EXPECT_NEAR(step.probes[0].value[0], 0.01 / (0.04 * step.t) + 0.01 * 3 / 2, 1e-9);
+}
+
+// A thing of its own for scalars: what flows out in proportion to the value there.
+TEST(Springs, of_a_scalar_body_let_out_in_proportion_to_the_value) {
+  for (const int order : {1, 2}) {
+    const StepReport step = solved(text_of(
+        fmt::format("shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\norder = {}\n"
+                    "equation = \"diffusion\"\n",
+                    order),
+        table("fix", "on = \"left\"\nvalue = 0") + table("load", "on = \"right\"\nvalue = 3") +
+            table("spring", "on = \"right\"\nstiffness = 0.25") + table("probe", "name = \"end\"\nat = [2, 0]")));
+    EXPECT_NEAR(step.probes[0].value[0], 3 / (0.5 + 0.25), 1e-9);
+    EXPECT_NEAR(step.springs[0].force[0], -0.25 * 4, 1e-9);
+    EXPECT_NEAR(step.reactions[0].force[0], -0.5 * 4, 1e-9);
+  }
+}
+
+// A total is that of the faces on both sides of the plane, and is not that of each side where they lie on one.
+TEST(Springs, of_a_symmetric_body_are_those_of_the_whole) {
+  for (const bool half : {false, true}) {
+    const StepReport step = solved(text_of(
+        "shape = \"rectangle\"\nfrom = [-1, 0]\nto = [1, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0\n",
+        table("load", "on = \"top\"\nforce = [0, -0.1]") + table("spring", "on = \"bottom\"\ntotal = [0.5, 2]") +
+            table("probe", "name = \"top\"\nat = [0, 1]") + (half ? "[symmetry]\nx = 0\n" : "")));
+    EXPECT_NEAR(step.probes[0].value[1], -0.1 / 2 - 0.1 / 2, 1e-9);
+    EXPECT_NEAR(step.springs[0].force[1], 0.1, 1e-10);
+    EXPECT_NEAR(step.balance[0].sum()[1], 0, 1e-10);
+  }
+}
+
+TEST(Springs, errors_say_what_a_spring_may_be) {
+  const std::string body =
+      "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\nyoung = 1\npoisson = 0\n";
+  const auto refused = [&](const std::string& keys) {
+    return refusal([&] { parse_scene(text_of(body, table("spring", keys)), "s.toml", "."); });
+  };
+  EXPECT_THAT(refused("on = \"left\""), AllOf(HasSubstr("spring.0"), HasSubstr("neither 'stiffness' nor 'total'")));
+  EXPECT_THAT(refused("on = \"left\"\nstiffness = 1\ntotal = 1"), HasSubstr("both 'stiffness' and 'total'"));
+  EXPECT_THAT(refused("stiffness = 1"), HasSubstr("neither 'on' nor 'where'"));
+  EXPECT_THAT(refused("on = \"left\"\nstiffness = -1"), AllOf(HasSubstr("spring.0.stiffness"), HasSubstr("-1")));
+  EXPECT_THAT(refused("on = \"left\"\nstiffness = 0"), HasSubstr("nothing is held"));
+  EXPECT_THAT(refused("on = \"left\"\nstiffness = [1, 2, 3]"), HasSubstr("expected 2 components, found 3"));
+  EXPECT_THAT(refused("on = \"left\"\ntotal = \"x\""), HasSubstr("t alone"));
+  EXPECT_THAT(refusal([&] { parse_scene(text_of(body, ""), "s.toml", "."); }), HasSubstr("[[spring]]"));
+}
+
+}  // namespace
+}  // namespace signorini::test
