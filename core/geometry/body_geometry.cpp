@@ -173,6 +173,7 @@ class Chooser {
       return;
     release(mesh_.bends);
     mesh_.curves.clear();
+    for (Face<D>& face : mesh_.boundary) face.curve = -1;
   }
 
   double off_of_elements(const std::vector<Index>& piece) const {
@@ -229,7 +230,7 @@ class Chooser {
     // What is flat on this side of a plane of symmetry may be one half of a surface that is bent there.
     const bool may_bend = surfaces_ == Surfaces::automatic || surfaces_ == Surfaces::smooth;
     const bool bent = may_bend && !beyond_.empty() && off_patches(piece) > flat * size;
-    if (const double off = off_plane(piece); !bent && off <= (surfaces_ == Surfaces::fit ? near : flat) * size)
+    if (const double off = off_plane(piece); !bent && off <= (surfaces_ == Surfaces::fit ? near : off_shape) * size)
       return note(flat_kind(), piece, off);
     if (surfaces_ == Surfaces::facets) return note("facets", piece, off_patches(piece));
     if (surfaces_ == Surfaces::smooth) return make_smooth(piece);
@@ -303,7 +304,7 @@ class Chooser {
   void fit_groups(std::vector<Index>& faces, Grouping by) {
     std::vector<Index> left;
     for (const std::vector<Index>& group : groups(faces, by)) {
-      if (const double off = is_curved(group) ? infinity : off_plane(group); off <= flat * size_of(group))
+      if (const double off = is_curved(group) ? infinity : off_plane(group); off <= off_shape * size_of(group))
         note(flat_kind(), group, off);
       else if (!fit(group))
         left.insert(left.end(), group.begin(), group.end());

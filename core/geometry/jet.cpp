@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
@@ -27,7 +28,7 @@ std::array<Point<3>, 2> axes_across(const Point<3>& up) {
 }  // namespace
 
 template <int D>
-std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point<D>& up, int degree) {
+std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point<D>& up, int degree, double digits) {
   const auto axes = axes_across(up);
   const int terms = D == 2 ? degree : (degree + 1) * (degree + 2) / 2 - 1;
   double size = 0;
@@ -45,7 +46,9 @@ std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point
       for (int k = 0; k <= (D == 2 ? 0 : total); ++k) a(r, column++) = power[total - k][0] * power[k][1];
     b(r) = weight * dot(p, up) / size;
   }
-  const auto [slope, rank, range] = least_squares(a, b);
+  constexpr double told = 10;  // times the digits, and of double precision
+  const double threshold = told * std::max(digits / size, std::numeric_limits<double>::epsilon());
+  const auto [slope, rank, range] = least_squares(a, b, threshold);
   if (rank < terms) return {};
   Point<D> n = up;
   for (int k = 0; k < D - 1; ++k)
@@ -76,7 +79,7 @@ std::optional<Point<2>> end_tangent(const std::vector<Point<2>>& points, std::si
   return Point<2>{(c * chord[0] + s * chord[1]) / h, (c * chord[1] - s * chord[0]) / h};
 }
 
-template std::optional<Point<2>> jet_normal<2>(std::span<const Point<2>>, const Point<2>&, int);
-template std::optional<Point<3>> jet_normal<3>(std::span<const Point<3>>, const Point<3>&, int);
+template std::optional<Point<2>> jet_normal<2>(std::span<const Point<2>>, const Point<2>&, int, double);
+template std::optional<Point<3>> jet_normal<3>(std::span<const Point<3>>, const Point<3>&, int, double);
 
 }  // namespace signorini::geometry

@@ -21,9 +21,10 @@ constexpr std::size_t points_for_jet(int degree) {
 /// The unit normal, at the origin, of a polynomial height over the plane across `up` that vanishes there and is nearest
 /// to some points in the sense of least squares, weighted by the inverse of their distance. (Cazals and Pouget,
 /// Estimating differential quantities using polynomial fitting of osculating jets, 2005.)
+/// @param digits length by which points may be off, see rounded_away(): what it alone tells is not determined
 /// @return nothing where the points do not determine it
 template <int D>
-std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point<D>& up, int degree);
+std::optional<Point<D>> jet_normal(std::span<const Point<D>> points, const Point<D>& up, int degree, double digits);
 
 /// The unit tangent at point `at`, 0 or 1, of a curve through three or more points that follow each other. The
 /// curvature is taken to change linearly, as the circles through three points each say: on a circle the tangent is

@@ -5,16 +5,17 @@
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/flat_parts.hpp"
 #include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
 #include "core/geometry/tips.hpp"
 #include "core/geometry/vector.hpp"
+#include "core/mesh/element_map.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 namespace {
 
-constexpr double coplanar = 1e-6;        // sine of the angle up to which faces are in one plane
 constexpr double same_plane = 1 - 2e-4;  // cosine, of a degree
 constexpr double least_rise = 0.25;      // cosine: how far a jet looks around the corner
 
@@ -23,27 +24,19 @@ void add(Point<D>& sum, double factor, const Point<D>& p) {
   for (int k = 0; k < D; ++k) sum[k] += factor * p[k];
 }
 
-Point<2> area_normal(const std::array<Point<2>, 2>& p) {
-  const Point<2> d = difference<2>(p[1], p[0]);
-  return {d[1], -d[0]};
-}
-Point<3> area_normal(const std::array<Point<3>, 3>& p) {
-  return cross(difference<3>(p[1], p[0]), difference<3>(p[2], p[0]));
-}
-
 template <int D>
 class Smoother {
  public:
   Smoother(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces, double crease,
            const JointNormal<D>& joint_normal)
       : points_(points), faces_(faces), crease_(crease), cosine_(std::cos(crease)), joint_normal_(joint_normal) {
-    for (const auto& face : faces) normal_.push_back(unit<D>(area_normal(corners_of(face))));
+    for (const auto& face : faces) normal_.push_back(unit<D>(signorini::area_normal(corners_of(face))));
   }
 
   SmoothBoundary<D> run() {
     find_joints();
     find_sides();
-    find_flats();
+    flats_ = find_flat_parts<D>(points_, faces_, across_);
     find_normals();
     if constexpr (D == 3) find_crease_tangents();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -51,7 +44,7 @@ class Smoother {
       auto& normals = out_.normals.emplace_back();
       for (int i = 0; i < D; ++i) normals[i] = side_normal_[side_[f * D + i]];
     }
-    out_.flat = std::move(flat_);
+    for (const Index part : flats_.part) out_.flat.push_back(part >= 0 ? 1 : 0);
     return std::move(out_);
   }
 
@@ -97,45 +90,6 @@ class Smoother {
     for (std::size_t i = 0; i < side_.size(); ++i) of_side_[side_[i]].push_back(static_cast<Index>(i));
   }
 
-  /// Flat parts of more than one row of faces: those around a vertex all of whose faces are in a plane (D = 2: those
-  /// on two or more edges along a line).
-  void find_flats() {
-    flat_.assign(faces_.size(), 0);
-    for (const auto& corners : of_side_) {
-      const Point<D>& n = normal_[corners[0] / D];
-      const bool all = std::ranges::all_of(corners, [&](Index i) { return in_plane(normal_[i / D], n); });
-      if (all && (D == 3 ? is_inner(corners) : corners.size() == 2))
-        for (const Index i : corners) flat_[i / D] = 1;
-    }
-    std::vector<std::size_t> open;
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      if (flat_[f]) open.push_back(f);
-    while (!open.empty()) {
-      const std::size_t f = open.back();
-      open.pop_back();
-      for (int tip = 0; tip < D; ++tip)
-        if (const Index other = across_[f * D + tip];
-            other >= 0 && !flat_[other / D] && in_plane(normal_[f], normal_[other / D])) {
-          flat_[other / D] = 1;
-          open.push_back(static_cast<std::size_t>(other / D));
-        }
-    }
-  }
-
-  bool in_plane(const Point<D>& a, const Point<D>& b) const {
-    return dot(a, b) > 0 && length<D>(difference<D>(a, b)) < coplanar;
-  }
-
-  /// Whether faces go all the way around a vertex without a crease.
-  bool is_inner(const std::vector<Index>& corners) const {
-    if (is_tip_[faces_[corners[0] / D][corners[0] % D]] != 0) return false;
-    return std::ranges::all_of(corners, [&](Index i) {
-      for (int tip = 0; tip < D; ++tip)
-        if (tip != i % D && across_[i / D * D + tip] < 0) return false;
-      return true;
-    });
-  }
-
   void find_normals() {
     side_normal_.resize(static_cast<std::size_t>(count_));
     side_flat_.resize(static_cast<std::size_t>(count_), 0);
@@ -145,20 +99,19 @@ class Smoother {
   Point<D> normal_of_side(Index s) {
     const auto& corners = of_side_[s];
     if (is_tip_[vertex_of(s)] != 0) return normal_[corners[0] / D];
-    Point<D> mean{}, in_plane_of{};
-    bool one_plane = false, planes = false;
+    Point<D> mean{};
+    Index plane = -1;
+    bool planes = false;
     for (const Index i : corners) {
-      const Index f = i / D;
+      const Index f = i / D, part = flats_.part[f];
       add<D>(mean, angle_at(i), normal_[f]);
-      if (!flat_[f]) continue;
-      planes = planes || (one_plane && !in_plane(in_plane_of, normal_[f]));
-      one_plane = true;
-      in_plane_of = normal_[f];
+      planes = planes || (plane >= 0 && part >= 0 && part != plane);
+      plane = std::max(plane, part);
     }
     mean = unit<D>(mean);
     if (planes) return mean;
-    side_flat_[s] = one_plane;
-    if (one_plane) return in_plane_of;
+    side_flat_[s] = plane >= 0;
+    if (plane >= 0) return flats_.normal[plane];
     if constexpr (D == 2)
       if (const auto near_end = end_normal(corners)) return *near_end;
     const Point<D> first = jet_normal(s, mean);
@@ -219,7 +172,7 @@ class Smoother {
       for (std::size_t k = first; k < last; ++k)
         for (const Index i : of_side_[sides[k]]) {
           const Index f = i / D;
-          if (flat_[f] || dot(normal_[f], up) < least_rise || !insert(faces, f)) continue;
+          if (flats_.part[f] >= 0 || dot(normal_[f], up) < least_rise || !insert(faces, f)) continue;
           for (int corner = 0; corner < D; ++corner) {
             insert(vertices, faces_[f][corner]);
             insert(sides, side_[f * D + corner]);
@@ -242,7 +195,8 @@ class Smoother {
         std::vector<Point<D>> near;
         near.reserve(vertices.size());
         for (const Index v : vertices) near.push_back(difference<D>(points_[v], center));
-        if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree); n && dot(*n, up) >= cosine_) return *n;
+        if (const auto n = signorini::geometry::jet_normal<D>(near, up, degree, digits_); n && dot(*n, up) >= cosine_)
+          return *n;
         break;
       }
     return up;
@@ -325,7 +279,9 @@ class Smoother {
   std::vector<Index> across_;  // per face and tip, the face and tip beyond; -1 at creases and borders
   std::vector<Index> side_;    // per face and corner
   std::vector<std::vector<Index>> of_side_;
-  std::vector<std::uint8_t> flat_, is_crease_, side_flat_;
+  FlatParts<D> flats_;
+  double digits_ = rounded_away<D>(points_);  // length
+  std::vector<std::uint8_t> is_crease_, side_flat_;
   std::vector<std::uint8_t> is_tip_;  // per vertex
   std::vector<Point<D>> side_normal_, crease_tangent_;
   SmoothBoundary<D> out_;
