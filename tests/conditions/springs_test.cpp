@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
+#include "core/fem/assembly/springs.hpp"
 #include "support.hpp"
 
 namespace signorini::test {
@@ -168,6 +169,40 @@ TEST(Springs, of_a_symmetric_body_are_those_of_the_whole) {
     EXPECT_NEAR(step.springs[0].force[1], 0.1, 1e-10);
     EXPECT_NEAR(step.balance[0].sum()[1], 0, 1e-10);
   }
+}
+
+// What a shift of the whole body feels: K in all directions, and of springs against the normal of a half ball a third
+// of it. The matrix stays symmetric to the last bit.
+TEST(Springs, of_curved_faces_bear_a_shift_with_their_total_stiffness) {
+  for (const int order : {1, 2})
+    for (const bool normal : {false, true}) {
+      const auto solved =
+          run<3, 3>(text_of(fmt::format("shape = \"half_ball\"\ncenter = [0, 0, 0]\nradius = 1\nsize = 0.5\nyoung = "
+                                        "1\npoisson = 0.3\norder = {}\n",
+                                        order),
+                            table("spring", normal ? "on = \"curved\"\nframe = \"normal\"\ntotal = [3, 0, 0]"
+                                                   : "on = \"curved\"\ntotal = 3") +
+                                table("fix", "on = \"flat\"\nvalue = [0, 0, 0]")));
+      const Nodes<3> nodes = solved.nodes();
+      BlockMatrix<3> A = stiffness<3, 3>(nodes, solved.model);
+      std::ranges::fill(A.value, 0);
+      add_springs(nodes, solved.model, A);
+      Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+      for (Index p = 0; p < A.size(); ++p)
+        for (Offset k = A.row[p]; k < A.row[p + 1]; ++k) {
+          const Index q = A.column[k];
+          const auto back =
+              std::find(A.column.begin() + A.row[q], A.column.begin() + A.row[q + 1], p) - A.column.begin();
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+              sum(i, j) += A.at(k)[i * 3 + j];
+              EXPECT_EQ(A.at(k)[i * 3 + j], A.at(back)[j * 3 + i]);
+            }
+        }
+      if (normal) EXPECT_NEAR(sum.trace(), 3, 1e-12);
+      const double third = order == 2 ? 2e-3 : 0.05;
+      EXPECT_LT((sum - (normal ? 1 : 3) * Eigen::Matrix3d::Identity()).norm(), normal ? third : 1e-12);
+    }
 }
 
 TEST(Springs, errors_say_what_a_spring_may_be) {

@@ -48,7 +48,8 @@ TEST(Warning, IdsAreShortAndUnique) {
 TEST(Warning, EveryKindIsGivenSomewhere) {
   std::string sources;
   for (const char* folder : {"driver", "apps/signorini"})
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SIGNORINI_SOURCE_DIR) / folder))
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(SIGNORINI_SOURCE_DIR) / folder))
       if (entry.is_regular_file()) sources += content(entry.path());
   for (const WarningKind& kind : warning_kinds)
     EXPECT_THAT(sources, testing::HasSubstr(fmt::format("warning<\"{}\">", kind.id)));
