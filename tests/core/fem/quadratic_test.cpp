@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mesh/refine.hpp"
+#include "core/solver/interpolate.hpp"
 #include "tests/core/fem/support.hpp"
 
 namespace signorini::testing {
