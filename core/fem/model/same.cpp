@@ -13,6 +13,7 @@ bool same(const Selection& a, double ta, const Selection& b, double tb) {
 template <int B>
 bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
   if (a.on.has_value() != b.on.has_value() || (a.on && !same(*a.on, ta, *b.on, tb))) return false;
+  if (a.regions != b.regions) return false;
   return std::equal(a.value.begin(), a.value.end(), b.value.begin(),
                     [&](const Field& x, const Field& y) { return x.same(ta, y, tb); });
 }
@@ -22,7 +23,8 @@ bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
 template <int B>
 bool same_stiffness(const Model<B>& a, const Model<B>& b) {
   const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
-  if (B == 1) return same(&Model<B>::diffusion);
+  const auto of_revolution = [](const Model<B>& model) { return model.plane == Plane::axisymmetric; };
+  if (B == 1) return same(&Model<B>::diffusion) && of_revolution(a) == of_revolution(b);
   return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
          a.pressure == b.pressure;
 }
