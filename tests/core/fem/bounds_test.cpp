@@ -219,6 +219,22 @@ TEST(BoundBends, KnowNoKinksAndJumps) {
     }
 }
 
+// Where halves of an edge bend otherwise than all of it the bend is at most twice theirs, scaled by length.
+TEST(BoundBends, AreAtMostTwiceThoseOfAPart) {
+  const auto steep = [](double x) { return std::exp(12 * x); };
+  const Quadratic<2> q([=](const double* x) { return steep(x[0]); });
+  const auto bends = bound_bends(q.nodes, q.model, q.bounds);
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    const auto [a, b] = q.nodes.ends(q.bounds[k].vertex);
+    if (a == b) continue;
+    const double from = std::min(q.nodes.at(a)[0], q.nodes.at(b)[0]);  // it bends least there
+    const double whole = steep(from) - 2 * steep(from + 0.25) + steep(from + 0.5),
+                 part = 4 * (steep(from) - 2 * steep(from + 0.125) + steep(from + 0.25));
+    EXPECT_LT(2 * part, 0.5 * whole);
+    EXPECT_NEAR(bends[k].lower, 2 * part, 1e-12 * whole);
+  }
+}
+
 TEST(BoundBends, AreZeroWhereAnEndHasNoBound) {
   const Quadratic<2> q([](const double* x) { return x[0] == 0 ? -infinity : smooth(x); });
   const auto bends = bound_bends(q.nodes, q.model, q.bounds);
