@@ -25,6 +25,7 @@ bool same(const Resultant<B>& a, double ta, const Resultant<B>& b, double tb) {
 template <int B>
 bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
   if (a.on.has_value() != b.on.has_value() || (a.on && !same(*a.on, ta, *b.on, tb))) return false;
+  if (a.regions != b.regions) return false;
   if (a.total.has_value() != b.total.has_value() || (a.total && !same(*a.total, ta, *b.total, tb))) return false;
   return same_fields(a.value, ta, b.value, tb);
 }
@@ -47,7 +48,8 @@ template <int B>
 bool same_stiffness(const Model<B>& a, const Model<B>& b) {
   if (!same_springs(a, b)) return false;
   const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
-  if (B == 1) return same(&Model<B>::diffusion);
+  const auto of_revolution = [](const Model<B>& model) { return model.plane == Plane::axisymmetric; };
+  if (B == 1) return same(&Model<B>::diffusion) && of_revolution(a) == of_revolution(b);
   return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
          a.pressure == b.pressure;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/fem/motions/mean_turn.hpp"
 #include "support.hpp"
 
 namespace signorini::testing {
@@ -127,6 +128,60 @@ TEST(RigidMotions, OfAScalarBodyIsTheConstant) {
   EXPECT_EQ(motions.describe(motions.simple_basis(free)[0]), "the constant");
   model.fixes.push_back({{"top", {}, "fix"}, {0.0}});
   EXPECT_EQ((motions.free(discretize<2, 1>(mesh, model).problem).cols()), 0);
+}
+
+/// Displacements W x + stretch of some nodes, those of others are zero.
+template <int D>
+std::vector<double> turning(const Mesh<D>& mesh, const Eigen::Matrix<double, D, D>& G) {
+  std::vector<double> u;
+  for (const Point<D>& x : mesh.points) {
+    const Eigen::Matrix<double, D, 1> v = G * vector<D>(x);
+    for (int i = 0; i < D; ++i) u.push_back(7 + v[i]);  // a translation turns nothing
+  }
+  return u;
+}
+
+/// An infinitesimal rotation by that angle about no special axis.
+template <int D>
+Eigen::Matrix<double, D, D> turn_by(double angle) {
+  if constexpr (D == 2) return angle * Eigen::Matrix2d{{0, -1}, {1, 0}};
+  if constexpr (D == 3) {
+    const Eigen::Vector3d a = angle * Eigen::Vector3d(1, -2, 0.5).normalized();
+    return Eigen::Matrix3d{{0, -a[2], a[1]}, {a[2], 0, -a[0]}, {-a[1], a[0], 0}};
+  }
+}
+
+template <int D>
+void expect_turn() {
+  Mesh<D> mesh = distorted_mesh<D>(2);
+  for (Point<D>& x : mesh.points) x[0] += 1e4;  // far from zero
+  const Nodes<D> nodes(mesh);
+  Eigen::Matrix<double, D, D> stretch = Eigen::Matrix<double, D, D>::Random();
+  stretch = (stretch + stretch.transpose()).eval();
+  const double angle = 0.03;
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle))).at(0)), angle, 1e-9);
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle) + stretch)).at(0)), angle, 1e-9);
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, stretch)).at(0)), 0, 1e-9);
+}
+
+TEST(MeanTurn, IsTheAngleWhateverElseABodyDoes) {
+  expect_turn<2>();
+  expect_turn<3>();
+}
+
+// Each body has its own: the second one, which is the first one elsewhere, turns the other way and by more.
+TEST(MeanTurn, IsThatOfEachBody) {
+  const Mesh<2> one = unit_mesh<2>(2);
+  Mesh<2> both = one;
+  for (const Point<2>& x : one.points) both.points.push_back({x[0] + 3, x[1] - 1});
+  std::vector<Index> body(one.points.size(), 0);
+  body.resize(both.points.size(), 1);
+  std::vector<double> u = turning<2>(one, turn_by<2>(0.1)), more = turning<2>(one, turn_by<2>(-0.2));
+  u.insert(u.end(), more.begin(), more.end());
+  const auto turns = mean_turns<2>(Nodes<2>(both), body, u);
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_NEAR(turns[0], 0.1, 1e-12);
+  EXPECT_NEAR(turns[1], 0.2, 1e-12);
 }
 
 }  // namespace
