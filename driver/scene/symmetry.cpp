@@ -87,13 +87,13 @@ void refuse_one_sided(const Mesh<D>& mesh, const ObstacleTerm<B>& term, Planes a
 
 /// A place where values are compared with those at its image.
 template <int D>
-struct Place {
+struct ComparedPlace {
   Point<D> x, normal;
 };
 
 template <int D>
-std::vector<Place<D>> places_on(const Mesh<D>& mesh, const std::vector<Index>& faces) {
-  std::vector<Place<D>> out;
+std::vector<ComparedPlace<D>> places_on(const Mesh<D>& mesh, const std::vector<Index>& faces) {
+  std::vector<ComparedPlace<D>> out;
   for (const Index f : faces) {
     Point<D> normal = area_normal(mesh, mesh.boundary[f]);
     normalise(normal);
@@ -103,8 +103,8 @@ std::vector<Place<D>> places_on(const Mesh<D>& mesh, const std::vector<Index>& f
 }
 
 template <int D>
-std::vector<Place<D>> all_places(const Mesh<D>& mesh) {
-  std::vector<Place<D>> out;
+std::vector<ComparedPlace<D>> all_places(const Mesh<D>& mesh) {
+  std::vector<ComparedPlace<D>> out;
   for (const Point<D>& x : mesh.points) out.push_back({x, {}});
   return out;
 }
@@ -165,8 +165,8 @@ class SymmetryCheck {
   }
 
  private:
-  Site site_of(const Place<D>& p) const { return site<D>(p.x, model_.t, p.normal); }
-  Place<D> image(const Place<D>& p) const {
+  Site site_of(const ComparedPlace<D>& p) const { return site<D>(p.x, model_.t, p.normal); }
+  ComparedPlace<D> image(const ComparedPlace<D>& p) const {
     return {reflected<D>(mirror_, p.x), reflected_direction<D>(mirror_, p.normal)};
   }
   /// Of a component along a coordinate axis.
@@ -190,8 +190,8 @@ class SymmetryCheck {
 
   void check_fix(const Fix<B>& fix) const {
     Comparison<D> comparison(mirror_, fix.on.origin);
-    for (const Place<D>& p : places_on(mesh_, select_faces(mesh_, fix.on, model_.t))) {
-      const Place<D> q = image(p);
+    for (const ComparedPlace<D>& p : places_on(mesh_, select_faces(mesh_, fix.on, model_.t))) {
+      const ComparedPlace<D> q = image(p);
       for (int i = 0; i < B; ++i) {
         if (!fix.value[i]) continue;
         double turn = sign(i);
@@ -210,34 +210,35 @@ class SymmetryCheck {
   void check_load(const Load<B>& load) const {
     const std::string& origin = load.on ? load.on->origin : load.value[0].origin();
     Comparison<D> comparison(mirror_, origin.empty() ? model_.origin + ", its load" : origin);
-    for (const Place<D>& p : load.on ? places_on(mesh_, select_faces(mesh_, *load.on, model_.t)) : all_places(mesh_))
+    for (const ComparedPlace<D>& p :
+         load.on ? places_on(mesh_, select_faces(mesh_, *load.on, model_.t)) : all_places(mesh_))
       for (int i = 0; i < B; ++i)
         comparison.add(p.x, load.value[i](site_of(p)), sign(i) * load.value[i](site_of(image(p))));
     comparison.refuse("'value'");
   }
 
   void check_obstacle(const ObstacleTerm<B>& term) const {
-    std::vector<Place<D>> places;
+    std::vector<ComparedPlace<D>> places;
     const Nodes<D> nodes(mesh_);
     const Surface<D> faces = term.on ? surface(nodes, select_faces(mesh_, *term.on, model_.t)) : surface(nodes);
     const std::vector<Point<D>> normals = node_normals(nodes, faces);
     if (!term.on) places = all_places(mesh_);
     for (std::size_t v = 0; v < faces.nodes.size(); ++v) {
-      const Place<D> p{mesh_.points[faces.nodes[v]], normals[v]};
+      const ComparedPlace<D> p{mesh_.points[faces.nodes[v]], normals[v]};
       if (term.on)
         places.push_back(p);
       else
         places[faces.nodes[v]] = p;
     }
     std::vector<SurfaceVertex> here, there;
-    for (const Place<D>& p : places) {
+    for (const ComparedPlace<D>& p : places) {
       here.push_back(vertex(p));
       there.push_back(vertex(image(p)));
     }
     compare(term, places, here, there);
   }
 
-  static SurfaceVertex vertex(const Place<D>& p) {
+  static SurfaceVertex vertex(const ComparedPlace<D>& p) {
     SurfaceVertex v{};
     v.measure = 1;
     std::copy_n(p.x.data(), D, v.position);
@@ -245,8 +246,8 @@ class SymmetryCheck {
     return v;
   }
 
-  void compare(const ObstacleTerm<B>& term, const std::vector<Place<D>>& places, const std::vector<SurfaceVertex>& here,
-               const std::vector<SurfaceVertex>& there) const {
+  void compare(const ObstacleTerm<B>& term, const std::vector<ComparedPlace<D>>& places,
+               const std::vector<SurfaceVertex>& here, const std::vector<SurfaceVertex>& there) const {
     Comparison<D> bounds(mirror_, term.origin), directions(mirror_, term.origin), numbers(mirror_, term.origin),
         motion(mirror_, term.origin);
     if (B > 1) bounds.scale(extent_);

@@ -82,6 +82,18 @@ TEST(Chords, PolyhedraAndMeshesThatAreNotRefinedHaveNone) {
   EXPECT_EQ(sagitta_everywhere(arch(8), 0), 0);
 }
 
+// As a chamfer has it.
+TEST(Chords, BetweenFlatPartsOfSeveralRowsAnEdgeIsMeant) {
+  const auto bent = [](auto mesh) {
+    for (auto& x : mesh.points)
+      if (x[0] > 0) x[1] += std::tan(pi / 9) * x[0];
+    return mesh;
+  };
+  EXPECT_EQ(sagitta_everywhere(bent(rectangle({-1, 0}, {1, 1}, {8, 3})), 1), 0);
+  EXPECT_EQ(sagitta_everywhere(bent(box({-1, 0, 0}, {1, 1, 1}, {8, 3, 2})), 1), 0);
+  EXPECT_GT(sagitta_everywhere(bent(rectangle({-1, 0}, {1, 1}, {2, 1})), 1), 0.04) << "two chords";
+}
+
 // An octagonal hole may be a round one. Hexagons may, too, and squares may not.
 TEST(Chords, OfWideAnglesCountWhereTheyGoAround) {
   for (const Index n : {6, 8}) {
