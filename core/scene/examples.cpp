@@ -50,6 +50,21 @@ constexpr const char* load_details = R"(
 - On scalar bodies the load is a flux, or a source.
 )";
 
+constexpr const char* rigid_details = R"(
+A punch that is pushed onto a block by a force and keeps level:
+
+```
+[[rigid]]
+body = "punch"
+on = "top"
+displacement = [0, 0, "free"]
+rotation = [0, 0, 0]
+force = [0, 0, -10]
+```
+
+All nodes of the faces move as q + theta x (p - point). [joints.md](joints.md) has examples.
+)";
+
 constexpr const char* obstacle_details = R"(
 Every key that is not listed here belongs to the plugin. `signorini list obstacles` shows these keys. `scalar`, for
 instance, has `lower` and `upper`.
@@ -88,7 +103,7 @@ displacements have other units than the body. Or an obstacle is on the wrong sid
 
 **Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
 `where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.
-Other types take no `other`.
+With `tied` they are glued together ([joints.md](joints.md)). Other types take no `other`.
 
 **Friction.** `coulomb` is contact with a rigid obstacle and friction. The tangential force at a node is at most the
 coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential
@@ -226,6 +241,7 @@ body = "block"
 where = "x == 2"
 value = [-10, 0, 0]                # a pressure of 10 on the face at x = 2)",
      load_details},
+    {"rigid", "", rigid_details},
     {"obstacle", R"([[obstacle]]
 type = "contact"
 body = "block"

@@ -144,6 +144,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   scene.materials = read_all(document, "material", folder, read_material);
   scene.fixes = read_all(document, "fix", folder, read_fix);
   scene.loads = read_all(document, "load", folder, read_load);
+  scene.rigids = read_all(document, "rigid", folder, read_rigid);
   for (const Scene::Body& body : scene.bodies)
     if (scene.dimension == 0) scene.dimension = dimension_of(body);
   scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);

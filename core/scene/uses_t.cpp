@@ -44,6 +44,9 @@ bool any(const Scene::Material& material) {
 }
 bool any(const Scene::Fix& fix) { return any(fix.on.where) || any(fix.value); }
 bool any(const Scene::Load& load) { return any(load.on) || any(load.value); }
+bool any(const Scene::Rigid& rigid) {
+  return any(rigid.on.where) || any(rigid.displacement) || any(rigid.rotation) || any(rigid.force) || any(rigid.torque);
+}
 bool any(const Scene::Obstacle& obstacle) {
   return any(obstacle.on) || (obstacle.shape && std::visit(ShapeUses(), *obstacle.shape)) ||
          std::ranges::any_of(obstacle.options.entries, [](const auto& entry) { return any(entry.second); });
@@ -56,7 +59,8 @@ bool uses_t(const Scene& scene, const Scene::Body& body) {
     return std::ranges::any_of(tables, [&](const auto& table) { return body.answers_to(table.body) && any(table); });
   };
   const bool parts = std::ranges::any_of(body.parts, [](const Scene::Body& part) { return any(part); });
-  return any(body) || parts || in(scene.materials) || in(scene.fixes) || in(scene.loads) || in(scene.obstacles);
+  return any(body) || parts || in(scene.materials) || in(scene.fixes) || in(scene.loads) || in(scene.rigids) ||
+         in(scene.obstacles);
 }
 
 }  // namespace signorini

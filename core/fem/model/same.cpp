@@ -17,6 +17,14 @@ bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
                     [&](const Field& x, const Field& y) { return x.same(ta, y, tb); });
 }
 
+/// Their loads, and what these act on.
+template <int B>
+bool same(const RigidPart<B>& a, double ta, const RigidPart<B>& b, double tb) {
+  const auto alike = [&](const Field& x, const Field& y) { return x.same(ta, y, tb); };
+  return same(a.on, ta, b.on, tb) && a.point == b.point && std::ranges::equal(a.force, b.force, alike) &&
+         std::ranges::equal(a.torque, b.torque, alike);
+}
+
 }  // namespace
 
 template <int B>
@@ -30,7 +38,9 @@ bool same_stiffness(const Model<B>& a, const Model<B>& b) {
 template <int B>
 bool same_loads(const Model<B>& a, const Model<B>& b) {
   return std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
-                    [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); });
+                    [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); }) &&
+         std::equal(a.rigid.begin(), a.rigid.end(), b.rigid.begin(), b.rigid.end(),
+                    [&](const RigidPart<B>& x, const RigidPart<B>& y) { return same(x, a.t, y, b.t); });
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                  \
