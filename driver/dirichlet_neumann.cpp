@@ -100,8 +100,15 @@ void check_turns(const Scene& scene, std::size_t body, const Model<D>& model) {
     if (part.order != 1)
       input_error(part.source.of(part.source.given("order") ? "order" : "pressure"),
                   "quadratic elements are not available with bodies = \"dirichlet-neumann\"; expected order = 1");
+  if (!model.rigid.empty())
+    input_error(model.rigid.front().on.origin,
+                "rigid parts are not available with bodies = \"dirichlet-neumann\"; expected \"jumps\"");
   for (const ObstacleTerm<D>& term : model.obstacles) {
     if (!term.other) continue;
+    if (term.tied)
+      input_error(term.origin,
+                  "bodies that are tied to each other are not available with bodies = \"dirichlet-neumann\"; expected "
+                  "\"jumps\"");
     if (term.obstacle->functional())
       input_error(term.origin,
                   "friction between bodies is not available with bodies = \"dirichlet-neumann\"; "

@@ -119,10 +119,12 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
   if constexpr (D == B) pairing = pair_bodies(nodes, model, collect_fixes(nodes, model));
   for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals, pairing.get()))
     candidates[bound.obstacle].insert(bound.vertex);
+  for (const TiedNode& tie : pairing ? pairing->ties : std::vector<TiedNode>())
+    candidates[tie.obstacle].insert(tie.node);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Scene::Obstacle& obstacle = scene.obstacles[numbers[k]];
-    say("obstacle {}: {}, {} candidate contact vertices on the finest level\n", numbers[k], obstacle.type,
-        candidates[k].size());
+    say("obstacle {}: {}, {} {} on the finest level\n", numbers[k], obstacle.type, candidates[k].size(),
+        model.obstacles[k].tied ? "tied nodes" : "candidate contact vertices");
     if (!obstacle.other.empty())
       say("  the slave is {} ({})\n", side_of(obstacle, slaves[k].exchanged), slaves[k].reason);
   }

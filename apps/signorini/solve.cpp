@@ -130,6 +130,12 @@ std::vector<std::filesystem::path> inputs(const Scene& scene) {
 }
 
 void print_contact(const ContactReport& contact) {
+  if (contact.tied) {
+    fmt::print("obstacle {}: {} nodes tied, area {:.6g}, force ({:.6g})\n", contact.obstacle, contact.nodes,
+               contact.area, fmt::join(contact.force, ", "));
+    fmt::print("  force on {}; the slave is {} ({})\n", contact.body, contact.pair->slave, contact.pair->reason);
+    return;
+  }
   fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",
              contact.obstacle, contact.nodes, contact.area, fmt::join(contact.force, ", "), contact.max_pressure);
   if (const auto& pair = contact.pair)
@@ -171,6 +177,10 @@ void print_result(const Console& console, const Report& report, const std::vecto
     fmt::print("elements{}: {}\n", last.bodies.size() > 1 ? fmt::format(" of {}", body.name) : "",
                elements_text(body.order, body.order_chosen));
   for (const ContactReport& contact : last.contact) print_contact(contact);
+  for (const RigidReport& rigid : last.rigid)
+    fmt::print("rigid {}: displacement ({:.6g}), rotation ({:.6g}), force ({:.6g}), torque ({:.6g})\n", rigid.number,
+               fmt::join(rigid.displacement, ", "), fmt::join(rigid.rotation, ", "), fmt::join(rigid.force, ", "),
+               fmt::join(rigid.torque, ", "));
   if (last.estimate) fmt::print("{}\n", error_text(*last.estimate));
   for (const ProbeReport& probe : last.probes) fmt::print("{}: ({:.9g})\n", probe.name, fmt::join(probe.value, ", "));
   const Times& time = report.time;

@@ -50,12 +50,20 @@ struct ContactReport {
   Index beyond_nodes = 0;                ///< those in contact that the other body is no longer in front of
   double penetration_between_nodes = 0;  ///< see violation_between_nodes(); NaN where it is not measured
   std::optional<PairReport> pair{};      ///< nothing where it acts on one body
+  bool tied = false;  ///< a tie: its nodes are held together, and count as in contact; there are no pressures
 };
 
 /// A total force on the body it acts on, one entry per unknown of a vertex.
 struct ForceReport {
   int number = 0;  ///< of the scene's [[load]], [[fix]] or [[spring]], from 0
   std::vector<double> force;
+};
+
+/// How a rigid part has moved, and what moves it.
+struct RigidReport {
+  int number = 0;  ///< of the scene's [[rigid]], from 0
+  std::vector<double> point, displacement, rotation;
+  std::vector<double> force, torque;  ///< on the part, about the point: applied, or needed for what is prescribed
 };
 
 /// All that acts on one body: the totals of loads, of fixes and springs, and of obstacles. They sum to zero but for the
@@ -116,6 +124,7 @@ struct StepReport {
   std::vector<ContactReport> contact;
   std::vector<ProbeReport> probes;
   std::vector<ForceReport> applied, reactions, springs;  ///< of each load, of each fix, of each spring
+  std::vector<RigidReport> rigid;                        ///< of each rigid part
   std::vector<BalanceReport> balance;                    ///< of each body
   std::vector<BodyReport> bodies;                        ///< `summary` is what they have in common, see merged()
   std::vector<std::string> undetermined;                 ///< motions of the body that nothing decides

@@ -204,7 +204,8 @@ struct Table<ContactReport> {
     std::vector<Row<C>> all{
         member("obstacle", &C::obstacle, "number of the scene's `[[obstacle]]`, from 0"),
         member("body", &C::body, "the body that it acts on"),
-        member("nodes", &C::nodes, "nodes in contact"),
+        member("nodes", &C::nodes, "nodes in contact, or tied"),
+        member("tied", &C::tied, "whether the two bodies are tied to each other"),
         member("open_nodes", &C::open_nodes, "nodes that it may reach besides"),
         member("area", &C::area, "of the contact, up to its edge within faces; in 2D a length"),
         member("radius", &C::radius, "of a disk of that area; in 2D half the length"),
@@ -318,16 +319,33 @@ struct Table<SpringForce> {
 };
 
 template <>
+struct Table<RigidReport> {
+  static constexpr const char* name = "rigid";
+  static std::vector<Row<RigidReport>> rows() {
+    using R = RigidReport;
+    return {member("rigid", &R::number, "number of the scene's `[[rigid]]`, from 0"),
+            member("point", &R::point, "that it turns about, undeformed; an axisymmetric body needs none"),
+            member("displacement", &R::displacement, "of the point"),
+            member("rotation", &R::rotation, "in radians, about the z-axis in 2D, else three entries"),
+            member("force", &R::force, "on the part: applied, or of what is prescribed what it takes"),
+            member("torque", &R::torque, "about the point, likewise")};
+  }
+};
+
+template <>
 struct Table<BalanceReport> {
   static constexpr const char* name = "balance";
   static std::vector<Row<BalanceReport>> rows() {
     using B = BalanceReport;
-    return {member("body", &B::body, "its name"),
-            member("applied", &B::applied, "the sum of loads"),
-            member("reactions", &B::reactions, "the sum of what fixes and springs exert"),
-            member("contact", &B::contact, "the sum of what obstacles exert"),
-            {{"sum", Kind::numbers, "of all three: zero but for the algebraic error"},
-             [](const B& b) -> Json { return b.sum(); }}};
+    return {
+        member("body", &B::body, "its name"),
+        member("applied", &B::applied, "the sum of loads, and of forces on rigid parts"),
+        member(
+            "reactions", &B::reactions,
+            "the sum of what fixes and springs exert, and of what it takes to prescribe displacements of rigid parts"),
+        member("contact", &B::contact, "the sum of what obstacles exert"),
+        {{"sum", Kind::numbers, "of all three: zero but for the algebraic error"},
+         [](const B& b) -> Json { return b.sum(); }}};
   }
 };
 
@@ -369,6 +387,7 @@ std::vector<Row<StepReport>> results() {
            [](const S& s) { return as_objects(each<SpringForce>(s.springs)); }},
           {{"applied", Kind::objects, "the sum of each load", false, false, &object_spec<Applied>},
            [](const S& s) { return as_objects(each<Applied>(s.applied)); }},
+          objects("rigid", &S::rigid, "how each rigid part has moved, and what moves it"),
           objects("balance", &S::balance, "the forces on each body"),
           objects("bodies", &S::bodies, "the solve of each body; those that may touch each other are solved as one"),
           member("undetermined", &S::undetermined,

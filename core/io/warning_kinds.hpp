@@ -43,6 +43,12 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: no face of one body is in front of the other one's and turned towards it: these bodies never touch; is "
      "another side meant?",
      "the faces that are picked on the two bodies do not face each other", "check `on` and `other_on`"},
+    {WarningKind::About::scene, "tied-apart",
+     "{}: the bodies are up to {:.3g} apart, or into each other, and are tied as they are: the tie carries forces "
+     "across that, as if it were nothing",
+     "`adjust` admits that tied bodies do not touch. Displacements are tied across the gap, whose width is a lever "
+     "that moments do not know of",
+     "let the faces lie on each other"},
     {WarningKind::About::scene, "prescribed-slave",
      "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the {}; expected "
      "free nodes there, or the other side as the slave ('slave')",

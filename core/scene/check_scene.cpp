@@ -78,6 +78,38 @@ void check_fixes(const Scene& scene) {
   }
 }
 
+/// What a component is prescribed by no force moves.
+void refuse_both(const Scene::Rigid& rigid, const std::vector<std::optional<Field>>& prescribed,
+                 const std::vector<Field>& force, const char* key, const char* of) {
+  for (std::size_t k = 0; k < std::min(prescribed.size(), force.size()); ++k)
+    if (prescribed[k] && force[k].constant() != 0.0)
+      input_error(rigid.source.of(key), fmt::format("component {} of '{}' is prescribed; expected 0 here, or \"free\" "
+                                                    "there",
+                                                    k, of));
+}
+
+void check_rigids(const Scene& scene) {
+  for (const Scene::Rigid& rigid : scene.rigids) {
+    if (scalar(scene, rigid.body))
+      input_error(rigid.source.of("body"), "a scalar unknown has no rigid motions; expected an elastic body");
+    if (!scene.symmetry.planes.empty())
+      input_error(rigid.source.table, "rigid parts are not available with [symmetry] in this version");
+    refuse_both(rigid, rigid.displacement, rigid.force, "force", "displacement");
+    refuse_both(rigid, rigid.rotation, rigid.torque, "torque", "rotation");
+    const bool radial =
+        !rigid.displacement.empty() && rigid.displacement[0] && rigid.displacement[0]->constant() != 0.0;
+    if (scene.body(rigid.body).plane != Plane::axisymmetric) continue;
+    for (const char* key : {"rotation", "torque", "point"})
+      if (rigid.source.given(key))
+        input_error(
+            rigid.source.of(key),
+            fmt::format("'{}' has no meaning for an axisymmetric body: what is rigid moves along its axis", key));
+    if (radial || (!rigid.force.empty() && rigid.force[0].constant() != 0.0))
+      input_error(rigid.source.of(radial ? "displacement" : "force"),
+                  "what is rigid of an axisymmetric body moves along its axis; expected 0 across it");
+  }
+}
+
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
 void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
@@ -130,8 +162,8 @@ bool is_touched(const Scene& scene, const Scene::Body& body) {
 
 void check_held(const Scene& scene, const std::string& place) {
   for (const Scene::Body& body : scene.bodies)
-    if (!any_of(scene.fixes, body) && !any_of(scene.springs, body) && !any_of(scene.obstacles, body) &&
-        !is_touched(scene, body) && scene.symmetry.planes.empty())
+    if (!any_of(scene.fixes, body) && !any_of(scene.springs, body) && !any_of(scene.rigids, body) &&
+        !any_of(scene.obstacles, body) && !is_touched(scene, body) && scene.symmetry.planes.empty())
       input_error(scene.bodies.size() == 1 ? place : body.source.table,
                   "there is neither [[fix]] nor [[spring]] nor [[obstacle]]: nothing holds the body");
 }
@@ -192,6 +224,21 @@ struct ShapeCheck {
   }
 };
 
+template <class Values>
+void expect_if_given(const Scene::Source& source, const Values& values, const char* key, std::size_t expected,
+                     const char* what) {
+  if (source.given(key)) expect_length(values.size(), expected, source.of(key), what);
+}
+
+void check_lengths(const Scene::Rigid& rigid, std::size_t dimension) {
+  const std::size_t rotations = dimension * (dimension - 1) / 2;
+  expect_if_given(rigid.source, rigid.point, "point", dimension, "coordinate");
+  expect_if_given(rigid.source, rigid.displacement, "displacement", dimension, "component");
+  expect_if_given(rigid.source, rigid.force, "force", dimension, "component");
+  expect_if_given(rigid.source, rigid.rotation, "rotation", rotations, "component");
+  expect_if_given(rigid.source, rigid.torque, "torque", rotations, "component");
+}
+
 }  // namespace
 
 void check_dimension(const Scene& scene, int dimension) {
@@ -211,6 +258,7 @@ void check_dimension(const Scene& scene, int dimension) {
   }
   check_load_lengths(scene, dimension);
   check_spring_lengths(scene, dimension);
+  for (const Scene::Rigid& rigid : scene.rigids) check_lengths(rigid, static_cast<std::size_t>(dimension));
   for (const Scene::Probe& probe : scene.probes)
     expect_length(probe.at.size(), dimension, probe.source.of("at"), "coordinate");
   for (const Scene::Obstacle& obstacle : scene.obstacles)
@@ -227,11 +275,13 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_bodies(scene, scene.fixes);
   check_bodies(scene, scene.loads);
   check_bodies(scene, scene.springs);
+  check_bodies(scene, scene.rigids);
   check_bodies(scene, scene.obstacles);
   check_bodies(scene, scene.probes);
   check_fixes(scene);
   check_loads(scene);
   check_springs(scene);
+  check_rigids(scene);
   check_obstacles(scene);
   check_held(scene, place);
   check_symmetry(scene);

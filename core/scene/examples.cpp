@@ -68,6 +68,21 @@ constexpr const char* spring_details = R"(
 - `springs` of the report has the force of each. Their energy counts in `energy`.
 )";
 
+constexpr const char* rigid_details = R"(
+A punch that is pushed onto a block by a force and keeps level:
+
+```
+[[rigid]]
+body = "punch"
+on = "top"
+displacement = [0, 0, "free"]
+rotation = [0, 0, 0]
+force = [0, 0, -10]
+```
+
+All nodes of the faces move as q + theta x (p - point). [joints.md](joints.md) has examples.
+)";
+
 constexpr const char* obstacle_details = R"(
 Every key that is not listed here belongs to the plugin. `signorini list obstacles` shows these keys. `scalar`, for
 instance, has `lower` and `upper`.
@@ -106,7 +121,7 @@ displacements have other units than the body. Or an obstacle is on the wrong sid
 
 **Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
 `where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.
-Other types take no `other`.
+With `tied` they are glued together ([joints.md](joints.md)). Other types take no `other`.
 
 **Friction.** `coulomb` is contact with a rigid obstacle and friction. The tangential force at a node is at most the
 coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential
@@ -250,6 +265,7 @@ body = "block"
 on = "left"
 stiffness = 50                     # a soft pad: per area, in all directions)",
      spring_details},
+    {"rigid", "", rigid_details},
     {"obstacle", R"([[obstacle]]
 type = "contact"
 body = "block"

@@ -46,6 +46,34 @@ Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder) 
           reader.source(),        axis(reader)};
 }
 
+namespace {
+
+/// Of a force or a torque, which has no free components.
+std::vector<Field> all_given(const TableReader& reader, const char* key) {
+  std::vector<Field> out;
+  if (!reader.given(key)) return out;
+  for (const std::optional<Field>& component : reader.values(key)) {
+    if (!component) input_error(reader.origin(key), "expected a value per component; 0 is no force");
+    out.push_back(*component);
+  }
+  return out;
+}
+
+}  // namespace
+
+Scene::Rigid read_rigid(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("rigid")->keys, folder);
+  reader.check_keys();
+  const std::optional<Selection> on = reader.selection();
+  if (!on) input_error(reader.origin(), "neither 'on' nor 'where' is given, expected one of them");
+  Scene::Rigid rigid{reader.text("body"), *on, {}, {}, {}, all_given(reader, "force"), all_given(reader, "torque"),
+                     reader.source()};
+  if (reader.given("point")) rigid.point = reader.point("point");
+  if (reader.given("displacement")) rigid.displacement = reader.values("displacement");
+  if (reader.given("rotation")) rigid.rotation = reader.values("rotation");
+  return rigid;
+}
+
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder) {
   const TableReader reader(table, find_table("load")->keys, folder);
   reader.check_keys();

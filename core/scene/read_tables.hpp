@@ -11,6 +11,7 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
 Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder);
 Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder);
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder);
+Scene::Rigid read_rigid(const RawTable& table, const std::filesystem::path& folder);
 Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder);
 Scene::Spring read_spring(const RawTable& table, const std::filesystem::path& folder);
 Scene::Probe read_probe(const RawTable& table, const std::filesystem::path& folder);

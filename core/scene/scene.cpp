@@ -145,6 +145,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   scene.fixes = read_all(document, "fix", folder, read_fix);
   scene.loads = read_all(document, "load", folder, read_load);
   scene.springs = read_all(document, "spring", folder, read_spring);
+  scene.rigids = read_all(document, "rigid", folder, read_rigid);
   for (const Scene::Body& body : scene.bodies)
     if (scene.dimension == 0) scene.dimension = dimension_of(body);
   scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);

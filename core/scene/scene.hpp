@@ -117,6 +117,16 @@ struct Scene {
     FrameAxis axis = {};
   };
 
+  /// Faces that move as a rigid body. What is not given is empty: free components, and no force.
+  struct Rigid {
+    std::string body;
+    Selection on;
+    std::vector<double> point;
+    std::vector<std::optional<Field>> displacement, rotation;  ///< per component, empty where free
+    std::vector<Field> force, torque;
+    Source source;
+  };
+
   /// Rigid obstacles. Fields are evaluated at the vertex that asks for its distance, with its normal and the step
   /// parameter; vectors have an entry per dimension and need not have unit length.
   struct PlaneShape {
@@ -214,6 +224,7 @@ struct Scene {
   std::vector<Fix> fixes;
   std::vector<Load> loads;
   std::vector<Spring> springs;
+  std::vector<Rigid> rigids;
   std::vector<Obstacle> obstacles;
   Solver solver;
   Refine refine;

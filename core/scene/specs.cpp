@@ -140,6 +140,20 @@ constexpr KeySpec spring[] = {
     axis_key,
 };
 
+constexpr KeySpec rigid[] = {
+    {"body", text, nullptr, "", "", "name of a body"},
+    {"on", text, "", "", "", on_help},
+    {"where", condition, "", "", "", where_help},
+    {"point", point, "", "", "",
+     "that is displaced, and that the part turns about; by default the centroid of the faces of the coarsest mesh. "
+     "Axisymmetric bodies need none"},
+    {"displacement", values, "", "", "", "of the point, per component, or \"free\"; by default all of it is free"},
+    {"rotation", values, "", "", "",
+     "in radians, or \"free\": about z in 2D, else about the three axes; by default all of it is free"},
+    {"force", values, "", "", "", "on the point, per component, where that is free; by default none"},
+    {"torque", values, "", "", "", "about the point, likewise, as many as rotations"},
+};
+
 constexpr KeySpec obstacle[] = {
     {"type", text, nullptr, "", "", "id of an obstacle plugin, such as \"contact\""},
     {"body", text, nullptr, "", "", "name of a body"},
@@ -259,6 +273,11 @@ const std::vector<TableSpec>& tables() {
        "Springs, or an elastic foundation: what pulls the body back where it moves, by a traction that is proportional "
        "to its displacement.",
        spring},
+      {"rigid", true,
+       "Faces of an elastic body that move as a rigid body does: each component of its displacement and its rotation "
+       "is "
+       "prescribed, or free and moved by a force, a torque. See docs/joints.md.",
+       rigid},
       {"obstacle", true, "What the body may not penetrate.", obstacle},
       {"solver", false, "How the algebraic problem is solved.", solver_keys()},
       {"refine", false, "How the mesh is refined.", refine},

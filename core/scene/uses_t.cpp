@@ -47,6 +47,9 @@ bool any(const Scene::Load& load) {
   return any(load.on) || any(load.value) || any(load.pressure) || any(load.force) || any(load.torque);
 }
 bool any(const Scene::Spring& spring) { return any(spring.on.where) || any(spring.stiffness); }
+bool any(const Scene::Rigid& rigid) {
+  return any(rigid.on.where) || any(rigid.displacement) || any(rigid.rotation) || any(rigid.force) || any(rigid.torque);
+}
 bool any(const Scene::Obstacle& obstacle) {
   return any(obstacle.on) || (obstacle.shape && std::visit(ShapeUses(), *obstacle.shape)) ||
          std::ranges::any_of(obstacle.options.entries, [](const auto& entry) { return any(entry.second); });
@@ -60,7 +63,7 @@ bool uses_t(const Scene& scene, const Scene::Body& body) {
   };
   const bool parts = std::ranges::any_of(body.parts, [](const Scene::Body& part) { return any(part); });
   return any(body) || parts || in(scene.materials) || in(scene.fixes) || in(scene.loads) || in(scene.springs) ||
-         in(scene.obstacles);
+         in(scene.rigids) || in(scene.obstacles);
 }
 
 }  // namespace signorini

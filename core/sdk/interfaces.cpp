@@ -2,6 +2,7 @@
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/registrar.hpp"
 #include "core/sdk/stepping.hpp"
+#include "core/sdk/tying.hpp"
 
 namespace signorini {
 
@@ -11,6 +12,7 @@ Registrar::~Registrar() = default;
 Scaling::~Scaling() = default;
 Friction::~Friction() = default;
 Stepping::~Stepping() = default;
+Tying::~Tying() = default;
 
 template <int B>
 Obstacle<B>::~Obstacle() = default;

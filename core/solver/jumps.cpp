@@ -11,15 +11,35 @@
 namespace signorini {
 namespace {
 
-/// sum_q w_pq x_q of the slave vector with number s.
+/// What the rows make of x, B numbers each.
 template <int B>
-std::array<double, B> projected(const Jumps<B>& jumps, Index s, const std::vector<double>& x) {
-  double sum[B] = {};
-  for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
-    for (int i = 0; i < B; ++i) sum[i] += jumps.weight[k] * x[Offset{jumps.column[k]} * B + i];
-  std::array<double, B> out;
-  block::product<B>(jumps.project.data() + Offset{s} * B * B, sum, out.data());
+std::vector<double> products(const BlockRows<B>& rows, const std::vector<double>& x) {
+  std::vector<double> out((rows.row.size() - 1) * B);
+  for (std::size_t s = 0; s + 1 < rows.row.size(); ++s)
+    for (Offset k = rows.row[s]; k < rows.row[s + 1]; ++k)
+      block::add_product<B>(rows.at(k), x.data() + Offset{rows.column[k]} * B, out.data() + s * B);
   return out;
+}
+
+/// x <- Z x with these rows of Z.
+template <int B>
+void change(const std::vector<Index>& vector, const BlockRows<B>& rows, std::vector<double>& x) {
+  const std::vector<double> out = products(rows, x);
+  for (std::size_t s = 0; s < vector.size(); ++s) std::copy_n(out.data() + s * B, B, x.data() + Offset{vector[s]} * B);
+}
+
+/// b <- Z'b.
+template <int B>
+void change_forces(const std::vector<Index>& vector, const BlockRows<B>& rows, std::vector<double>& b) {
+  std::vector<double> taken;
+  for (const Index p : vector)
+    for (int i = 0; i < B; ++i) taken.push_back(std::exchange(b[Offset{p} * B + i], 0));
+  for (std::size_t s = 0; s < vector.size(); ++s)
+    for (Offset k = rows.row[s]; k < rows.row[s + 1]; ++k) {
+      double force[B];
+      block::transposed_product<B>(rows.at(k), taken.data() + s * B, force);
+      for (int i = 0; i < B; ++i) b[Offset{rows.column[k]} * B + i] += force[i];
+    }
 }
 
 template <int B>
@@ -35,8 +55,12 @@ template <int B>
 class Transformation {
  public:
   Transformation(const Jumps<B>& jumps, BlockMatrix<B>& A)
-      : jumps_(jumps), A_(A), slave_(number_of_slaves(jumps, A.size())), place_(slave_.size(), -1) {
-    find_slaves_of_masters();
+      : rows_(jumps.basis),
+        vector_(jumps.vector),
+        A_(A),
+        slave_(number_of_slaves(jumps, A.size())),
+        place_(slave_.size(), -1) {
+    find_rows_with_columns();
   }
 
   void apply() {
@@ -70,7 +94,7 @@ class Transformation {
     for (Index p = 0; p < A_.size(); ++p) {
       out += masters_in(p);
       for (Offset j = first_[p]; j < first_[p + 1]; ++j) {
-        const Index slave = jumps_.vector[pairs_[j].slave];
+        const Index slave = vector_[pairs_[j].row];
         out += length(slave) + masters_in(slave);
       }
     }
@@ -79,23 +103,22 @@ class Transformation {
 
  private:
   struct Pair {
-    Index slave;  // its number
-    double weight;
+    Index row;
+    Offset at;
   };
 
-  void find_slaves_of_masters() {
+  void find_rows_with_columns() {
     first_.assign(slave_.size() + 1, 0);
-    for (const Index q : jumps_.column) ++first_[q + 1];
+    for (const Index q : rows_.column) ++first_[q + 1];
     for (std::size_t q = 0; q + 1 < first_.size(); ++q) first_[q + 1] += first_[q];
-    pairs_.resize(jumps_.column.size());
+    pairs_.resize(rows_.column.size());
     std::vector<Offset> next(first_.begin(), first_.end() - 1);
-    for (Index s = 0; s < jumps_.size(); ++s)
-      for (Offset k = jumps_.row[s]; k < jumps_.row[s + 1]; ++k)
-        pairs_[next[jumps_.column[k]]++] = {s, jumps_.weight[k]};
+    for (Index s = 0; s < static_cast<Index>(vector_.size()); ++s)
+      for (Offset k = rows_.row[s]; k < rows_.row[s + 1]; ++k) pairs_[next[rows_.column[k]]++] = {s, k};
   }
 
   bool stays(Index p) const {
-    if (first_[p] < first_[p + 1]) return false;
+    if (slave_[p] >= 0 || first_[p] < first_[p + 1]) return false;
     return std::none_of(A_.column.begin() + A_.row[p], A_.column.begin() + A_.row[p + 1],
                         [&](Index q) { return slave_[q] >= 0; });
   }
@@ -106,7 +129,7 @@ class Transformation {
   Offset masters_in(Index p) const {
     Offset out = 0;
     for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k)
-      if (const Index s = slave_[A_.column[k]]; s >= 0) out += jumps_.row[s + 1] - jumps_.row[s];
+      if (const Index s = slave_[A_.column[k]]; s >= 0) out += rows_.row[s + 1] - rows_.row[s];
     return out;
   }
 
@@ -127,14 +150,14 @@ class Transformation {
     columns_.clear();
     values_.clear();
     place(p);  // the diagonal comes first
-    for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k) add_through(A_.column[k], A_.at(k));
+    if (slave_[p] < 0)
+      for (Offset k = A_.row[p]; k < A_.row[p + 1]; ++k) add_through(A_.column[k], A_.at(k));
     for (Offset j = first_[p]; j < first_[p + 1]; ++j) {
-      const auto [s, weight] = pairs_[j];
-      const Index of = jumps_.vector[s];
+      const auto [s, at] = pairs_[j];
+      const Index of = vector_[s];
       for (Offset k = A_.row[of]; k < A_.row[of + 1]; ++k) {
         double M[B * B];
-        block::transposed_multiply<B>(projector(s), A_.at(k), M);
-        for (double& m : M) m *= weight;
+        block::transposed_multiply<B>(rows_.at(at), A_.at(k), M);
         add_through(A_.column[k], M);
       }
     }
@@ -150,18 +173,19 @@ class Transformation {
 
   /// Adds M Z_q. to the row.
   void add_through(Index q, const double* M) {
-    add(q, M, 1);
     const Index s = slave_[q];
-    if (s < 0) return;
-    double MP[B * B];
-    block::multiply<B>(M, projector(s), MP);
-    for (Offset k = jumps_.row[s]; k < jumps_.row[s + 1]; ++k) add(jumps_.column[k], MP, jumps_.weight[k]);
+    if (s < 0) return add(q, M);
+    for (Offset k = rows_.row[s]; k < rows_.row[s + 1]; ++k) {
+      double MW[B * B];
+      block::multiply<B>(M, rows_.at(k), MW);
+      add(rows_.column[k], MW);
+    }
   }
 
-  void add(Index q, const double* M, double factor) {
+  void add(Index q, const double* M) {
     const Offset at = place(q) * B * B;
     double* value = values_.data() + at;
-    for (int i = 0; i < B * B; ++i) value[i] += factor * M[i];
+    for (int i = 0; i < B * B; ++i) value[i] += M[i];
   }
 
   Offset place(Index q) {
@@ -173,12 +197,11 @@ class Transformation {
     return place_[q];
   }
 
-  const double* projector(Index s) const { return jumps_.project.data() + Offset{s} * B * B; }
-
-  const Jumps<B>& jumps_;
+  const BlockRows<B>& rows_;
+  const std::vector<Index>& vector_;
   BlockMatrix<B>& A_;
-  const std::vector<Index> slave_;  // per vector its number among the slaves, -1: none
-  std::vector<Offset> first_;       // per vector: where the slaves that it is a master of begin
+  const std::vector<Index> slave_;  // per vector the number of its row, -1: that of the identity
+  std::vector<Offset> first_;       // per vector: where the rows that it is a column of begin
   std::vector<Pair> pairs_;
   std::vector<Index> place_;  // per vector: its block in the row at work, -1: none
   std::vector<Index> columns_;
@@ -194,7 +217,7 @@ class WeightRow {
   explicit WeightRow(Index columns) : place_(static_cast<std::size_t>(columns), -1) {}
 
   /// Adds factor * M.
-  void add(Index column, double factor, const Block& M) {
+  void add(Index column, double factor, const double* M) {
     if (place_[column] < 0) {
       place_[column] = static_cast<Index>(entries_.size());
       entries_.emplace_back(column, Block{});
@@ -245,10 +268,11 @@ class JumpInterpolation {
     out.column.reserve(P_.column.size());
     out.block.reserve(P_.column.size() * B * B);
     for (Index p = 0; p < P_.fine(); ++p) {
-      add_displacement(p, 1, identity());
       if (const Index s = fine_slave_[p]; s >= 0)
-        for (Offset j = fine_.row[s]; j < fine_.row[s + 1]; ++j)
-          add_displacement(fine_.column[j], -fine_.weight[j], projector(fine_, s));
+        for (Offset j = fine_.inverse.row[s]; j < fine_.inverse.row[s + 1]; ++j)
+          add_displacement(fine_.inverse.column[j], fine_.inverse.at(j));
+      else
+        add_displacement(p, identity().data());
       row_.take(out);
     }
     return out;
@@ -261,23 +285,19 @@ class JumpInterpolation {
     return out;
   }
 
-  static Block projector(const Jumps<B>& jumps, Index s) {
-    Block out;
-    std::copy_n(jumps.project.data() + Offset{s} * B * B, B * B, out.begin());
-    return out;
-  }
-
-  /// Adds factor * M times the displacement of the fine vector p.
-  void add_displacement(Index p, double factor, const Block& M) {
+  /// Adds M times the displacement of the fine vector p.
+  void add_displacement(Index p, const double* M) {
     for (Offset k = P_.row[p]; k < P_.row[p + 1]; ++k) {
-      const double weight = factor * P_.weight[k];
-      row_.add(P_.column[k], weight, M);
       const Index s = coarse_slave_[P_.column[k]];
-      if (s < 0) continue;
-      Block MP;
-      block::multiply<B>(M.data(), coarse_.project.data() + Offset{s} * B * B, MP.data());
-      for (Offset j = coarse_.row[s]; j < coarse_.row[s + 1]; ++j)
-        row_.add(coarse_.column[j], weight * coarse_.weight[j], MP);
+      if (s < 0) {
+        row_.add(P_.column[k], P_.weight[k], M);
+        continue;
+      }
+      for (Offset j = coarse_.basis.row[s]; j < coarse_.basis.row[s + 1]; ++j) {
+        Block MW;
+        block::multiply<B>(M, coarse_.basis.at(j), MW.data());
+        row_.add(coarse_.basis.column[j], P_.weight[k], MW.data());
+      }
     }
   }
 
@@ -291,43 +311,38 @@ class JumpInterpolation {
 
 template <int B>
 void to_displacements(const Jumps<B>& jumps, std::vector<double>& x) {
-  for (Index s = 0; s < jumps.size(); ++s) {
-    const std::array<double, B> sum = projected(jumps, s, x);
-    for (int i = 0; i < B; ++i) x[Offset{jumps.vector[s]} * B + i] += sum[i];
-  }
+  change(jumps.vector, jumps.basis, x);
 }
 
 template <int B>
 void to_jumps(const Jumps<B>& jumps, std::vector<double>& u) {
-  for (Index s = 0; s < jumps.size(); ++s) {
-    const std::array<double, B> sum = projected(jumps, s, u);
-    for (int i = 0; i < B; ++i) u[Offset{jumps.vector[s]} * B + i] -= sum[i];
-  }
+  change(jumps.vector, jumps.inverse, u);
 }
 
 template <int B>
 void transform_forces(const Jumps<B>& jumps, std::vector<double>& b) {
-  for (Index s = 0; s < jumps.size(); ++s) {
-    double force[B];
-    block::transposed_product<B>(jumps.project.data() + Offset{s} * B * B, b.data() + Offset{jumps.vector[s]} * B,
-                                 force);
-    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
-      for (int i = 0; i < B; ++i) b[Offset{jumps.column[k]} * B + i] += jumps.weight[k] * force[i];
-  }
+  change_forces(jumps.vector, jumps.basis, b);
 }
 
-// No master's vector is a slave's one: what is added needs no transformation of its own.
+template <int B>
+void transform_forces_back(const Jumps<B>& jumps, std::vector<double>& b) {
+  change_forces(jumps.vector, jumps.inverse, b);
+}
+
 template <int B>
 void transform_row(const Jumps<B>& jumps, VectorRow<B>& c) {
   const VectorRow<B> of_displacements = c;
+  for (const auto& [p, value] : of_displacements)
+    if (std::ranges::binary_search(jumps.vector, p)) c.erase(p);
   for (const auto& [p, value] : of_displacements) {
-    const auto at = std::lower_bound(jumps.vector.begin(), jumps.vector.end(), p);
+    const auto at = std::ranges::lower_bound(jumps.vector, p);
     if (at == jumps.vector.end() || *at != p) continue;
     const auto s = at - jumps.vector.begin();
-    double through[B];
-    block::transposed_product<B>(jumps.project.data() + s * B * B, value.data(), through);
-    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
-      for (int i = 0; i < B; ++i) c[jumps.column[k]][i] += jumps.weight[k] * through[i];
+    for (Offset k = jumps.basis.row[s]; k < jumps.basis.row[s + 1]; ++k) {
+      double through[B];
+      block::transposed_product<B>(jumps.basis.at(k), value.data(), through);
+      for (int i = 0; i < B; ++i) c[jumps.basis.column[k]][i] += through[i];
+    }
   }
 }
 
@@ -346,13 +361,14 @@ Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fin
   return JumpInterpolation<B>(prolongation, fine, coarse).product();
 }
 
-#define SIGNORINI_INSTANTIATE(B)                                         \
-  template void to_displacements(const Jumps<B>&, std::vector<double>&); \
-  template void to_jumps(const Jumps<B>&, std::vector<double>&);         \
-  template void transform_forces(const Jumps<B>&, std::vector<double>&); \
-  template void transform_row<B>(const Jumps<B>&, VectorRow<B>&);        \
-  template void transform(const Jumps<B>&, BlockMatrix<B>&);             \
-  template void reserve_couplings(const Jumps<B>&, BlockMatrix<B>&);     \
+#define SIGNORINI_INSTANTIATE(B)                                              \
+  template void to_displacements(const Jumps<B>&, std::vector<double>&);      \
+  template void to_jumps(const Jumps<B>&, std::vector<double>&);              \
+  template void transform_forces(const Jumps<B>&, std::vector<double>&);      \
+  template void transform_forces_back(const Jumps<B>&, std::vector<double>&); \
+  template void transform_row<B>(const Jumps<B>&, VectorRow<B>&);             \
+  template void transform(const Jumps<B>&, BlockMatrix<B>&);                  \
+  template void reserve_couplings(const Jumps<B>&, BlockMatrix<B>&);          \
   template Prolongation between_jumps(const Prolongation&, const Jumps<B>&, const Jumps<B>&);
 SIGNORINI_INSTANTIATE(1)
 SIGNORINI_INSTANTIATE(2)

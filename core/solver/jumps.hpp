@@ -9,22 +9,31 @@
 
 namespace signorini {
 
-/// A change of basis that makes contact between bodies local (Wohlmuth and Krause, SIAM J. Sci. Comput. 25, 2003):
-/// where one body, the slave, may touch another one, its unknowns are jumps. With the displacements u and the unknowns
-/// x
+/// Rows of blocks, row-major: the s-th one is out = sum_k weight_k x_{column_k}.
+template <int B>
+struct BlockRows {
+  std::vector<Offset> row{0};
+  std::vector<Index> column;   ///< ascending in a row
+  std::vector<double> weight;  ///< B * B per column
+
+  const double* at(Offset k) const { return weight.data() + k * B * B; }
+  bool operator==(const BlockRows&) const = default;
+};
+
+/// A change of basis that makes conditions between nodes local: u = Z x with the displacements u and the unknowns x.
+/// Rows of Z and of its inverse are those of the identity but at the vectors that are listed here. Contact between
+/// bodies (Wohlmuth and Krause, SIAM J. Sci. Comput. 25, 2003) has jumps as unknowns,
 ///
-///     u_p = x_p + P_p sum_q w_pq x_q      at the vectors p of the slave's side,    u_p = x_p    elsewhere,
+///     u_p = x_p + sum_q W_pq u_q      at the vectors p of the slave's side,
 ///
-/// in short u = Z x. The sum is the mortar projection of the master's displacements, and the projector P_p leaves out
-/// of it what is prescribed at p. No vector of the sums is one of the slave's side, so that Z^-1 subtracts what Z adds.
-/// All is in global coordinates: frames come after it.
+/// where the sum is the mortar projection of the master's displacements, without what is prescribed at p. What holds
+/// bodies together prescribes jumps. All is in global coordinates: frames come after it.
 template <int B>
 struct Jumps {
-  std::vector<Index> vector;    ///< those of the slave's side, ascending
-  std::vector<Offset> row{0};   ///< one more than these: where their weights begin
-  std::vector<Index> column;    ///< q
-  std::vector<double> weight;   ///< w, one per column
-  std::vector<double> project;  ///< P, B * B per vector
+  std::vector<Index> vector;  ///< ascending
+  BlockRows<B> basis;         ///< Z there: u_p by unknowns
+  BlockRows<B> inverse;       ///< Z^-1 there: x_p by displacements
+  std::vector<char> given;    ///< per vector: its rows have nothing to do with those of vectors where this is not so
 
   Index size() const { return static_cast<Index>(vector.size()); }
   bool operator==(const Jumps&) const = default;
@@ -36,9 +45,11 @@ void to_displacements(const Jumps<B>& jumps, std::vector<double>& x);
 template <int B>
 void to_jumps(const Jumps<B>& jumps, std::vector<double>& u);
 
-/// Forces: b <- Z'b. Those on the slave's side stay what they are, the master's gets the counterforces.
+/// Forces: b <- Z'b, and back. Those on the slave's side stay what they are, the master's gets the counterforces.
 template <int B>
 void transform_forces(const Jumps<B>& jumps, std::vector<double>& b);
+template <int B>
+void transform_forces_back(const Jumps<B>& jumps, std::vector<double>& b);
 
 /// Coefficients of some vectors, by vector.
 template <int B>
@@ -54,9 +65,7 @@ void transform(const Jumps<B>& jumps, BlockMatrix<B>& A);
 template <int B>
 void reserve_couplings(const Jumps<B>& jumps, BlockMatrix<B>& A);
 
-/// Interpolation between unknowns, Z_fine^-1 P Z_coarse. At slave vectors whose coarse ones are on the slave's side as
-/// well it takes jumps to be interpolated from jumps alone, which leaves out by how much the master's displacements are
-/// projected otherwise on the two meshes: then what is admissible below is so above.
+/// Interpolation between unknowns, Z_fine^-1 P Z_coarse.
 template <int B>
 Prolongation between_jumps(const Prolongation& prolongation, const Jumps<B>& fine, const Jumps<B>& coarse);
 

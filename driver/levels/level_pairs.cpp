@@ -104,7 +104,7 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
     bool moved = false;
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
-      if (!term.other || !term.renew) continue;
+      if (!term.other || !term.renew || term.tied) continue;
       Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
       if (slip.length == 0 && shift[k] != Point<B>{}) {  // past each other's ends: how far tells where they began
         const Pairs first = pair_bodies<D>(nodes, model, collect_fixes(nodes, model));

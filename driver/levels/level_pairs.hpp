@@ -21,8 +21,8 @@ class LevelPairs {
   /// From now on this is the coarsest mesh that is a level. Interpolation between meshes knows no jumps.
   void begin_at(std::size_t first);
 
-  /// Of a new model all that may touch; to be called where is_paired(). In the first load step as the undeformed bodies
-  /// lie to each other. Where nothing but gaps is new unknowns stay what they are.
+  /// Of a new model all that may touch; to be called where changes_unknowns(). In the first load step as the undeformed
+  /// bodies lie to each other. Where nothing but gaps is new unknowns stay what they are.
   /// @return whether they stay
   bool find(const Model<B>& model);
 
@@ -63,7 +63,9 @@ class LevelPairs {
   const Pairs& at(std::size_t level) const { return levels_[level].pairs; }
 
   /// Whether a solution is to choose among all.
-  bool may_narrow(std::size_t level) const { return levels_[level].all_pairs && held_; }
+  bool may_narrow(std::size_t level) const {
+    return levels_[level].all_pairs && !levels_[level].all_pairs->nodes.empty() && held_;
+  }
   /// Jumps are where a displacement of that mesh nearly touches, or one of the next coarser mesh does; and, as long as
   /// these are most of them, where they were in the last solve.
   /// @return whether they are at other nodes now

@@ -17,6 +17,16 @@ std::vector<Index> bodies(const Nodes<D>& nodes) {
   return out;
 }
 
+/// Unknowns that are the motion of a rigid part are no displacements: each is a part of its own, which coarse levels
+/// keep.
+template <int B>
+void isolate_motions(const Jumps<B>& jumps, std::vector<Index>& part) {
+  const BlockRows<B>& rows = jumps.basis;
+  for (Index k = 0; k < jumps.size(); ++k)
+    for (Offset j = rows.row[k]; j < rows.row[k + 1] && jumps.given[k]; ++j)
+      if (rows.column[j] != jumps.vector[k]) part[rows.column[j]] = -1 - rows.column[j];
+}
+
 /// Each body moves by itself, for no more than contact couples it to others. In terms of unknowns a slave that moves
 /// alone has its motion at all its nodes, and with its master none on the side that faces it: either is made of the
 /// motion of the body and of that of the side, which is a part of its own for each master.
@@ -25,8 +35,14 @@ std::vector<Index> parts(const Nodes<D>& nodes, const Jumps<B>& jumps) {
   const std::vector<Index> body = bodies(nodes);
   const Index many = std::ranges::max(body) + 1;
   std::vector<Index> out = body;
-  for (Index k = 0; k < jumps.size(); ++k)
-    if (jumps.row[k] < jumps.row[k + 1]) out[jumps.vector[k]] += many * (1 + body[jumps.column[jumps.row[k]]]);
+  const BlockRows<B>& rows = jumps.inverse;
+  isolate_motions(jumps, out);
+  for (Index k = 0; k < jumps.size(); ++k) {
+    const Index p = jumps.vector[k];
+    if (jumps.given[k]) continue;
+    for (Offset j = rows.row[k]; j < rows.row[k + 1] && out[p] == body[p]; ++j)
+      if (rows.column[j] != p) out[p] += many * (1 + body[rows.column[j]]);
+  }
   return out;
 }
 

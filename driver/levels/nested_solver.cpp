@@ -176,7 +176,7 @@ void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBo
 /// Where bodies may touch each other.
 template <int D, int B>
 void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
-  if (D != B || !is_paired(model)) return;
+  if (D != B || !changes_unknowns(model)) return;
   const Stopwatch watch;
   if (!pairs_.find(model)) drop_algebraic_levels();
   times_.setup += watch.elapsed();
@@ -376,7 +376,7 @@ template <int D, int B>
 bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solution<B>>& solution) {
   const std::size_t finest = levels_.size() - 1;
   const MeshLevel<D, B>& here = levels_[finest];
-  if (options_.start != "nested" || here.before.u.empty() || pairs_.given() || is_paired(model)) return false;
+  if (options_.start != "nested" || here.before.u.empty() || pairs_.given() || changes_unknowns(model)) return false;
   solution = discretize_level(model, finest);
   const DiscreteProblem<B>& problem = solution->discretization.problem;
   if (here.changed || here.pressure_space || !solution->discretization.functional.empty()) return false;

@@ -24,6 +24,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, 0, unknown});
   ContactReport report;
   report.nodes = contact.nodes;
+  report.tied = contact.tied;
   report.area = contact.area;
   report.force = list(contact.force);
   report.max_pressure = contact.max_pressure;
@@ -114,6 +115,8 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
     };
     for (const ContactNode<B>& node : results.contact.nodes)
       add(node.vertex, node.obstacle, node.force, results.slaves[node.obstacle].exchanged);
+    for (const TieForce<B>& tie : results.ties)
+      add(tie.node, tie.obstacle, tie.force, results.slaves[tie.obstacle].exchanged);
     for (const NodalForce<B>& back : results.counterforces)
       add(back.node, back.obstacle, back.force, back.on_slave == results.slaves[back.obstacle].exchanged);
   }
@@ -142,13 +145,14 @@ void add_reachable(const Results<D, B>& results, std::vector<ContactReport>& rep
   std::vector<double> area(reports.size());
   std::vector<Index> last(reports.size(), -1), count(reports.size());  // a node has an entry for each direction
   for (ContactReport& report : reports) report.displacement.resize(B);
-  for (const ContactNode<B>& node : results.contact.nodes) {
-    ContactReport& report = reports[node.obstacle];
-    count[node.obstacle] += last[node.obstacle] != node.vertex;
-    last[node.obstacle] = node.vertex;
-    area[node.obstacle] += node.area;
-    for (int i = 0; i < B; ++i) report.displacement[i] += node.area * results.u[std::size_t(node.vertex) * B + i];
-  }
+  const auto add = [&](Index obstacle, Index node, double of_node) {
+    count[obstacle] += last[obstacle] != node;
+    last[obstacle] = node;
+    area[obstacle] += of_node;
+    for (int i = 0; i < B; ++i) reports[obstacle].displacement[i] += of_node * results.u[std::size_t(node) * B + i];
+  };
+  for (const ContactNode<B>& node : results.contact.nodes) add(node.obstacle, node.vertex, node.area);
+  for (const TieForce<B>& tie : results.ties) add(tie.obstacle, tie.node, tie.area);
   for (std::size_t k = 0; k < reports.size(); ++k) reports[k].open_nodes = count[k] - reports[k].nodes;
   for (std::size_t k = 0; k < reports.size(); ++k)
     for (double& u : reports[k].displacement) u = area[k] > 0 ? u / area[k] : 0;

@@ -91,6 +91,7 @@ StepReport merged(const Scene& scene, std::vector<StepReport> bodies) {
     append(all.applied, std::move(next->applied));
     append(all.reactions, std::move(next->reactions));
     append(all.springs, std::move(next->springs));
+    append(all.rigid, std::move(next->rigid));
     append(all.balance, std::move(next->balance));
     append(all.bodies, std::move(next->bodies));
     append(all.undetermined, std::move(next->undetermined));
@@ -99,6 +100,7 @@ StepReport merged(const Scene& scene, std::vector<StepReport> bodies) {
   std::ranges::sort(all.applied, {}, &ForceReport::number);
   std::ranges::sort(all.reactions, {}, &ForceReport::number);
   std::ranges::sort(all.springs, {}, &ForceReport::number);
+  std::ranges::sort(all.rigid, {}, &RigidReport::number);
   std::ranges::sort(all.probes, {}, [&](const ProbeReport& probe) {
     return std::ranges::find(scene.probes, probe.name, &Scene::Probe::name) - scene.probes.begin();
   });

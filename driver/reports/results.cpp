@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/rounding.hpp"
 #include "core/fem/assembly/springs.hpp"
@@ -13,6 +14,7 @@
 #include "core/fem/elements/select_nodes.hpp"
 #include "core/fem/recovery/between_nodes.hpp"
 #include "core/fem/recovery/cut_faces.hpp"
+#include "core/fem/recovery/ties.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/reports/contact_report.hpp"
@@ -30,14 +32,18 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
                     {},
                     {},
                     solution.pressure,
+                    rigid_motions(model, solution.discretization, solution.x),
+                    {},
                     {},
                     {},
                     std::move(slaves),
                     std::move(shift),
                     conditions_across(nodes, model)};
   out.slaves.resize(model.obstacles.size());
-  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact);
+  out.ties = tie_forces(nodes, model, solution.discretization, solution.x);
+  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact, out.ties);
   out.masters = master_side(nodes, model, out.counterforces, out.u);
+  sum_up(out.ties, out.contact.obstacles);
   const auto back = totals(out.counterforces, model.obstacles.size(), true);
   const auto along = totals(out.counterforces, model.obstacles.size(), true, &NodalForce<B>::tangential);
   for (std::size_t k = 0; k < back.size(); ++k)
@@ -48,6 +54,11 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   out.forces = forces(model, solution.discretization, out.contact, solution.x);
   out.forces.springs = spring_forces(nodes, model, out.u);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+    if (model.obstacles[k].tied) {
+      out.deformed.emplace_back();
+      out.between_nodes.push_back(std::numeric_limits<double>::quiet_NaN());
+      continue;
+    }
     out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
     out.between_nodes.push_back(violation_between_nodes(nodes, model, k, out.contact, out.u));
   }
@@ -102,6 +113,20 @@ std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
   return reports;
 }
 
+template <int B>
+std::vector<RigidReport> rigid_reports(const std::vector<int>& numbers, const std::vector<RigidMotion<B>>& motions) {
+  std::vector<RigidReport> reports;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    const RigidMotion<B>& motion = motions[k];
+    const auto list = [](const auto& array) { return std::vector<double>(array.begin(), array.end()); };
+    RigidReport& report =
+        reports.emplace_back(RigidReport{numbers[k], list(motion.point), list(motion.displacement),
+                                         list(motion.rotation), list(motion.applied), list(motion.torque)});
+    for (int i = 0; i < B; ++i) report.force[i] += motion.reaction[i];
+  }
+  return reports;
+}
+
 /// Adds the forces of the tables that belong to a body; numbers[k] is the table of forces[k].
 template <int B, class Table>
 void add_forces(const std::vector<std::array<double, B>>& forces, const std::vector<int>& numbers,
@@ -132,6 +157,12 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
                   balance.reactions);
     add_forces<B>(forces.springs, numbers_of(scene.springs, body), scene.springs, &Scene::Spring::body, name,
                   balance.reactions);
+    const std::vector<int> rigids = numbers_of(scene.rigids, body);
+    for (std::size_t k = 0; k < results.rigid.size(); ++k)
+      for (int i = 0; i < B && scene.rigids[rigids[k]].body == name; ++i) {
+        balance.applied[i] += results.rigid[k].applied[i];
+        balance.reactions[i] += results.rigid[k].reaction[i];
+      }
     add_forces<B>(contact.on_body, obstacles, scene.obstacles, &Scene::Obstacle::body, name, balance.contact);
     add_forces<B>(contact.on_other, obstacles, scene.obstacles, &Scene::Obstacle::other, name, balance.contact);
     for (std::vector<double>* sum : {&balance.applied, &balance.reactions, &balance.contact}) *sum = whole.total(*sum);
@@ -174,6 +205,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
   report.springs = force_reports<B>(numbers_of(scene.springs, body), forces.springs, mirrors, results.across.springs);
+  report.rigid = rigid_reports(numbers_of(scene.rigids, body), results.rigid);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
                     plane_names(mirrors), whole.copies(), body.order, body.order_chosen}};

@@ -10,6 +10,7 @@
 #include "core/fem/recovery/forces.hpp"
 #include "core/fem/recovery/master_side.hpp"
 #include "core/fem/recovery/rigid_gap.hpp"
+#include "core/fem/recovery/rigid_motion.hpp"
 #include "core/io/warning.hpp"
 #include "driver/levels/nested_solver.hpp"
 #include "driver/scene/symmetry.hpp"
@@ -25,6 +26,8 @@ struct Results {
   std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
   std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
+  std::vector<RigidMotion<B>> rigid;                     ///< as those of the model
+  std::vector<TieForce<B>> ties;                         ///< tie_forces()
   std::vector<NodalForce<B>> counterforces;              ///< see there
   std::vector<ContactNode<B>> masters;                   ///< master_side()
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model

@@ -14,6 +14,7 @@
 #include "core/mesh/mirror.hpp"
 #include "core/scene/rigid_shape.hpp"
 #include "core/scene/specs.hpp"
+#include "core/sdk/tying.hpp"
 #include "driver/scene/materials.hpp"
 #include "driver/scene/numbers.hpp"
 #include "driver/scene/touching_bodies.hpp"
@@ -125,6 +126,17 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
 }
 
+/// Of a tie; nothing where bodies may part.
+template <int B>
+std::optional<double> adjust(const Scene::Obstacle& scene, const Obstacle<B>& obstacle) {
+  const auto* tying = dynamic_cast<const Tying*>(&obstacle);
+  if (!tying) return {};
+  for (const char* key : {"resolve", "renew"})
+    if (scene.source.given(key))
+      input_error(scene.source.of(key), fmt::format("'{}' has no meaning where bodies are tied to each other", key));
+  return tying->adjust();
+}
+
 template <int B>
 LocalFrame<B> frame(Frame kind, const Scene::FrameAxis& axis) {
   LocalFrame<B> out = kind;
@@ -189,6 +201,20 @@ Resultant<B> resultant(const Scene::Load& given) {
 }
 
 template <int B>
+RigidPart<B> rigid_part(const Scene::Body& body, const Scene::Rigid& given) {
+  RigidPart<B> result{on_mesh_of(body, given.body, given.on), {}, {}, {}, {}, {}};
+  if (!given.point.empty()) std::copy_n(given.point.begin(), B, result.point.emplace().begin());
+  const auto take = [](const auto& from, auto& to) {
+    std::copy_n(from.begin(), std::min(from.size(), to.size()), to.begin());
+  };
+  take(given.displacement, result.displacement);
+  take(given.rotation, result.rotation);
+  take(given.force, result.force);
+  take(given.torque, result.torque);
+  return result;
+}
+
+template <int B>
 Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& given) {
   Load<B> result{given.on, {}};
   std::ranges::copy(given.value, result.value.begin());
@@ -227,6 +253,8 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   for (const int k : numbers_of(scene.fixes, body)) model.fixes.push_back(fix<B>(body, scene.fixes[k]));
   for (const int k : numbers_of(scene.loads, body)) model.loads.push_back(load<B>(scene, body, scene.loads[k]));
   for (const int k : numbers_of(scene.springs, body)) model.springs.push_back(spring<B>(body, scene.springs[k]));
+  if constexpr (B > 1)
+    for (const int k : numbers_of(scene.rigids, body)) model.rigid.push_back(rigid_part<B>(body, scene.rigids[k]));
   for (const int k : numbers_of(scene.obstacles, body)) {
     const Scene::Obstacle& obstacle = scene.obstacles[k];
     ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, step));
@@ -238,6 +266,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     term.pairing = obstacle.pairing;
     term.resolve = obstacle.resolve;
     term.renew = obstacle.renew;
+    term.tied = adjust<B>(obstacle, *term.obstacle);
   }
   return model;
 }

@@ -42,6 +42,7 @@ void add_joints(const Mesh<D>& mesh, const std::string& place, Warnings& warning
 std::vector<Selection> selections(const Scene& scene, const Scene::Body& body) {
   std::vector<Selection> all;
   for (const int k : numbers_of(scene.fixes, body)) all.push_back(scene.fixes[k].on);
+  for (const int k : numbers_of(scene.rigids, body)) all.push_back(scene.rigids[k].on);
   for (const int k : numbers_of(scene.loads, body))
     if (scene.loads[k].on) all.push_back(*scene.loads[k].on);
   for (const int k : numbers_of(scene.springs, body)) all.push_back(scene.springs[k].on);

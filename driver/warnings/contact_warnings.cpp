@@ -12,6 +12,7 @@
 #include "core/fem/elements/select.hpp"
 #include "core/fem/motions/mean_turn.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
+#include "core/fem/pairs/tied_sides.hpp"
 #include "core/geometry/smooth_boundary.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/chords.hpp"
@@ -123,11 +124,16 @@ Warnings pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
       if (!term.other) continue;
       const PairedFaces faces = paired_faces(nodes.mesh(), term, model.t);
       const MortarCoupling<D> coupling = couple_sides(nodes, model, term, faces.slave, faces.master);
+      if (term.tied) {
+        const WidestGap<D> gap = widest_gap(nodes, coupling, faces.slave);
+        if (gap.width > gap.touching) warnings.push_back(warning<"tied-apart">(term.origin, gap.width));
+        continue;
+      }
       if (coupling.nodes() == 0) warnings.push_back(warning<"not-facing">(term.origin));
       const std::vector<FixedDirections<D>> fixes = collect_fixes<D, D>(nodes, model);
       const PrescribedNodes fixed = prescribed_nodes(nodes, fixes, coupling);
       Index lost = fixed.normal;
-      if (term.obstacle->functional()) couple_sides_with_friction<D>(nodes, model, term, faces, fixes, {}, &lost);
+      if (term.obstacle->functional()) couple_whole_jumps<D>(nodes, model, term, faces, fixes, {}, {}, &lost);
       if (lost > 0 && fixed.normal > 0 && fixed.normal < fixed.all)
         warnings.push_back(warning<"prescribed-slave">(term.origin, fixed.normal, fixed.all,
                                                        "normal: nothing keeps the other body off them"));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <tuple>
 
@@ -20,6 +21,7 @@
 #include "core/fem/elements/element.hpp"
 #include "core/fem/model/same.hpp"
 #include "core/fem/pairs/paired_bodies.hpp"
+#include "core/fem/pairs/rigid_parts.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/polyhedral_box.hpp"
@@ -78,6 +80,7 @@ class Discretizer {
         bounds_(collect_bounds(nodes, model, functionals_, pairing_.get())),
         combiner_(nodes, model, bounds_, fixes_) {
     if (pairing_) {
+      hold_pairs();
       problem().jumps = pairing_->jumps;
       out_.pairs = pairing_;
       refuse_other_bounds();
@@ -163,7 +166,11 @@ class Discretizer {
     return true;
   }
 
-  void assemble_load() { out_.load = load_vector<D, B>(nodes_, model_, &out_.applied); }
+  void assemble_load() {
+    out_.load = load_vector<D, B>(nodes_, model_, &out_.applied);
+    if constexpr (D == B)
+      if (pairing_) add_rigid_loads<D>(nodes_, model_, *pairing_, out_.load);
+  }
 
   void place_load() {
     problem().b = local_forces(problem(), out_.load);
@@ -396,18 +403,39 @@ class Discretizer {
     }
   }
 
+  /// What is rigid moves by the motion of its point, and what is tied has no jump.
+  void hold_pairs() {
+    if constexpr (D == B)
+      if (!pairing_->rigid.empty()) signorini::hold<D>(nodes_, model_, pairing_->rigid, fixes_);
+    if (pairing_->ties.empty()) return;
+    std::map<Index, FixedDirections<B>> held;
+    for (const FixedDirections<B>& fixed : fixes_) held.emplace(fixed.vertex, fixed);
+    for (const TiedNode& node : pairing_->ties)
+      held.try_emplace(node.node, FixedDirections<B>{.vertex = node.node})
+          .first->second.hold_rest(by_tie(node.obstacle));
+    fixes_.clear();
+    for (const auto& [node, fixed] : held) fixes_.push_back(fixed);
+  }
+
   /// A bound of what one body does is none of a jump.
   void refuse_other_bounds() const {
+    const auto is_taken = [&](Index p) {
+      const auto has = [&](const RigidNodes<B>& part) { return std::ranges::binary_search(part.nodes, p); };
+      return std::ranges::binary_search(pairing_->jumps->vector, p) || std::ranges::any_of(pairing_->rigid, has);
+    };
     for (const Bound<B>& bound : bounds_)
-      if (!model_.obstacles[bound.obstacle].other && std::ranges::binary_search(pairing_->jumps->vector, bound.vertex))
+      if (!model_.obstacles[bound.obstacle].other && is_taken(bound.vertex))
         input_error(model_.obstacles[bound.obstacle].origin,
-                    fmt::format("acts at ({}), where {} lets the body touch another one, which is not available in "
-                                "this version; expected faces apart from those, or the two bodies of that obstacle "
-                                "exchanged",
+                    fmt::format("acts at ({}), where {} holds, which is not available in this version; expected faces "
+                                "apart from those, or, of two bodies, these exchanged there",
                                 fmt::join(nodes_.at(bound.vertex), ", "), origin_of_pair(bound.vertex)));
   }
 
   const std::string& origin_of_pair(Index node) const {
+    for (std::size_t k = 0; k < pairing_->rigid.size(); ++k)
+      if (std::ranges::binary_search(pairing_->rigid[k].nodes, node)) return model_.rigid[k].on.origin;
+    if (const auto tie = std::ranges::find(pairing_->ties, node, &TiedNode::node); tie != pairing_->ties.end())
+      return model_.obstacles[tie->obstacle].origin;
     const auto found = std::ranges::find(pairing_->nodes, node, &PairedNode<B>::node);
     return model_.obstacles[found->obstacle].origin;
   }

@@ -231,6 +231,16 @@ typename FixedDirections<B>::Found FixedDirections<B>::add(const double* d, doub
 }
 
 template <int B>
+void FixedDirections<B>::hold_rest(Index number) {
+  for (int i = 0; i < B && count < B; ++i) {
+    double axis[B] = {}, prescribed = 0;
+    axis[i] = 1;
+    for (int k = 0; k < count; ++k) prescribed += direction[k][i] * value[k];
+    add(axis, prescribed, number);
+  }
+}
+
+template <int B>
 bool FixedDirections<B>::along_axes() const {
   for (int k = 0; k < count; ++k)
     if (std::count(direction[k], direction[k] + B, 0.0) != B - 1) return false;

@@ -12,7 +12,8 @@ struct FixedDirections {
   int count = 0;
   double direction[B][B] = {};
   double value[B] = {};
-  /// Number in Model::fixes that each comes from, -1: the axis of an axisymmetric body, or a plane of symmetry.
+  /// Number in Model::fixes that each comes from, -1: the axis of an axisymmetric body, or a plane of symmetry; less:
+  /// see by_tie().
   Index fix[B] = {};
 
   /// Adds the condition d . v = v0 (d a unit vector), solved for the part of d that is not yet prescribed. Nothing
@@ -22,9 +23,16 @@ struct FixedDirections {
     double by = 0;   ///< how far its value is from v0
   };
   Found add(const double* d, double v0, Index number);
+  /// Prescribes zero along all that is not prescribed yet.
+  void hold_rest(Index number);
   /// Only coordinate axes.
   bool along_axes() const;
 };
+
+/// Stands in FixedDirections::fix for the tie that is one of a model's obstacles.
+constexpr Index by_tie(Index obstacle) { return -2 - 2 * obstacle; }
+/// The same for a rigid part.
+constexpr Index by_rigid_part(Index part) { return -3 - 2 * part; }
 
 /// Two conditions that contradict each other.
 struct FixConflict {

@@ -20,11 +20,39 @@ struct PairedNode {
   double taken = 0;            ///< what it takes over of nodes that are left out, over its area
 };
 
+/// A node of a slave side that is tied to the master: its jump is prescribed to be zero where no fix holds it.
+struct TiedNode {
+  Index node;
+  Index obstacle;      ///< number in Model::obstacles
+  double covered = 1;  ///< part of the node's area that the master is in front of
+};
+
+/// The nodes of a rigid part, see core/fem/pairs/rigid_parts.hpp.
+template <int B>
+struct RigidNodes {
+  std::vector<Index> nodes;                      ///< ascending
+  std::array<Index, 3> carriers = {-1, -1, -1};  ///< of displacement and rotation, and one that is left over in 3D
+  std::array<double, B> point{};                 ///< that is displaced
+  double length = 1;                             ///< the second carrier has the rotation times that
+};
+
+/// What nodes of slave sides see of the masters in the mean: the sum of w_q u_q in all directions, also those that are
+/// no part of their jumps.
+struct MasterMeans {
+  std::vector<Index> node;     ///< ascending
+  std::vector<Offset> row{0};  ///< node.size() + 1
+  std::vector<Index> column;
+  std::vector<double> weight;
+};
+
 /// The sides of a model's bodies that may touch each other, coupled by mortar on one mesh.
 template <int B>
 struct PairedBodies {
   std::vector<PairedNode<B>> nodes;  ///< of one obstacle after the other, each by ascending node
+  std::vector<TiedNode> ties;        ///< by ascending node
+  std::vector<RigidNodes<B>> rigid;  ///< as Model::rigid
   std::shared_ptr<const Jumps<B>> jumps;
+  std::shared_ptr<const MasterMeans> means;  ///< of all nodes that there are; null: not known
 };
 
 }  // namespace signorini

@@ -80,6 +80,20 @@ struct Spring {
   LocalFrame<B> frame = {};
 };
 
+/// Faces that move as a rigid body does: by a displacement of one point and a rotation about it. Each component is
+/// prescribed, or free and moved by a force, a torque.
+template <int B>
+struct RigidPart {
+  static constexpr int rotations = B * (B - 1) / 2;  ///< about z in 2D
+
+  Selection on;
+  std::optional<std::array<double, B>> point;  ///< nothing: the centroid of the faces, each with its undeformed area
+  std::array<std::optional<Field>, B> displacement;
+  std::array<std::optional<Field>, rotations> rotation;  ///< in radians
+  std::array<Field, B> force;
+  std::array<Field, rotations> torque;
+};
+
 /// Of two bodies that may touch each other the one that is to be the slave.
 enum class Slave { automatic, body, other };
 
@@ -102,6 +116,8 @@ struct ObstacleTerm {
   Pairing pairing = Pairing::normal;
   bool resolve = false;  ///< they may overlap however deep at the start
   bool renew = true;     ///< they find each other where the last load step has moved them to
+  /// Of bodies that are tied to each other how far apart they may be at the start, see Tying; nothing: they may part.
+  std::optional<double> tied = {};
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
@@ -115,6 +131,7 @@ struct Model {
   std::vector<Load<B>> loads;
   std::vector<Spring<B>> springs;
   std::vector<ObstacleTerm<B>> obstacles;
+  std::vector<RigidPart<B>> rigid;
   double t = 1;                 ///< step parameter
   bool follows = false;         ///< another load step: friction counts from the solution of the last one
   std::string origin = "body";  ///< of the body, for messages: "scene.toml:3: body.0"
@@ -124,6 +141,12 @@ struct Model {
 template <int B>
 bool is_paired(const Model<B>& model) {
   return std::ranges::any_of(model.obstacles, [](const ObstacleTerm<B>& term) { return term.other.has_value(); });
+}
+
+/// Whether some unknowns are no displacements.
+template <int B>
+bool changes_unknowns(const Model<B>& model) {
+  return is_paired(model) || !model.rigid.empty();
 }
 
 }  // namespace signorini

@@ -42,6 +42,14 @@ bool same_springs(const Model<B>& a, const Model<B>& b) {
                     [&](const Spring<B>& x, const Spring<B>& y) { return same(x, a.t, y, b.t); });
 }
 
+/// Their loads, and what these act on.
+template <int B>
+bool same(const RigidPart<B>& a, double ta, const RigidPart<B>& b, double tb) {
+  const auto alike = [&](const Field& x, const Field& y) { return x.same(ta, y, tb); };
+  return same(a.on, ta, b.on, tb) && a.point == b.point && std::ranges::equal(a.force, b.force, alike) &&
+         std::ranges::equal(a.torque, b.torque, alike);
+}
+
 }  // namespace
 
 template <int B>
@@ -57,7 +65,9 @@ bool same_stiffness(const Model<B>& a, const Model<B>& b) {
 template <int B>
 bool same_loads(const Model<B>& a, const Model<B>& b) {
   return std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
-                    [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); });
+                    [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); }) &&
+         std::equal(a.rigid.begin(), a.rigid.end(), b.rigid.begin(), b.rigid.end(),
+                    [&](const RigidPart<B>& x, const RigidPart<B>& y) { return same(x, a.t, y, b.t); });
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                  \

@@ -80,47 +80,48 @@ RigidMotions<D, B>::RigidMotions(const Nodes<D>& nodes, Plane plane, std::vector
   }
 }
 
-/// Adds `factor` times how much each mode moves p along d.
+/// Adds how much each mode moves p along d.
 template <int D, int B>
-void RigidMotions<D, B>::add(Index p, const double* d, double factor, Row& row) const {
+void RigidMotions<D, B>::add(Index p, const double* d, Row& row) const {
   const auto number = of_node_.empty() ? 0 : of_node_[p];
   double* shift = row.data() + number * translations;
   if (axial_) {
-    if constexpr (B > 1) shift[1] += factor * d[1];
+    if constexpr (B > 1) shift[1] += d[1];
     return;
   }
-  for (int i = 0; i < translations; ++i) shift[i] += factor * d[i];
+  for (int i = 0; i < translations; ++i) shift[i] += d[i];
   if constexpr (B > 1) {
     double* turn = row.data() + static_cast<int>(bodies_.size()) * translations + number * (modes - translations);
     const Body& body = bodies_[number];
     const Point<D> x = nodes_.control_point(p);
     Point<D> y;
     for (int i = 0; i < D; ++i) y[i] = (x[i] - body.middle[i]) / body.size;
-    if constexpr (D == 2) turn[0] += factor * (y[0] * d[1] - y[1] * d[0]);
+    if constexpr (D == 2) turn[0] += (y[0] * d[1] - y[1] * d[0]);
     if constexpr (D == 3)
-      for (int i = 0; i < 3; ++i)
-        turn[i] += factor * (y[(i + 1) % 3] * d[(i + 2) % 3] - y[(i + 2) % 3] * d[(i + 1) % 3]);
+      for (int i = 0; i < 3; ++i) turn[i] += (y[(i + 1) % 3] * d[(i + 2) % 3] - y[(i + 2) % 3] * d[(i + 1) % 3]);
   }
 }
 
 template <int D, int B>
 auto RigidMotions<D, B>::along(Index p, const double* d) const -> Row {
   Row row = Row::Zero(count());
-  add(p, d, 1, row);
+  add(p, d, row);
   return row;
 }
 
 template <int D, int B>
 auto RigidMotions<D, B>::along(const DiscreteProblem<B>& problem, Index p, const double* d) const -> Row {
-  Row row = along(p, d);
-  if (!problem.jumps) return row;
+  if (!problem.jumps) return along(p, d);
   const Jumps<B>& jumps = *problem.jumps;
   const auto found = std::ranges::lower_bound(jumps.vector, p);
-  if (found == jumps.vector.end() || *found != p) return row;
+  if (found == jumps.vector.end() || *found != p) return along(p, d);
   const Offset s = found - jumps.vector.begin();
-  double projected[B];
-  block::transposed_product<B>(jumps.project.data() + s * B * B, d, projected);
-  for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k) add(jumps.column[k], projected, -jumps.weight[k], row);
+  Row row = Row::Zero(count());
+  for (Offset k = jumps.inverse.row[s]; k < jumps.inverse.row[s + 1]; ++k) {
+    double through[B];
+    block::transposed_product<B>(jumps.inverse.at(k), d, through);
+    add(jumps.inverse.column[k], through, row);
+  }
   return row;
 }
 

@@ -58,7 +58,7 @@ class RigidMotions {
   };
   using One = Eigen::Matrix<double, modes, 1>;
 
-  void add(Index p, const double* d, double factor, Row& row) const;
+  void add(Index p, const double* d, Row& row) const;
   One part(const Motion& motion, std::size_t body) const;
   std::string at(const Body& body, const Point<D>& from_middle) const;
   std::string describe(const Body& body, const One& motion) const;

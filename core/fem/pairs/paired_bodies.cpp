@@ -15,8 +15,11 @@
 #include "core/fem/elements/select.hpp"
 #include "core/fem/pairs/added_gap.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
+#include "core/fem/pairs/rigid_parts.hpp"
+#include "core/fem/pairs/tied_sides.hpp"
 #include "core/mesh/join.hpp"
 #include "core/mesh/mirror.hpp"
+#include "core/solver/jump_builder.hpp"
 
 namespace signorini {
 namespace {
@@ -61,7 +64,30 @@ class Coupler {
         fixes_(fixes),
         shift_(shift),
         slave_of_(nodes.size(), -1),
-        master_of_(nodes.size(), -1) {}
+        master_of_(nodes.size(), -1) {
+    out_.rigid = add_rigid_parts(nodes, model, jumps_);
+    for (const RigidNodes<D>& part : out_.rigid) take(part.nodes);
+  }
+
+  /// Ties come before contact: what is tied touches nothing else any more.
+  void tie(Index obstacle) {
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
+    const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
+    const MortarCoupling<D> found = couple_tied<D>(nodes_, model_, term, faces, fixes_, taken_);
+    const std::size_t before = out_.ties.size();
+    for (Index k = 0; k < found.nodes(); ++k) {
+      const Index p = nodes_.of_vertex(found.node[k]);
+      const BlockRow<D> seen = projected(found, k, onto_free(p));
+      refuse_rigid(p, obstacle);
+      if (jumps_.has(p) || jumps_.leads_to(seen, p)) continue;  // where ties meet the others hold it
+      jumps_.add(p, seen);
+      out_.ties.push_back({p, obstacle, found.covered[k]});
+    }
+    if (out_.ties.size() == before) refuse_untied(term);
+    std::vector<Index> tied;
+    for (std::size_t k = before; k < out_.ties.size(); ++k) tied.push_back(out_.ties[k].node);
+    take(tied);
+  }
 
   void add(Index obstacle) {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle];
@@ -69,42 +95,77 @@ class Coupler {
     const PairedFaces faces = paired_faces(mesh, term, model_.t);
     const std::vector<Point<D>> points = shifted_points(obstacle, faces.slave);
     const MortarCoupling<D> found = term.obstacle->functional()
-                                        ? couple_sides_with_friction<D>(nodes_, model_, term, faces, fixes_, points)
-                                        : couple_sides<D>(nodes_, model_, term, faces.slave, faces.master, points);
+                                        ? couple_whole_jumps<D>(nodes_, model_, term, faces, fixes_, points, taken_)
+                                        : couple_beside<D>(nodes_, model_, term, faces, points, taken_);
     if (shift_.empty() && !term.resolve)
       refuse_deep<D>(mesh, term, deepest_overlap<D>(mesh, term, faces, model_.t, found.deepest));
-    const std::size_t before = rows_.size();
+    const std::size_t before = out_.nodes.size();
     for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
-    if (found.nodes() > 0 && rows_.size() == before)
+    if (taken_.empty() && found.nodes() > 0 && out_.nodes.size() == before)
       input_error(term.origin,
                   "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
                   "the master off them; expected free nodes, or the other body as the slave");
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {
-    std::ranges::sort(rows_, {}, &Row::node);
-    auto jumps = std::make_shared<Jumps<D>>();
-    for (const Row& row : rows_) {
-      jumps->vector.push_back(row.node);
-      jumps->column.insert(jumps->column.end(), row.column.begin(), row.column.end());
-      jumps->weight.insert(jumps->weight.end(), row.weight.begin(), row.weight.end());
-      jumps->row.push_back(static_cast<Offset>(jumps->column.size()));
-      jumps->project.insert(jumps->project.end(), row.project.begin(), row.project.end());
+    std::ranges::sort(out_.ties, {}, &TiedNode::node);
+    std::ranges::sort(seen_, {}, &Seen::node);
+    MasterMeans means;
+    for (const Seen& seen : seen_) {
+      means.node.push_back(seen.node);
+      means.column.insert(means.column.end(), seen.column.begin(), seen.column.end());
+      means.weight.insert(means.weight.end(), seen.weight.begin(), seen.weight.end());
+      means.row.push_back(static_cast<Offset>(means.column.size()));
     }
-    out_.jumps = std::move(jumps);
+    out_.jumps = std::make_shared<const Jumps<D>>(jumps_.take());
+    out_.means = std::make_shared<const MasterMeans>(std::move(means));
     return std::make_shared<const PairedBodies<D>>(std::move(out_));
   }
 
  private:
-  struct Row {
+  struct Seen {  // see MasterMeans
     Index node;
     std::vector<Index> column;
     std::vector<double> weight;
-    std::array<double, D * D> project;
   };
+
+  [[noreturn]] void refuse_untied(const ObstacleTerm<D>& term) const {
+    input_error(term.origin,
+                "ties no node: no face of one body is in front of the other one's and turned towards it, or fixes "
+                "prescribe all that is; expected faces of the two bodies that lie on each other ('on', 'other_on')");
+  }
+
+  /// No other side has these nodes.
+  void take(const std::vector<Index>& nodes) {
+    for (const Index p : nodes) taken_.push_back(nodes_.vertex(p));
+    std::ranges::sort(taken_);
+  }
+
+  /// All around such a node is rigid, too.
+  void refuse_rigid(Index p, Index obstacle) const {
+    for (std::size_t k = 0; k < out_.rigid.size(); ++k)
+      if (std::ranges::binary_search(out_.rigid[k].nodes, p))
+        input_error(
+            model_.obstacles[obstacle].origin,
+            fmt::format("at ({}) {} moves the slave, which has no unknowns of its own there; expected the other "
+                        "body as the slave ('slave'), or faces apart from these",
+                        fmt::join(nodes_.at(p), ", "), model_.rigid[k].on.origin));
+  }
+
+  /// The weights of a node, of which a projector leaves some directions.
+  BlockRow<D> projected(const MortarCoupling<D>& found, Index k, const std::array<double, D * D>& P) const {
+    BlockRow<D> out;
+    for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
+      auto& W = out[nodes_.of_vertex(found.column[j])];
+      for (int i = 0; i < D * D; ++i) W[i] += found.value[j] * P[i];
+    }
+    return out;
+  }
 
   void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
     const Index p = nodes_.of_vertex(found.node[k]);
+    refuse_rigid(p, obstacle);
+    if (jumps_.has(p) && slave_of_[p] < 0) return;  // tied
     Point<D> normal = found.normal[k];
     keep_within<D>(nodes_.mesh().mirrors, nodes_.at(p), normal);
     normalise(normal);
@@ -122,12 +183,23 @@ class Coupler {
     node.taken = found.taken[k];
     node.gap = found.distance(k) + before;
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
-    Row& row = rows_.emplace_back(Row{p, {}, {}, with_friction ? onto_free(p) : along(*free, normal)});
+    Seen& seen = seen_.emplace_back(Seen{p, {}, {}});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
-      row.column.push_back(nodes_.of_vertex(found.column[j]));
-      row.weight.push_back(found.value[j]);
-      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, row.column.back(), obstacle);
+      const Index q = nodes_.of_vertex(found.column[j]);
+      seen.column.push_back(q);
+      seen.weight.push_back(found.value[j]);
+      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, q, obstacle);
     }
+    BlockRow<D> row = projected(found, k, with_friction ? onto_free(p) : along(*free, normal));
+    if (jumps_.leads_to(row, p)) refuse_circle(p, obstacle);
+    jumps_.add(p, std::move(row));
+  }
+
+  [[noreturn]] void refuse_circle(Index p, Index obstacle) const {
+    input_error(model_.obstacles[obstacle].origin,
+                fmt::format("at ({}) the other body is tied to the slave's node there, so that these cannot touch each "
+                            "other; expected faces apart from the tie",
+                            fmt::join(nodes_.at(p), ", ")));
   }
 
   /// All of the slave's body is moved, for what is inside it is looked for; of a body that touches itself its side.
@@ -206,7 +278,9 @@ class Coupler {
   const std::vector<FixedDirections<D>>& fixes_;
   const std::vector<Point<D>>& shift_;
   std::vector<Index> slave_of_, master_of_;  // per node: obstacle, -1: none
-  std::vector<Row> rows_;
+  JumpBuilder<D> jumps_;
+  std::vector<Seen> seen_;
+  std::vector<Index> taken_;  // vertices of rigid parts and ties, ascending
   PairedBodies<D> out_;
 };
 
@@ -216,10 +290,17 @@ template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
                                                    const std::vector<FixedDirections<D>>& fixes,
                                                    const std::vector<Point<D>>& shift) {
-  if (!is_paired(model)) return nullptr;
+  if (!changes_unknowns(model)) return nullptr;
   Coupler<D> coupler(nodes, model, fixes, shift);
-  for (std::size_t k = 0; k < model.obstacles.size(); ++k)
-    if (model.obstacles[k].other) coupler.add(static_cast<Index>(k));
+  for (const bool tied : {true, false})
+    for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+      const ObstacleTerm<D>& term = model.obstacles[k];
+      if (!term.other || term.tied.has_value() != tied) continue;
+      if (tied)
+        coupler.tie(k);
+      else
+        coupler.add(k);
+    }
   return coupler.take();
 }
 
@@ -232,16 +313,16 @@ Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, 
       length[p] = std::max(length[p], longest_edge(nodes.mesh(), nodes.mesh().boundary[f]));
   const bool any = std::ranges::find(near.nodes, obstacle, &PairedNode<D>::obstacle) != near.nodes.end();
   const PairedBodies<D>& pairs = any ? near : all;
-  const Jumps<D>& jumps = *pairs.jumps;
+  const MasterMeans& means = *pairs.means;
   Slip<D> out;
   double count = 0;
   for (const PairedNode<D>& node : pairs.nodes) {
     if (node.obstacle != obstacle) continue;
-    const auto s = std::ranges::lower_bound(jumps.vector, node.node) - jumps.vector.begin();
+    const auto s = std::ranges::lower_bound(means.node, node.node) - means.node.begin();
     for (int i = 0; i < D; ++i) {
       double jump = u[Offset{node.node} * D + i];
-      for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
-        jump -= jumps.weight[k] * u[Offset{jumps.column[k]} * D + i];
+      for (Offset k = means.row[s]; k < means.row[s + 1]; ++k)
+        jump -= means.weight[k] * u[Offset{means.column[k]} * D + i];
       out.mean[i] += jump / node.part;
     }
     out.length += length[node.node];
@@ -257,7 +338,7 @@ namespace {
 /// What is left between the bodies at each pair, and how much they have come nearer there at most.
 struct Distances {
   std::vector<double> left;       // by the number of the jump
-  std::vector<char> acts_anyway;  // likewise: whether or not they touch
+  std::vector<char> acts_anyway;  // likewise: whether or not they touch, as what is tied
   double closed = 0;
   double moved = 0;  // by how much bodies have moved at most there
 };
@@ -270,12 +351,21 @@ bool acts_anyway(const Obstacle<D>& obstacle, const FunctionalNumbers<D>& number
 }
 
 template <int D>
+bool is_rigid(const PairedBodies<D>& pairs, Index node) {
+  return std::ranges::any_of(pairs.rigid,
+                             [&](const auto& part) { return std::ranges::binary_search(part.nodes, node); });
+}
+
+template <int D>
 Distances distances(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& all, std::vector<double> u) {
   const Jumps<D>& jumps = *all.jumps;
   Distances out{std::vector<double>(jumps.vector.size(), infinity), std::vector<char>(jumps.vector.size())};
   for (const Index p : jumps.vector)
     for (int i = 0; i < D; ++i) out.moved = std::max(out.moved, std::abs(u[Offset{p} * D + i]));
   to_jumps(jumps, u);
+  for (const TiedNode& tie : all.ties)
+    out.acts_anyway[std::ranges::lower_bound(jumps.vector, tie.node) - jumps.vector.begin()] = true;
+  for (Index s = 0; s < jumps.size(); ++s) out.acts_anyway[s] |= is_rigid(all, jumps.vector[s]);
   std::vector<FunctionalNumbers<D>> numbers;
   for (const Bound<D>& bound : collect_bounds(nodes, model, numbers, &all)) {
     if (!model.obstacles[bound.obstacle].other) continue;
@@ -295,20 +385,12 @@ bool has(const PairedBodies<D>& pairs, Index node) {
   return std::ranges::binary_search(pairs.jumps->vector, node);
 }
 
-/// Some of all jumps.
-template <int B>
-Jumps<B> chosen(const Jumps<B>& all, const std::vector<char>& keep) {
-  Jumps<B> out;
-  for (Index s = 0; s < all.size(); ++s) {
-    if (!keep[s]) continue;
-    out.vector.push_back(all.vector[s]);
-    out.column.insert(out.column.end(), all.column.begin() + all.row[s], all.column.begin() + all.row[s + 1]);
-    out.weight.insert(out.weight.end(), all.weight.begin() + all.row[s], all.weight.begin() + all.row[s + 1]);
-    out.row.push_back(static_cast<Offset>(out.column.size()));
-    const auto project = all.project.begin() + Offset{s} * B * B;
-    out.project.insert(out.project.end(), project, project + B * B);
-  }
-  return out;
+/// All pairs that are among these jumps.
+template <int D>
+std::shared_ptr<const PairedBodies<D>> pairs_of(const PairedBodies<D>& all, std::shared_ptr<const Jumps<D>> jumps) {
+  PairedBodies<D> out{{}, all.ties, all.rigid, std::move(jumps), all.means};
+  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
+  return std::make_shared<const PairedBodies<D>>(std::move(out));
 }
 
 }  // namespace
@@ -324,10 +406,7 @@ std::shared_ptr<const PairedBodies<D>> near_contact(const Nodes<D>& nodes, const
   std::vector<char> keep(jumps.vector.size());
   for (std::size_t s = 0; s < keep.size(); ++s)
     keep[s] = distance.left[s] <= reach || distance.acts_anyway[s] || (also && has(*also, jumps.vector[s]));
-  PairedBodies<D> out;
-  out.jumps = std::make_shared<const Jumps<D>>(chosen(jumps, keep));
-  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
-  return std::make_shared<const PairedBodies<D>>(std::move(out));
+  return pairs_of(all, std::make_shared<const Jumps<D>>(chosen_jumps(jumps, keep)));
 }
 
 template <int D>
@@ -341,10 +420,7 @@ bool same_jumps(const PairedBodies<D>& a, const PairedBodies<D>& b) {
 
 template <int D>
 std::shared_ptr<const PairedBodies<D>> with_new_gaps(const PairedBodies<D>& all, const PairedBodies<D>& chosen) {
-  PairedBodies<D> out;
-  out.jumps = chosen.jumps;
-  std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
-  return std::make_shared<const PairedBodies<D>>(std::move(out));
+  return pairs_of(all, chosen.jumps);
 }
 
 template <int D>

@@ -4,8 +4,8 @@
 
 namespace signorini {
 
-/// Nodes whose displacement is prescribed completely, or along the normal, are left out. Null where the model has no
-/// obstacle between bodies.
+/// What of a model is not said of single nodes: contact between bodies, ties and rigid parts. Of contact nodes whose
+/// displacement is prescribed completely, or along the normal, are left out. Null where the model has none of these.
 /// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
 /// of whose nodes are prescribed; bodies that overlap at the start by more than an element of the coarsest mesh.
 /// @param fixes collect_fixes() of both

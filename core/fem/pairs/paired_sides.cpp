@@ -177,9 +177,6 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
                    {points, of_master, term.origin, nodes.order(), &mesh, master}, options);
 }
 
-namespace {
-
-/// How far the displacement of a node along a direction is prescribed to be; nothing where it is not.
 template <int D>
 std::optional<double> prescribed_along(const std::vector<FixedDirections<D>>& fixes, Index node,
                                        const double* direction) {
@@ -194,6 +191,8 @@ std::optional<double> prescribed_along(const std::vector<FixedDirections<D>>& fi
   }
   return left <= no_normal ? std::optional(value) : std::nullopt;
 }
+
+namespace {
 
 /// What is prescribed of the master in front of places of the slave: a node of that may be prescribed to move along
 /// with it there, as on a plane of symmetry by fixes, though not with what it sees of the master in the mean.
@@ -278,6 +277,18 @@ std::vector<Index> held_apart(const Nodes<D>& nodes, const std::vector<FixedDire
   return out;
 }
 
+/// Those of some vertices, ascending, that are on these faces.
+template <int D>
+std::vector<Index> on_faces(const Mesh<D>& mesh, const std::vector<Index>& faces, const std::vector<Index>& some) {
+  std::vector<Index> out;
+  for (const Index f : faces)
+    for (const Index v : mesh.boundary[f].vertices)
+      if (std::ranges::binary_search(some, v)) out.push_back(v);
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 /// Those of some vertices, ascending, that are on no face all of whose vertices are among them.
 template <int D>
 std::vector<Index> with_neighbours(const Mesh<D>& mesh, const std::vector<Index>& faces, std::vector<Index> some) {
@@ -294,15 +305,26 @@ std::vector<Index> with_neighbours(const Mesh<D>& mesh, const std::vector<Index>
 }  // namespace
 
 template <int D>
-MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
-                                             const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
-                                             std::span<const Point<D>> points, Index* lost) {
+MortarCoupling<D> couple_beside(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                const PairedFaces& faces, std::span<const Point<D>> points,
+                                const std::vector<Index>& left_out) {
+  const std::vector<Index> some =
+      with_neighbours(nodes.mesh(), faces.slave, on_faces(nodes.mesh(), faces.slave, left_out));
+  return couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, some);
+}
+
+template <int D>
+MortarCoupling<D> couple_whole_jumps(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                     const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
+                                     std::span<const Point<D>> points, const std::vector<Index>& left_out,
+                                     Index* lost) {
   MortarCoupling<D> found = couple_sides<D>(nodes, model, term, faces.slave, faces.master, points);
   const std::vector<Index> apart = held_apart<D>(nodes, fixes, points, faces.master, found);
-  const std::vector<Index> left_out = with_neighbours(nodes.mesh(), faces.slave, apart);
-  if (lost) *lost = static_cast<Index>(apart.size() - left_out.size());
-  return left_out.empty() ? std::move(found)
-                          : couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, left_out);
+  std::vector<Index> all;
+  std::ranges::set_union(apart, on_faces(nodes.mesh(), faces.slave, left_out), std::back_inserter(all));
+  all = with_neighbours(nodes.mesh(), faces.slave, std::move(all));
+  if (lost) *lost = static_cast<Index>(apart.size() - all.size());
+  return all.empty() ? std::move(found) : couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, all);
 }
 
 template <int D>
@@ -366,6 +388,8 @@ template void refuse_unseen_overlap(const Nodes<2>&, const Model<2>&);
 template void refuse_unseen_overlap(const Nodes<3>&, const Model<3>&);
 template MortarCoupling<2> couple_displaced(const Nodes<2>&, const Model<2>&, Index, const std::vector<double>&);
 template MortarCoupling<3> couple_displaced(const Nodes<3>&, const Model<3>&, Index, const std::vector<double>&);
+template std::optional<double> prescribed_along(const std::vector<FixedDirections<2>>&, Index, const double*);
+template std::optional<double> prescribed_along(const std::vector<FixedDirections<3>>&, Index, const double*);
 template const FixedDirections<2>* fixed_at(const std::vector<FixedDirections<2>>&, Index);
 template const FixedDirections<3>* fixed_at(const std::vector<FixedDirections<3>>&, Index);
 template std::optional<FreeNormal<2>> free_normal<2>(const std::vector<FixedDirections<2>>&, Index, const Point<2>&);
@@ -387,15 +411,19 @@ template PairedFaces paired_faces(const Mesh<3>&, const ObstacleTerm<3>&, double
 template MortarCoupling<2> couple_sides<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
                                            const std::vector<Index>&, const std::vector<Index>&,
                                            std::span<const Point<2>>, std::span<const Index>);
-template MortarCoupling<2> couple_sides_with_friction<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
-                                                         const PairedFaces&, const std::vector<FixedDirections<2>>&,
-                                                         std::span<const Point<2>>, Index*);
+template MortarCoupling<2> couple_beside<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                            const PairedFaces&, std::span<const Point<2>>, const std::vector<Index>&);
+template MortarCoupling<2> couple_whole_jumps<2>(const Nodes<2>&, const Model<2>&, const ObstacleTerm<2>&,
+                                                 const PairedFaces&, const std::vector<FixedDirections<2>>&,
+                                                 std::span<const Point<2>>, const std::vector<Index>&, Index*);
 template MortarCoupling<3> couple_sides<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
                                            const std::vector<Index>&, const std::vector<Index>&,
                                            std::span<const Point<3>>, std::span<const Index>);
-template MortarCoupling<3> couple_sides_with_friction<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
-                                                         const PairedFaces&, const std::vector<FixedDirections<3>>&,
-                                                         std::span<const Point<3>>, Index*);
+template MortarCoupling<3> couple_beside<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                            const PairedFaces&, std::span<const Point<3>>, const std::vector<Index>&);
+template MortarCoupling<3> couple_whole_jumps<3>(const Nodes<3>&, const Model<3>&, const ObstacleTerm<3>&,
+                                                 const PairedFaces&, const std::vector<FixedDirections<3>>&,
+                                                 std::span<const Point<3>>, const std::vector<Index>&, Index*);
 template std::vector<Point<2>> displaced_points<2>(const Nodes<2>&, const std::vector<double>&);
 template std::vector<Point<3>> displaced_points<3>(const Nodes<3>&, const std::vector<double>&);
 

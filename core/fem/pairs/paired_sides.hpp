@@ -55,15 +55,22 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
                                const std::vector<Index>& slave, const std::vector<Index>& master,
                                std::span<const Point<D>> points = {}, std::span<const Index> left_out = {});
 
-/// The same with friction. What a fix prescribes at a node of the slave no unknown there is a jump along, and no
-/// friction could act on the master. Such nodes are left out, and the share that they have in friction and pressure is
-/// their neighbours'; but for faces all of whose nodes are such, and for nodes in front of which the master is
-/// prescribed to go along with them, as where fixes stand for a plane of symmetry.
+/// The same without some vertices of the slave, ascending, whose share is their neighbours'; but for faces all of whose
+/// vertices are such.
+template <int D>
+MortarCoupling<D> couple_beside(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                const PairedFaces& faces, std::span<const Point<D>> points,
+                                const std::vector<Index>& left_out);
+
+/// The same where all of the jump counts, as with friction. What a fix prescribes at a node of the slave no unknown
+/// there is a jump along, and no friction could act on the master. Such nodes are left out, too, but for nodes in front
+/// of which the master is prescribed to go along with them, as where fixes stand for a plane of symmetry.
 /// @param lost gets at how many nodes friction along something is lost all the same; null: not asked
 template <int D>
-MortarCoupling<D> couple_sides_with_friction(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
-                                             const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
-                                             std::span<const Point<D>> points = {}, Index* lost = nullptr);
+MortarCoupling<D> couple_whole_jumps(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
+                                     const PairedFaces& faces, const std::vector<FixedDirections<D>>& fixes,
+                                     std::span<const Point<D>> points = {}, const std::vector<Index>& left_out = {},
+                                     Index* lost = nullptr);
 
 /// Error(Exit::input) for bodies that overlap at the start, and of which no faces see that: they would pass through
 /// each other.
@@ -97,6 +104,11 @@ std::optional<FreeNormal<D>> free_normal(const std::vector<FixedDirections<D>>& 
 /// What is prescribed at a node; null: nothing.
 template <int D>
 const FixedDirections<D>* fixed_at(const std::vector<FixedDirections<D>>& fixes, Index node);
+
+/// How far the displacement of a node along a direction is prescribed to be; nothing where it is not.
+template <int D>
+std::optional<double> prescribed_along(const std::vector<FixedDirections<D>>& fixes, Index node,
+                                       const double* direction);
 
 /// Of a face.
 template <int D>

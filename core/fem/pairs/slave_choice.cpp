@@ -73,6 +73,9 @@ class Chooser {
         look_at_pair(static_cast<Index>(k));
       else
         look_at_rigid(static_cast<Index>(k));
+    for (std::size_t k = 0; k < model.rigid.size(); ++k)
+      mark(static_cast<Index>(model.obstacles.size() + k),
+           surface(nodes, select_faces(nodes.mesh(), model.rigid[k].on, model.t)).nodes);
   }
 
   SlaveChoice choose(Index k) {
@@ -145,7 +148,12 @@ class Chooser {
     return out;
   }
 
-  /// Up to two obstacles per node are kept.
+  const std::string& name_of(std::size_t k) const {
+    const std::size_t obstacles = model_.obstacles.size();
+    return k < obstacles ? model_.obstacles[k].origin : model_.rigid[k - obstacles].on.origin;
+  }
+
+  /// Up to two obstacles, or rigid parts after these, per node are kept.
   void mark(Index k, const std::vector<Index>& nodes) {
     for (const Index p : nodes)
       if (first_[p] < 0)
@@ -158,7 +166,7 @@ class Chooser {
   std::string taker(const SideFacts& side, Index k) const {
     for (const Index p : side.nodes)
       for (const Index by : {first_[p], second_[p]})
-        if (by >= 0 && by != k) return model_.obstacles[by].origin;
+        if (by >= 0 && by != k) return name_of(static_cast<std::size_t>(by));
     return "";
   }
 

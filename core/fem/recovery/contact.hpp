@@ -75,6 +75,7 @@ struct ContactSummary {
   Index undetermined_nodes = 0;   ///< of those in contact the held and the shared ones
   double undetermined_force = 0;  ///< the sum of what presses there
   Index slip_nodes = 0, stick_nodes = 0;
+  bool tied = false;                         ///< a tie: its nodes count as in contact, and nothing else of them
   std::array<double, B> tangential_force{};  ///< total along the surface, counted in `force`
   double dissipated = 0;
 };

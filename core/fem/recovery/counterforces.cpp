@@ -24,29 +24,29 @@ std::vector<std::vector<Index>> slave_nodes(const Nodes<D>& nodes, const Model<B
 
 template <int D, int B>
 std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& model,
-                                         const DiscreteProblem<B>& problem, const ContactState<B>& contact) {
+                                         const DiscreteProblem<B>& problem, const ContactState<B>& contact,
+                                         const std::vector<TieForce<B>>& ties) {
   std::vector<NodalForce<B>> out;
   if (!problem.jumps) return out;
   const std::vector<std::vector<Index>> of_slave = slave_nodes(nodes, model);
-  const Jumps<B>& jumps = *problem.jumps;
-  for (const ContactNode<B>& node : contact.nodes) {
-    const auto found = std::ranges::lower_bound(jumps.vector, node.vertex);
-    if (found == jumps.vector.end() || *found != node.vertex) continue;
-    const auto s = found - jumps.vector.begin();
-    double back[B], along[B];
-    block::transposed_product<B>(jumps.project.data() + s * B * B, node.force.data(), back);
-    block::transposed_product<B>(jumps.project.data() + s * B * B, node.tangential.data(), along);
-    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k) {
-      const Index q = jumps.column[k];
-      const bool on_slave = std::ranges::binary_search(of_slave[node.obstacle], q);
-      NodalForce<B>& force =
-          out.emplace_back(NodalForce<B>{q, node.obstacle, {}, {}, on_slave, node.friction, node.sticks});
-      for (int i = 0; i < B; ++i) {
-        force.force[i] = -jumps.weight[k] * back[i];
-        force.tangential[i] = -jumps.weight[k] * along[i];
-      }
+  const BlockRows<B>& rows = problem.jumps->inverse;
+  const auto add = [&](const NodalForce<B>& on_slave) {
+    const auto found = std::ranges::lower_bound(problem.jumps->vector, on_slave.node);
+    if (found == problem.jumps->vector.end() || *found != on_slave.node) return;
+    const auto s = found - problem.jumps->vector.begin();
+    for (Offset k = rows.row[s]; k < rows.row[s + 1]; ++k) {
+      const Index q = rows.column[k];
+      if (q == on_slave.node) continue;
+      NodalForce<B>& back = out.emplace_back(on_slave);
+      back.node = q;
+      back.on_slave = std::ranges::binary_search(of_slave[on_slave.obstacle], q);
+      block::transposed_product<B>(rows.at(k), on_slave.force.data(), back.force.data());
+      block::transposed_product<B>(rows.at(k), on_slave.tangential.data(), back.tangential.data());
     }
-  }
+  };
+  for (const ContactNode<B>& node : contact.nodes)
+    add({node.vertex, node.obstacle, node.force, node.tangential, true, node.friction, node.sticks});
+  for (const TieForce<B>& tie : ties) add(tie);
   return out;
 }
 
@@ -61,7 +61,7 @@ std::vector<std::array<double, B>> totals(const std::vector<NodalForce<B>>& forc
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                              \
   template std::vector<NodalForce<B>> counterforces(const Nodes<D>&, const Model<B>&, const DiscreteProblem<B>&, \
-                                                    const ContactState<B>&);
+                                                    const ContactState<B>&, const std::vector<TieForce<B>>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -17,12 +17,20 @@ struct NodalForce {
   bool friction = false, sticks = false;  ///< of the slave's node, as ContactNode has them
 };
 
-/// What contact between bodies exerts on the masters: the force on a slave's node with the other sign, at the nodes of
-/// the master that it is coupled to, as their unknowns are jumps. One entry per such pair of nodes. Of quadratic
-/// elements some may be nodes of the slave, see MortarCoupling.
+/// What a tie exerts on a node of the slave.
+template <int B>
+struct TieForce : NodalForce<B> {
+  double area = 0;  ///< of the node, as far as it is tied
+};
+
+/// What contact between bodies and ties exert on the masters: the force on a slave's node with the other sign, at the
+/// nodes of the master that it is coupled to, as their unknowns are jumps. One entry per such pair of nodes. Of
+/// quadratic elements some may be nodes of the slave, see MortarCoupling.
+/// @param ties tie_forces()
 template <int D, int B>
 std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& model,
-                                         const DiscreteProblem<B>& problem, const ContactState<B>& contact);
+                                         const DiscreteProblem<B>& problem, const ContactState<B>& contact,
+                                         const std::vector<TieForce<B>>& ties);
 
 /// The sums of those on slaves, or on masters, per obstacle of the model; zero for obstacles that act on one body.
 /// @param part what is summed up

@@ -227,6 +227,7 @@ std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& mo
     if (found.missed > 0 || found.wrong > 0) out.push_back(found);
   };
   for (const Fix<B>& fix : model.fixes) add(fix.on);
+  for (const RigidPart<B>& part : model.rigid) add(part.on);
   for (const Load<B>& load : model.loads)
     if (load.on) add(*load.on);
   for (const Spring<B>& spring : model.springs) add(spring.on);

@@ -118,7 +118,7 @@ std::vector<ContactNode<B>> master_side(const Nodes<D>& nodes, const Model<B>& m
     for (const ObstacleTerm<B>& term : model.obstacles) choices.push_back({term.other.has_value(), ""});
     exchange_sides(choices, exchanged);
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
-      if (!model.obstacles[k].other) continue;
+      if (!model.obstacles[k].other || model.obstacles[k].tied) continue;
       const auto nodes_of_it = Master<D>(nodes, exchanged, k).find(counterforces, u);
       out.insert(out.end(), nodes_of_it.begin(), nodes_of_it.end());
     }

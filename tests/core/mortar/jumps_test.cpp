@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mortar/couple.hpp"
+#include "core/solver/jump_builder.hpp"
 #include "tests/core/mortar/surfaces.hpp"
 #include "tests/support/dense.hpp"
 
@@ -13,11 +14,13 @@ namespace {
 template <int B>
 Eigen::MatrixXd dense_basis(const Jumps<B>& jumps, Index vectors) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Identity(vectors * B, vectors * B);
-  for (Index s = 0; s < jumps.size(); ++s)
-    for (Offset k = jumps.row[s]; k < jumps.row[s + 1]; ++k)
+  for (Index s = 0; s < jumps.size(); ++s) {
+    out.middleRows<B>(jumps.vector[s] * B).setZero();
+    for (Offset k = jumps.basis.row[s]; k < jumps.basis.row[s + 1]; ++k)
       for (int i = 0; i < B; ++i)
         for (int j = 0; j < B; ++j)
-          out(jumps.vector[s] * B + i, jumps.column[k] * B + j) += jumps.weight[k] * jumps.project[(s * B + i) * B + j];
+          out(jumps.vector[s] * B + i, jumps.basis.column[k] * B + j) += jumps.basis.at(k)[i * B + j];
+  }
   return out;
 }
 
@@ -35,12 +38,19 @@ Eigen::MatrixXd dense_weights(const Prolongation& P, int B) {
 /// Along the normals; `mixed`: at every third node in all directions.
 template <int D>
 Jumps<D> jumps_of(const MortarCoupling<D>& coupling, bool mixed) {
-  Jumps<D> out{coupling.node, coupling.row, coupling.column, coupling.value, {}};
-  for (Index s = 0; s < coupling.nodes(); ++s)
-    for (int i = 0; i < D; ++i)
-      for (int j = 0; j < D; ++j)
-        out.project.push_back(mixed && s % 3 == 0 ? i == j : coupling.normal[s][i] * coupling.normal[s][j]);
-  return out;
+  JumpBuilder<D> out;
+  for (Index s = 0; s < coupling.nodes(); ++s) {
+    BlockRow<D> row;
+    for (Offset k = coupling.row[s]; k < coupling.row[s + 1]; ++k) {
+      auto& W = row[coupling.column[k]];
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j)
+          W[i * D + j] = coupling.value[k] *
+                         (mixed && s % 3 == 0 ? (i == j ? 1.0 : 0.0) : coupling.normal[s][i] * coupling.normal[s][j]);
+    }
+    out.add(coupling.node[s], std::move(row));
+  }
+  return out.take();
 }
 
 /// Symmetric, coupled at random.

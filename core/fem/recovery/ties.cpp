@@ -1,0 +1,100 @@
+#include "core/fem/recovery/ties.hpp"
+
+#include <algorithm>
+
+#include "core/base/dot.hpp"
+#include "core/fem/elements/select.hpp"
+#include "core/sdk/block.hpp"
+
+namespace signorini {
+namespace {
+
+/// The slave of one tie: areas and normals at its nodes.
+template <int D>
+struct SlaveSide {
+  Surface<D> surface;
+  std::vector<double> areas;
+  std::vector<Point<D>> normals;
+
+  SlaveSide(const Nodes<D>& nodes, const Selection& on, Plane plane, double t)
+      : surface(signorini::surface(nodes, select_faces(nodes.mesh(), on, t))),
+        areas(node_areas(nodes, surface, plane)),
+        normals(node_normals(nodes, surface)) {}
+
+  std::size_t at(Index node) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(surface.nodes, node) - surface.nodes.begin());
+  }
+};
+
+/// Along the directions that the tie prescribes.
+template <int B>
+std::array<double, B> force_at(const Discretization<B>& discretization, const TiedNode& tie,
+                               const std::vector<double>& x) {
+  const Index row = discretization.prescribed.at(tie.node);
+  const FixedDirections<B>& fixed = discretization.fixes[row];
+  std::array<double, B> out{};
+  for (int k = 0; k < fixed.count; ++k) {
+    if (fixed.fix[k] != by_tie(tie.obstacle)) continue;
+    double along[B];
+    std::copy_n(fixed.direction[k], B, along);
+    if (const double* N = discretization.problem.frames.dual_at(tie.node))
+      block::transposed_product<B>(N, fixed.direction[k], along);
+    const double size = discretization.prescribed.force(row, along, x);
+    for (int i = 0; i < B; ++i) out[i] += size * fixed.direction[k][i];
+  }
+  return out;
+}
+
+}  // namespace
+
+template <int D, int B>
+std::vector<TieForce<B>> tie_forces(const Nodes<D>& nodes, const Model<B>& model,
+                                    const Discretization<B>& discretization, const std::vector<double>& x) {
+  std::vector<TieForce<B>> out;
+  if constexpr (D == B) {
+    if (!discretization.pairs) return out;
+    std::vector<std::optional<SlaveSide<D>>> slaves(model.obstacles.size());
+    for (const TiedNode& tie : discretization.pairs->ties) {
+      auto& slave = slaves[tie.obstacle];
+      if (!slave) slave.emplace(nodes, *model.obstacles[tie.obstacle].on, model.plane, model.t);
+      const std::size_t at = slave->at(tie.node);
+      TieForce<B>& force = out.emplace_back();
+      force.node = tie.node;
+      force.obstacle = tie.obstacle;
+      force.on_slave = true;
+      force.force = force.tangential = force_at(discretization, tie, x);
+      force.area = tie.covered * slave->areas[at];
+      const double normal = dot(force.force, slave->normals[at]);
+      for (int i = 0; i < B; ++i) force.tangential[i] -= normal * slave->normals[at][i];
+    }
+  }
+  return out;
+}
+
+template <int B>
+void sum_up(const std::vector<TieForce<B>>& ties, std::vector<ContactSummary<B>>& obstacles) {
+  for (const TieForce<B>& tie : ties) {
+    ContactSummary<B>& sum = obstacles[tie.obstacle];
+    sum.tied = true;
+    ++sum.nodes;
+    sum.area += tie.area;
+    for (int i = 0; i < B; ++i) {
+      sum.force[i] += tie.force[i];
+      sum.tangential_force[i] += tie.tangential[i];
+    }
+  }
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                                        \
+  template std::vector<TieForce<B>> tie_forces(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
+                                               const std::vector<double>&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
+template void sum_up(const std::vector<TieForce<1>>&, std::vector<ContactSummary<1>>&);
+template void sum_up(const std::vector<TieForce<2>>&, std::vector<ContactSummary<2>>&);
+template void sum_up(const std::vector<TieForce<3>>&, std::vector<ContactSummary<3>>&);
+
+}  // namespace signorini

@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/solver/jumps.hpp"
+
+namespace signorini {
+
+/// Blocks by vector.
+template <int B>
+using BlockRow = std::map<Index, std::array<double, B * B>>;
+
+/// Makes Jumps of what is known of them in terms of displacements.
+template <int B>
+class JumpBuilder {
+ public:
+  /// u_p = x_p + sum_q W_pq u_q. The q may be such p themselves, but no p may lead to itself, see leads_to(). Nothing
+  /// is known of p before.
+  void add(Index p, BlockRow<B> W);
+  /// Whether u_p depends on such a p by this row: that row must not be added for p.
+  bool leads_to(const BlockRow<B>& W, Index p) const;
+  /// Both rows, which are the inverse of each other within the vectors that are added by this.
+  void add(Index p, BlockRow<B> by_unknowns, BlockRow<B> by_displacements);
+  bool has(Index p) const { return rows_.contains(p); }
+
+  Jumps<B> take();
+
+ private:
+  struct Rows {
+    BlockRow<B> basis;    // by unknowns; empty: not known yet
+    BlockRow<B> weights;  // see add(); of both rows the inverse
+    bool resolved = false;
+  };
+  const BlockRow<B>& resolve(Index p);
+
+  std::map<Index, Rows> rows_;
+};
+
+/// Those of all that are chosen. What is not, is a displacement.
+/// @param keep per vector of `all`; of those that are given all or none
+template <int B>
+Jumps<B> chosen_jumps(const Jumps<B>& all, const std::vector<char>& keep);
+
+}  // namespace signorini
