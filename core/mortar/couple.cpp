@@ -68,14 +68,15 @@ struct Boxes {
 template <int D, int P>
 class Gathering {
  public:
-  Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering, bool axisymmetric,
+  Gathering(const mortar::Side<D>& slave, const mortar::Creases<D>& creases, bool one_numbering, bool axisymmetric,
             const std::vector<mortar::FaceIntegrals<D, P>>& seen)
       : slave_(slave),
-        master_(master),
+        master_(creases.side()),
+        creases_(creases),
         one_numbering_(one_numbering),
         axisymmetric_(axisymmetric),
         seen_(seen),
-        place_(master.node.size(), -1) {
+        place_(master_.node.size(), -1) {
     list_records();
     whole_.assign(slave.node.size(), 0);
     around_.assign(slave.node.size(), 0);
@@ -161,19 +162,55 @@ class Gathering {
     seats_.resize(first_.back());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     each([&](std::size_t p, const Seat& seat) { seats_[next[p]++] = seat; });
+    mortar::NearestSheet<D> sheet(creases_);
     for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      near_.push_back(leave_out_far({seats_.data() + first_[p], first_[p + 1] - first_[p]}));
+      near_.push_back(leave_out_behind({seats_.data() + first_[p], first_[p + 1] - first_[p]}, sheet));
   }
 
-  /// Where the master has a step at a node, faces on one side of that see what is far behind what the others see.
-  std::span<const Seat> leave_out_far(std::span<Seat> all) const {
-    const auto away = [](const Seat& s) { return std::abs(s.record->nearest + s.record->farthest); };
-    const auto nearest = std::ranges::min_element(all, {}, away);
-    if (nearest == all.end()) return all;
-    const double far = nearest->record->far;
-    const auto end =
-        std::stable_partition(all.begin(), all.end(), [&](const Seat& s) { return s.record->nearest <= far; });
-    return {all.begin(), end};
+  /// Where the master has an edge or a step at a node, faces on one side of that see what is behind what the others
+  /// see.
+  std::span<const Seat> leave_out_behind(std::span<Seat> all, mortar::NearestSheet<D>& sheet) const {
+    if (all.empty()) return {};
+    const auto away = [](const Seat& s) { return s.record->nearest + s.record->farthest; };
+    const Point<D> direction = looks_along(*std::ranges::min_element(all, {}, away));
+    std::vector<mortar::SeenPart> parts;
+    double size = 0;
+    for (const Seat& s : all) {
+      // Faces beside an edge of the slave look elsewhere, and see farther.
+      const double along = std::max(dot(looks_along(s), direction), 0.0);
+      for (mortar::SeenPart part : parts_of(s)) {
+        part.seen.nearest = std::min(part.seen.nearest, along * part.seen.nearest);
+        parts.push_back(part);
+      }
+      size = std::max(size, s.record->size);
+    }
+    mortar::merge_parts(parts);
+    const auto partner = [&](const Seat& s) {
+      return std::ranges::any_of(parts_of(s), [&](const mortar::SeenPart& p) {
+        return p.kept && std::ranges::lower_bound(parts, p.part, {}, &mortar::SeenPart::part)->kept;
+      });
+    };
+    sheet.choose(parts, direction, size);
+    if (std::ranges::all_of(parts, &mortar::SeenPart::kept)) return all;
+    // A face that lies along the other side of an edge touches that.
+    const auto end = std::stable_partition(all.begin(), all.end(), [&](const Seat& s) {
+      sheet.choose(parts, direction, size);
+      if (partner(s)) return true;
+      sheet.choose(parts, looks_along(s), size);
+      return partner(s);
+    });
+    return {all.begin(), end == all.begin() ? all.end() : end};
+  }
+
+  static Point<D> looks_along(const Seat& s) {
+    Point<D> out = s.record->normal[s.corner];
+    const double norm = length<D>(out);
+    for (double& c : out) c /= norm;
+    return out;
+  }
+
+  std::span<const mortar::SeenPart> parts_of(const Seat& s) const {
+    return {s.part->parts.data() + s.record->first_part, s.part->parts.data() + s.record->last_part};
   }
 
   std::span<const Seat> seats(Index p) const { return near_[p]; }
@@ -297,6 +334,7 @@ class Gathering {
 
   const mortar::Side<D>& slave_;
   const mortar::Side<D>& master_;
+  const mortar::Creases<D>& creases_;
   const bool one_numbering_, axisymmetric_;
   const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
   std::vector<std::size_t> first_;
@@ -312,10 +350,10 @@ class Gathering {
 
 /// What each part of the slave sees; the parts do not depend on the number of threads.
 template <int D, int P>
-std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Side<D>& master,
+std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Creases<D>& creases,
                                                    const CoupleOptions& options, bool one_numbering, Crew* crew) {
-  const Boxes<D> boxes(master);
-  std::vector<Index> all(master.faces.size());
+  const Boxes<D> boxes(creases.side());
+  std::vector<Index> all(creases.side().faces.size());
   std::iota(all.begin(), all.end(), Index{0});
   const PointTree<D> tree(boxes.middle, boxes.half, std::move(all));
   const Index faces = static_cast<Index>(slave.faces.size()) / mortar::ElementFace<D, P>::parts;
@@ -323,7 +361,7 @@ std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave,
                                                  faces_at_a_time);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    mortar::FaceIntegrator<D, P> integrator(slave, master, tree, options, one_numbering);
+    mortar::FaceIntegrator<D, P> integrator(slave, creases, tree, options, one_numbering);
     for (std::size_t i; (i = next++) < parts.size();) {
       const auto first = static_cast<Index>(i) * faces_at_a_time;
       for (Index f = first; f < std::min(faces, first + faces_at_a_time); ++f)
@@ -340,14 +378,15 @@ std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave,
 template <int D, int P>
 MortarCoupling<D> couple(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering,
                          const CoupleOptions& options, Crew* crew) {
-  const auto seen = integrate<D, P>(slave, master, options, one_numbering, crew);
+  const mortar::Creases<D> creases(master, P);
+  const auto seen = integrate<D, P>(slave, creases, options, one_numbering, crew);
   MortarCoupling<D> out;
   for (const auto& part : seen) {
     if (part.deepest.depth > out.deepest.depth) out.deepest = part.deepest;
     out.lumped += part.lumped;
     out.layered += part.layered;
   }
-  Gathering<D, P>(slave, master, one_numbering, options.axisymmetric, seen).run(options, out);
+  Gathering<D, P>(slave, creases, one_numbering, options.axisymmetric, seen).run(options, out);
   return out;
 }
 

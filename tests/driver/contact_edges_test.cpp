@@ -82,13 +82,16 @@ ContactReport foot_on_block(const char* slave, int cells, int order) {
                              cells, order, slave));
 }
 
-// An edge of the master lies within a face of the slave: contact ends up to half a face off it, on both ends.
-TEST(ContactForce, DoesNotGrowByWhatTheMastersChamferFallsBack) {
-  for (const int order : {1, 2}) {
-    const ContactReport as_slave = foot_on_block("body", 41, order);
-    for (const int cells : {33, 37, 41, 46})
-      EXPECT_NEAR(foot_on_block("other", cells, order).force[1], as_slave.force[1], 0.1 * as_slave.force[1]) << cells;
-  }
+// An edge of the master lies within a face of the slave: what falls back behind it is not pressed, what is before it is
+// to the end.
+TEST(ContactForce, IsThatOfEitherSlaveAtAChamferOfTheMaster) {
+  for (const int order : {1, 2})
+    for (const int cells : {29, 33, 35, 37, 41, 46}) {
+      const ContactReport as_slave = foot_on_block("body", cells, order);
+      const ContactReport as_master = foot_on_block("other", cells, order);
+      EXPECT_NEAR(as_master.force[1], as_slave.force[1], 0.025 * as_slave.force[1]) << cells << ' ' << order;
+      EXPECT_NEAR(as_master.area, 1, order == 1 ? 1e-6 : 0.01) << cells << ' ' << order;
+    }
 }
 
 /// A block on the top of a rib, which stands on a plate that the block overhangs.
@@ -103,15 +106,16 @@ ContactReport block_on_rib(const char* slave, int cells, double height, int orde
       -height, cells, slave, order));
 }
 
-// What the slave overhangs is no partner of it, and does not press it into what it lies on.
-TEST(ContactForce, DoesNotGrowByTheHeightOfAStepOfTheMaster) {
+// What the slave overhangs is no partner of it, however near behind what it lies on: that carries to its end, and is
+// not pressed in.
+TEST(ContactForce, IsThatOfEitherSlaveAtAStepOfTheMaster) {
   for (const int order : {1, 2})
-    for (const double height : {0.3, 1.0}) {
+    for (const double height : {0.005, 0.02, 0.3, 1.0}) {
       const ContactReport as_master = block_on_rib("other", 23, height, order);
-      for (const int cells : {16, 23, 46}) {
+      for (const int cells : {15, 16, 23, 46}) {
         const ContactReport as_slave = block_on_rib("body", cells, height, order);
-        EXPECT_NEAR(as_slave.force[1], as_master.force[1], 0.05 * as_master.force[1]) << cells << ' ' << height;
-        EXPECT_NEAR(as_slave.area, 2, 0.1) << cells << ' ' << height;
+        EXPECT_NEAR(as_slave.force[1], as_master.force[1], 0.025 * as_master.force[1]) << cells << ' ' << height;
+        EXPECT_NEAR(as_slave.area, 2, 0.02) << cells << ' ' << height;
       }
     }
 }
