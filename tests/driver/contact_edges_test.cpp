@@ -132,6 +132,32 @@ TEST(ContactArea, EndsAtTheChamferOfADieInSpace) {
         << cells;
 }
 
+/// A block half of which rests on another body, all but rigid and the slave, and half on a rigid plane beside that.
+std::string on_body_and_plane(int dimension, int order) {
+  const bool plane = dimension == 2;
+  return fmt::format(
+      "[[body]]\nname = 'block'\nshape = '{0}'\nfrom = [-1, {1}0]\nto = [1, {2}1]\ncells = [8, {3}4]\nyoung = 1\n"
+      "poisson = 0\norder = {4}\n[[body]]\nname = 'low'\nshape = '{0}'\nfrom = [-1, {1}-1]\nto = [0, {2}0]\ncells = "
+      "[4, {3}4]\nyoung = 1e6\npoisson = 0\norder = {4}\n[[fix]]\nbody = 'block'\non = 'top'\nvalue = [0, {5}"
+      "-0.001]\n[[fix]]\nbody = 'low'\non = 'bottom'\nvalue = [0, {1}0]\n[[obstacle]]\ntype = 'elastic'\nbody = "
+      "'block'\non = 'bottom'\nother = 'low'\nother_on = 'top'\nslave = 'other'\n[[obstacle]]\ntype = 'contact'\n"
+      "body = 'block'\nwhere = 'x > -1e-9 && {6} < 1e-9'\nshape = 'plane'\npoint = [0, {1}0]\nnormal = [0, {1}1]\n",
+      plane ? "rectangle" : "box", plane ? "" : "0, ", plane ? "" : "1, ", plane ? "" : "3, ", order,
+      plane ? "" : "0, ", plane ? "y" : "z");
+}
+
+TEST(ContactPressure, IsUniformWhereABodyAndAnObstacleMeet) {
+  for (const int dimension : {2, 3})
+    for (const int order : {1, 2}) {
+      Driver driver(scene_of(on_body_and_plane(dimension, order)));
+      EXPECT_TRUE(driver.solve().converged());
+      const auto& found = driver.report().last().contact;
+      EXPECT_NEAR(found.at(0).max_pressure, 1e-3, 1e-5) << dimension << ' ' << order;
+      EXPECT_NEAR(found.at(1).max_pressure, 1e-3, 1e-5) << dimension << ' ' << order;
+      EXPECT_NEAR(found.at(0).force[dimension - 1] + found.at(1).force[dimension - 1], 2e-3, 1e-7);
+    }
+}
+
 /// The mesh resolves it, or not.
 const auto tipped = testing::Contains(testing::AnyOf(
     HasSubstr("the largest pressure is where an edge or a corner touches"), HasSubstr("too few inside it")));
