@@ -2,7 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/mesh/structured.hpp"
 #include "tests/driver/warned.hpp"
+#include "tests/verification/mesh_file.hpp"
 
 namespace signorini::test {
 namespace {
@@ -92,6 +94,33 @@ TEST(ContactForce, IsThatOfEitherSlaveAtAChamferOfTheMaster) {
       EXPECT_NEAR(as_master.force[1], as_slave.force[1], 0.025 * as_slave.force[1]) << cells << ' ' << order;
       EXPECT_NEAR(as_master.area, 1, order == 1 ? 1e-6 : 0.01) << cells << ' ' << order;
     }
+}
+
+/// The same in space: a square foot with chamfers all around.
+ContactReport foot_in_space(const TemporaryFolder& folder, const char* slave, int cells) {
+  Mesh<3> mesh = box({-0.75, -0.75, 0}, {0.75, 0.75, 1}, {12, 12, 6});
+  for (Point<3>& x : mesh.points) {
+    const double bottom = 0.4 * std::max({0.0, std::abs(x[0]) - 0.5, std::abs(x[1]) - 0.5});
+    x[2] = bottom + (1 - bottom) * x[2];
+  }
+  return contact(fmt::format(
+      "[[body]]\nname = 'foot'\nmesh = '{}'\nyoung = 1\npoisson = 0.3\norder = 1\n[[fix]]\nbody = 'foot'\non = 'top'\n"
+      "value = [0, 0, -0.001]\n[[body]]\nname = 'block'\nshape = 'box'\nfrom = [-1.5, -1.5, -1]\nto = [1.5, 1.5, 0]\n"
+      "cells = [{}, {}, 5]\nyoung = 1\npoisson = 0.3\norder = 1\n[[fix]]\nbody = 'block'\non = 'bottom'\nvalue = [0, "
+      "0, "
+      "0]\n[[obstacle]]\ntype = 'elastic'\nbody = 'foot'\non = 'bottom'\nother = 'block'\nother_on = 'top'\nslave = "
+      "'{}'\n",
+      folder.write("foot.msh", msh(mesh)), cells, cells, slave));
+}
+
+TEST(ContactForce, IsThatOfEitherSlaveAtChamfersInSpace) {
+  const TemporaryFolder folder;
+  for (const int cells : {11, 12, 13}) {
+    const ContactReport as_slave = foot_in_space(folder, "body", cells);
+    const ContactReport as_master = foot_in_space(folder, "other", cells);
+    EXPECT_NEAR(as_master.force[2], as_slave.force[2], 0.04 * as_slave.force[2]) << cells;
+    EXPECT_NEAR(as_master.area, 1, 0.01) << cells;
+  }
 }
 
 /// A block on the top of a rib, which stands on a plate that the block overhangs.
