@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mortar/face_integrals.hpp"
+#include "core/mortar/node_seats.hpp"
 
 namespace signorini {
 namespace {
@@ -72,12 +73,10 @@ class Gathering {
             const std::vector<mortar::FaceIntegrals<D, P>>& seen)
       : slave_(slave),
         master_(creases.side()),
-        creases_(creases),
         one_numbering_(one_numbering),
         axisymmetric_(axisymmetric),
-        seen_(seen),
+        seats_(slave.node.size(), creases, seen),
         place_(master_.node.size(), -1) {
-    list_records();
     whole_.assign(slave.node.size(), 0);
     around_.assign(slave.node.size(), 0);
     each_share([&](Face, Index p, double share, double of_face) {
@@ -106,11 +105,7 @@ class Gathering {
   using Face = mortar::ElementFace<D, P>;
   using Record = mortar::FaceRecord<D, P>;
 
-  struct Seat {  // of a slave node in the record of a face
-    const mortar::FaceIntegrals<D, P>* part;
-    const Record* record;
-    std::size_t corner;
-  };
+  using Seat = typename mortar::NodeSeats<D, P>::Seat;
 
   enum class Place { paired, orphan, alone };  // orphan: alone, but what it is a part of is not
 
@@ -148,72 +143,7 @@ class Gathering {
 
   bool faces(Face face, const Point<D>& normal) const { return dot(slave_.normal[face.part(0)], normal) >= facing; }
 
-  // By slave node, in the order of the faces.
-  void list_records() {
-    first_.assign(slave_.node.size() + 1, 0);
-    const auto each = [&](const auto& visit) {
-      for (const auto& part : seen_)
-        for (const auto& record : part.records)
-          for (std::size_t p = 0; p < Face::nodes; ++p)
-            visit(static_cast<std::size_t>(record.node[p]), Seat{&part, &record, p});
-    };
-    each([&](std::size_t p, const Seat&) { ++first_[p + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    seats_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    each([&](std::size_t p, const Seat& seat) { seats_[next[p]++] = seat; });
-    mortar::NearestSheet<D> sheet(creases_);
-    for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      near_.push_back(leave_out_behind({seats_.data() + first_[p], first_[p + 1] - first_[p]}, sheet));
-  }
-
-  /// Where the master has an edge or a step at a node, faces on one side of that see what is behind what the others
-  /// see.
-  std::span<const Seat> leave_out_behind(std::span<Seat> all, mortar::NearestSheet<D>& sheet) const {
-    if (all.empty()) return {};
-    const auto away = [](const Seat& s) { return s.record->nearest + s.record->farthest; };
-    const Point<D> direction = looks_along(*std::ranges::min_element(all, {}, away));
-    std::vector<mortar::SeenPart> parts;
-    double size = 0;
-    for (const Seat& s : all) {
-      // Faces beside an edge of the slave look elsewhere, and see farther.
-      const double along = std::max(dot(looks_along(s), direction), 0.0);
-      for (mortar::SeenPart part : parts_of(s)) {
-        part.seen.nearest = std::min(part.seen.nearest, along * part.seen.nearest);
-        parts.push_back(part);
-      }
-      size = std::max(size, s.record->size);
-    }
-    mortar::merge_parts(parts);
-    const auto partner = [&](const Seat& s) {
-      return std::ranges::any_of(parts_of(s), [&](const mortar::SeenPart& p) {
-        return p.kept && std::ranges::lower_bound(parts, p.part, {}, &mortar::SeenPart::part)->kept;
-      });
-    };
-    sheet.choose(parts, direction, size);
-    if (std::ranges::all_of(parts, &mortar::SeenPart::kept)) return all;
-    // A face that lies along the other side of an edge touches that.
-    const auto end = std::stable_partition(all.begin(), all.end(), [&](const Seat& s) {
-      sheet.choose(parts, direction, size);
-      if (partner(s)) return true;
-      sheet.choose(parts, looks_along(s), size);
-      return partner(s);
-    });
-    return {all.begin(), end == all.begin() ? all.end() : end};
-  }
-
-  static Point<D> looks_along(const Seat& s) {
-    Point<D> out = s.record->normal[s.corner];
-    const double norm = length<D>(out);
-    for (double& c : out) c /= norm;
-    return out;
-  }
-
-  std::span<const mortar::SeenPart> parts_of(const Seat& s) const {
-    return {s.part->parts.data() + s.record->first_part, s.part->parts.data() + s.record->last_part};
-  }
-
-  std::span<const Seat> seats(Index p) const { return near_[p]; }
+  std::span<const Seat> seats(Index p) const { return seats_.at(p); }
 
   Node sum(Index p, const CoupleOptions& options) const {
     Node out;
@@ -334,14 +264,10 @@ class Gathering {
 
   const mortar::Side<D>& slave_;
   const mortar::Side<D>& master_;
-  const mortar::Creases<D>& creases_;
   const bool one_numbering_, axisymmetric_;
-  const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
-  std::vector<std::size_t> first_;
-  std::vector<Seat> seats_;
-  std::vector<std::span<const Seat>> near_;  // per node those that count
-  std::vector<double> whole_, around_;       // area of a node, covered or not, and of its faces
-  std::vector<double> front_;                // area of a node in faces along its normal
+  const mortar::NodeSeats<D, P> seats_;
+  std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
+  std::vector<double> front_;           // area of a node in faces along its normal
   std::vector<Node> nodes_;
   bool orphans_ = false;  // there are some
   std::vector<Index> place_;
