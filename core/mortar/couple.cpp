@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mortar/face_integrals.hpp"
+#include "core/mortar/node_seats.hpp"
 
 namespace signorini {
 namespace {
@@ -68,15 +69,14 @@ struct Boxes {
 template <int D, int P>
 class Gathering {
  public:
-  Gathering(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering, bool axisymmetric,
+  Gathering(const mortar::Side<D>& slave, const mortar::Creases<D>& creases, bool one_numbering, bool axisymmetric,
             const std::vector<mortar::FaceIntegrals<D, P>>& seen)
       : slave_(slave),
-        master_(master),
+        master_(creases.side()),
         one_numbering_(one_numbering),
         axisymmetric_(axisymmetric),
-        seen_(seen),
-        place_(master.node.size(), -1) {
-    list_records();
+        seats_(slave.node.size(), creases, seen),
+        place_(master_.node.size(), -1) {
     whole_.assign(slave.node.size(), 0);
     around_.assign(slave.node.size(), 0);
     each_share([&](Face, Index p, double share, double of_face) {
@@ -105,11 +105,7 @@ class Gathering {
   using Face = mortar::ElementFace<D, P>;
   using Record = mortar::FaceRecord<D, P>;
 
-  struct Seat {  // of a slave node in the record of a face
-    const mortar::FaceIntegrals<D, P>* part;
-    const Record* record;
-    std::size_t corner;
-  };
+  using Seat = typename mortar::NodeSeats<D, P>::Seat;
 
   enum class Place { paired, orphan, alone };  // orphan: alone, but what it is a part of is not
 
@@ -147,36 +143,7 @@ class Gathering {
 
   bool faces(Face face, const Point<D>& normal) const { return dot(slave_.normal[face.part(0)], normal) >= facing; }
 
-  // By slave node, in the order of the faces.
-  void list_records() {
-    first_.assign(slave_.node.size() + 1, 0);
-    const auto each = [&](const auto& visit) {
-      for (const auto& part : seen_)
-        for (const auto& record : part.records)
-          for (std::size_t p = 0; p < Face::nodes; ++p)
-            visit(static_cast<std::size_t>(record.node[p]), Seat{&part, &record, p});
-    };
-    each([&](std::size_t p, const Seat&) { ++first_[p + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    seats_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    each([&](std::size_t p, const Seat& seat) { seats_[next[p]++] = seat; });
-    for (std::size_t p = 0; p + 1 < first_.size(); ++p)
-      near_.push_back(leave_out_far({seats_.data() + first_[p], first_[p + 1] - first_[p]}));
-  }
-
-  /// Where the master has a step at a node, faces on one side of that see what is far behind what the others see.
-  std::span<const Seat> leave_out_far(std::span<Seat> all) const {
-    const auto away = [](const Seat& s) { return std::abs(s.record->nearest + s.record->farthest); };
-    const auto nearest = std::ranges::min_element(all, {}, away);
-    if (nearest == all.end()) return all;
-    const double far = nearest->record->far;
-    const auto end =
-        std::stable_partition(all.begin(), all.end(), [&](const Seat& s) { return s.record->nearest <= far; });
-    return {all.begin(), end};
-  }
-
-  std::span<const Seat> seats(Index p) const { return near_[p]; }
+  std::span<const Seat> seats(Index p) const { return seats_.at(p); }
 
   Node sum(Index p, const CoupleOptions& options) const {
     Node out;
@@ -298,12 +265,9 @@ class Gathering {
   const mortar::Side<D>& slave_;
   const mortar::Side<D>& master_;
   const bool one_numbering_, axisymmetric_;
-  const std::vector<mortar::FaceIntegrals<D, P>>& seen_;
-  std::vector<std::size_t> first_;
-  std::vector<Seat> seats_;
-  std::vector<std::span<const Seat>> near_;  // per node those that count
-  std::vector<double> whole_, around_;       // area of a node, covered or not, and of its faces
-  std::vector<double> front_;                // area of a node in faces along its normal
+  const mortar::NodeSeats<D, P> seats_;
+  std::vector<double> whole_, around_;  // area of a node, covered or not, and of its faces
+  std::vector<double> front_;           // area of a node in faces along its normal
   std::vector<Node> nodes_;
   bool orphans_ = false;  // there are some
   std::vector<Index> place_;
@@ -312,10 +276,10 @@ class Gathering {
 
 /// What each part of the slave sees; the parts do not depend on the number of threads.
 template <int D, int P>
-std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Side<D>& master,
+std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Creases<D>& creases,
                                                    const CoupleOptions& options, bool one_numbering, Crew* crew) {
-  const Boxes<D> boxes(master);
-  std::vector<Index> all(master.faces.size());
+  const Boxes<D> boxes(creases.side());
+  std::vector<Index> all(creases.side().faces.size());
   std::iota(all.begin(), all.end(), Index{0});
   const PointTree<D> tree(boxes.middle, boxes.half, std::move(all));
   const Index faces = static_cast<Index>(slave.faces.size()) / mortar::ElementFace<D, P>::parts;
@@ -323,7 +287,7 @@ std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave,
                                                  faces_at_a_time);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    mortar::FaceIntegrator<D, P> integrator(slave, master, tree, options, one_numbering);
+    mortar::FaceIntegrator<D, P> integrator(slave, creases, tree, options, one_numbering);
     for (std::size_t i; (i = next++) < parts.size();) {
       const auto first = static_cast<Index>(i) * faces_at_a_time;
       for (Index f = first; f < std::min(faces, first + faces_at_a_time); ++f)
@@ -340,14 +304,15 @@ std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave,
 template <int D, int P>
 MortarCoupling<D> couple(const mortar::Side<D>& slave, const mortar::Side<D>& master, bool one_numbering,
                          const CoupleOptions& options, Crew* crew) {
-  const auto seen = integrate<D, P>(slave, master, options, one_numbering, crew);
+  const mortar::Creases<D> creases(master, P);
+  const auto seen = integrate<D, P>(slave, creases, options, one_numbering, crew);
   MortarCoupling<D> out;
   for (const auto& part : seen) {
     if (part.deepest.depth > out.deepest.depth) out.deepest = part.deepest;
     out.lumped += part.lumped;
     out.layered += part.layered;
   }
-  Gathering<D, P>(slave, master, one_numbering, options.axisymmetric, seen).run(options, out);
+  Gathering<D, P>(slave, creases, one_numbering, options.axisymmetric, seen).run(options, out);
   return out;
 }
 

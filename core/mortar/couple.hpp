@@ -72,7 +72,7 @@ struct MortarCoupling {
   std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
   std::vector<double> nearest;   ///< least distance that faces of the node see, along its normal
   std::vector<double> farthest;  ///< and the largest: gap may be beyond both where the master covers less than a face
-  std::vector<double> kink;      ///< as much gap may be beyond them by edges and steps of the master, see distance()
+  std::vector<double> kink;      ///< as much gap may be beyond them by edges and ends of the master, see distance()
   std::vector<Offset> row{0};    ///< node.size() + 1: positions of the rows of M̂
   std::vector<Index> column;     ///< q, ascending in a row
   std::vector<double> value;
@@ -89,9 +89,10 @@ struct MortarCoupling {
     for (Offset k = row[p]; k < row[p + 1]; ++k) sum += is_own(column[k]) ? 0 : value[k];
     return sum;
   }
-  /// The mean distance of a node. Dual functions are of both signs: where the distance has a kink or jumps within a
-  /// face, as at an edge or a step of the master, means by them are beyond all that is seen, by a part of the kink,
-  /// which may be far more than bodies move. So far they are brought back to what is seen.
+  /// The mean distance of a node. Dual functions are of both signs: where the distance has a kink within a face, as
+  /// where an edge of the master comes down on it, or where an inclined master ends there, means by them are beyond all
+  /// that is seen, by a part of the kink, which may be far more than bodies move. So far they are brought back to what
+  /// is seen.
   double distance(Index p) const {
     const double mean = gap[p] / part(p);
     return mean + std::clamp(std::clamp(mean, nearest[p], farthest[p]) - mean, -kink[p], kink[p]);
@@ -114,6 +115,10 @@ struct MortarCoupling {
 /// Faces pair whose normals are within 60 degrees of opposite; not through the master, out of which the way back from
 /// the slave leads before. Where both surfaces have the same points (the same
 /// memory), as parts of one body have, faces that share a node do not pair, and nodes of both are left alone.
+///
+/// A face, and the faces around a node, pair with the nearest sheet of the master, not with what falls back behind an
+/// edge of that or lies behind a step of it: the integrals are over what the sheet covers
+/// (core/mortar/nearest_sheet.hpp).
 ///
 /// The result does not depend on the number of threads; on the order of nodes and faces by rounding only.
 /// Work is linear in the number of faces, times a logarithm for the search.

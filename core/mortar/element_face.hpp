@@ -57,4 +57,24 @@ struct ElementFace {
   }
 };
 
+template <int D>
+Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
+  Point<D> out = area_normal(corner);
+  const double norm = length<D>(out);
+  for (double& c : out) c /= norm;
+  return out;
+}
+
+/// The outer normal of what a part of a face stands for.
+/// @param at coordinates in the part
+/// @param direction of the line along which that is looked for
+template <int D, int P>
+Point<D> outer_normal(const Side<D>& side, Index part, const std::array<double, D>& at, const Point<D>& direction) {
+  if (side.stands_for_surface(part)) return side.surface(part, at, direction).normal;
+  const auto element = ElementFace<D, P>::with_part(part);
+  const ElementMap<D, D - 1, P> map = element.map(side);
+  if (!map.curved()) return side.normal[part];
+  return unit_normal<D>(map.flat(ElementFace<D, P>::coordinates(part - element.part(0), at)));
+}
+
 }  // namespace signorini::mortar

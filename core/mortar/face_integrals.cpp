@@ -7,9 +7,8 @@
 namespace signorini::mortar {
 namespace {
 
-/// What is farther off than something else in front of the same face by this part of the face's size is no partner of
-/// it: a face does not bend round that.
-constexpr double steepest = 0.25;
+/// What of a face nothing is in front of, but for rounding.
+constexpr double uncovered = 1e-9;
 
 /// Exact for products of two basis functions, and times the radius or the distance of curved surfaces.
 template <int K, int P>
@@ -34,14 +33,6 @@ Point<D> bulge(const Point<D>& at, const std::array<Point<D>, D>& corner, const 
   return out;
 }
 
-template <int D>
-Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
-  Point<D> out = area_normal(corner);
-  const double norm = length<D>(out);
-  for (double& c : out) c /= norm;
-  return out;
-}
-
 }  // namespace
 
 template <int D, int P>
@@ -50,8 +41,7 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   for (Index child = 0; child < ElementFace<D, P>::parts; ++child) look(face, child, to);
   if (covered_.empty()) return;
   const double size = P * finder_.frame().size;
-  find_sheets();
-  leave_out_far_sheets(size);
+  keep_nearest_sheet(slave_.normal[face.part(0)], size);
   const DualBasis<K, P> dual(covered_);
   to.lumped += dual.lumped();
   FaceRecord<D, P>& record = to.records.emplace_back();
@@ -62,7 +52,10 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   Distances all;
   for (const Run& run : runs_) all.add(run.seen);
   record.nearest = all.nearest, record.farthest = all.farthest;
-  record.far = all.farthest + steepest * size;
+  record.size = size;
+  record.first_part = to.parts.size();
+  to.parts.insert(to.parts.end(), parts_.begin(), parts_.end());
+  record.last_part = to.parts.size();
   record.first = to.entries.size();
   for (const Run& run : runs_) {
     const auto point = ElementFace<D, P>::with_part(run.part).points(master_);
@@ -84,33 +77,21 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
   }
   record.last = to.entries.size();
   const auto [least, most] = std::ranges::minmax(record.gap);
-  record.kink = least < all.nearest || most > all.farthest ? kink(size, slave_.normal[face.part(0)]) : 0;
+  record.kink = least < all.nearest || most > all.farthest ? kink(face, size) : 0;
 }
 
+/// Leaves out what is behind that.
 template <int D, int P>
-void FaceIntegrator<D, P>::find_sheets() {
+void FaceIntegrator<D, P>::keep_nearest_sheet(const Point<D>& direction, double size) {
   parts_.clear();
-  for (const Run& run : runs_) parts_.push_back(run.part);
-  std::ranges::sort(parts_);
-  parts_.erase(std::unique(parts_.begin(), parts_.end()), parts_.end());
-  sheets_.find(master_, parts_);
-}
-
-/// What is beside the nearest sheet, and far behind it.
-template <int D, int P>
-void FaceIntegrator<D, P>::leave_out_far_sheets(double size) {
-  if (sheets_.count() < 2) return;
-  std::vector<Distances> seen(parts_.size());  // per sheet
-  const auto sheet = [&](const Run& run) {
-    return sheets_.of(static_cast<Index>(std::ranges::lower_bound(parts_, run.part) - parts_.begin()));
+  for (const Run& run : runs_) parts_.push_back({run.part, run.seen});
+  merge_parts(parts_);
+  sheet_.choose(parts_, direction, size);
+  const auto kept = [this](const Run& run) {
+    return std::ranges::lower_bound(parts_, run.part, {}, &SeenPart::part)->kept;
   };
-  for (const Run& run : runs_) seen[sheet(run)].add(run.seen);
-  const auto away = [](const Distances& d) { return std::abs(d.nearest + d.farthest); };
-  Index nearest = sheet(runs_.front());
-  for (const Run& run : runs_)
-    if (away(seen[sheet(run)]) < away(seen[nearest])) nearest = sheet(run);
-  const double far = seen[nearest].farthest + steepest * size;
-  std::erase_if(runs_, [&](const Run& run) { return seen[sheet(run)].nearest > far; });
+  if (std::ranges::all_of(runs_, kept)) return;
+  std::erase_if(runs_, [&](const Run& run) { return !kept(run); });
   std::size_t points = 0;
   for (Run& run : runs_) {
     for (std::size_t i = run.first; i < run.last; ++i, ++points) {
@@ -121,37 +102,24 @@ void FaceIntegrator<D, P>::leave_out_far_sheets(double size) {
     run.last = points;
   }
   covered_.resize(points), seen_.resize(points);
-  find_sheets();
 }
 
 /// By how much the distance may be off what is smooth: the largest difference of slopes on both sides of an edge of the
-/// master, over the face's size; anything between sheets.
+/// master, over the face's size; anything between sheets. Where these end within the face what goes on beyond is as
+/// inclined as they are.
 template <int D, int P>
-double FaceIntegrator<D, P>::kink(double size, const Point<D>& direction) const {
-  if (sheets_.count() > 1) return infinity;
-  const auto slope = [&](const typename Sheets<D>::Seat& seat) {
-    Barycentric middle;
-    middle.fill(1.0 / K);
-    middle[seat.opposite] = 0;
-    Point<D> out = facing(parts_[seat.face], middle, direction);
-    const double along = dot(out, direction);
-    for (double& c : out) c /= along;
-    return out;
-  };
-  double largest = 0;
-  for (const auto& [a, b] : sheets_.neighbours())
-    largest = std::max(largest, length<D>(difference<D>(slope(a), slope(b))));
-  return size * largest;
-}
-
-/// The normal of the master, of what a part of a face stands for.
-template <int D, int P>
-Point<D> FaceIntegrator<D, P>::facing(Index part, const Barycentric& there, const Point<D>& direction) const {
-  if (master_.stands_for_surface(part)) return master_.surface(part, there, direction).normal;
-  const auto element = ElementFace<D, P>::with_part(part);
-  const ElementMap<D, K, P> map = element.map(master_);
-  if (!map.curved()) return master_.normal[part];
-  return unit_normal<D>(map.flat(ElementFace<D, P>::coordinates(part - element.part(0), there)));
+double FaceIntegrator<D, P>::kink(ElementFace<D, P> face, double size) const {
+  if (sheet_.apart()) return infinity;
+  const Point<D>& direction = slave_.normal[face.part(0)];
+  double slope = sheet_.kink(parts_, direction), measure = 0;
+  for (const Run& run : runs_) measure += run.measure;
+  if (measure < (1 - uncovered) * face.area(slave_))
+    for (const Run& run : runs_) {
+      const Point<D> normal = outer_normal<D, P>(master_, run.part, barycentre<K>(), direction);
+      const double inclined = length<D>(difference<D>(slope_along<D>(normal, direction), direction));
+      if (inclined > steepest) slope = std::max(slope, inclined);
+    }
+  return size * slope;
 }
 
 /// Adds what one of its parts sees.
@@ -163,7 +131,8 @@ void FaceIntegrator<D, P>::look(ElementFace<D, P> face, Index child, FaceIntegra
   const double scale = slave_.area[part] / finder_.frame().area;  // from the plane to the slave
   const ElementMap<D, K, P> map = face.map(slave_);
   for (const Segment<D>& segment : finder_.segments()) {
-    runs_.push_back({segment.master, covered_.size(), covered_.size(), note_overlap(segment, part, to.deepest)});
+    runs_.push_back({segment.master, covered_.size(), covered_.size(), note_overlap(segment, part, to.deepest),
+                     scale * measure(segment.piece)});
     add_points(segment, face, child, map, scale);
   }
 }

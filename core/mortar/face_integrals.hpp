@@ -3,6 +3,7 @@
 
 #include "core/mortar/dual_basis.hpp"
 #include "core/mortar/element_face.hpp"
+#include "core/mortar/nearest_sheet.hpp"
 #include "core/mortar/segments.hpp"
 
 namespace signorini::mortar {
@@ -12,14 +13,15 @@ template <int D, int P>
 struct FaceRecord {
   static constexpr std::size_t nodes = ElementFace<D, P>::nodes;
 
-  std::array<Index, nodes> node;       ///< among those of the slave
-  std::array<double, nodes> share;     ///< ∫ ψ_p over the slave
-  std::array<double, nodes> gap;       ///< ∫ ψ_p (distance) over ∫ ψ_p
-  double nearest, farthest;            ///< of the distances themselves
-  double far;                          ///< beyond that, what is in front of a face beside this one is no partner
-  double kink;                         ///< see MortarCoupling; zero where `gap` is not beyond them
-  std::array<Point<D>, nodes> normal;  ///< as gap, of what the distance is measured along
-  std::size_t first = 0, last = 0;     ///< its entries
+  std::array<Index, nodes> node;              ///< among those of the slave
+  std::array<double, nodes> share;            ///< ∫ ψ_p over the slave
+  std::array<double, nodes> gap;              ///< ∫ ψ_p (distance) over ∫ ψ_p
+  double nearest, farthest;                   ///< of the distances themselves
+  double size;                                ///< of the face
+  double kink;                                ///< see MortarCoupling; zero where `gap` is not beyond them
+  std::array<Point<D>, nodes> normal;         ///< as gap, of what the distance is measured along
+  std::size_t first = 0, last = 0;            ///< its entries
+  std::size_t first_part = 0, last_part = 0;  ///< of the master in front of it, partners or not
 };
 
 /// ∫ ψ_p φ_q over ∫ ψ_p for the nodes p of a slave face.
@@ -34,6 +36,7 @@ template <int D, int P>
 struct FaceIntegrals {
   std::vector<FaceRecord<D, P>> records;  ///< of the faces that see the master
   std::vector<FaceEntry<D, P>> entries;
+  std::vector<SeenPart> parts;
   DeepestOverlap<D> deepest;
   Index lumped = 0, layered = 0;
 };
@@ -43,15 +46,17 @@ template <int D, int P>
 class FaceIntegrator {
  public:
   /// Parameters as of SegmentFinder.
-  FaceIntegrator(const Side<D>& slave, const Side<D>& master, const PointTree<D>& tree, const CoupleOptions& options,
-                 bool one_numbering)
+  /// @param creases of the master
+  FaceIntegrator(const Side<D>& slave, const Creases<D>& creases, const PointTree<D>& tree,
+                 const CoupleOptions& options, bool one_numbering)
       : slave_(slave),
-        master_(master),
+        master_(creases.side()),
         along_normals_(options.pairing == Pairing::normal),
         axisymmetric_(options.axisymmetric),
         added_gap_(options.added_gap),
-        finder_(slave, master, tree, options, one_numbering),
-        place_(master.node.size(), std::size_t{0}) {}
+        finder_(slave, master_, tree, options, one_numbering),
+        place_(master_.node.size(), std::size_t{0}),
+        sheet_(creases) {}
 
   void add(ElementFace<D, P> face, FaceIntegrals<D, P>& to);
 
@@ -65,16 +70,12 @@ class FaceIntegrator {
     double gap;
     Point<D> normal;
   };
-  struct Distances {
-    double nearest = infinity, farthest = -infinity;
-    void add(double distance) { nearest = std::min(nearest, distance), farthest = std::max(farthest, distance); }
-    void add(const Distances& other) { add(other.nearest), add(other.farthest); }
-  };
   /// Points one after the other in front of one part of a face of the master.
   struct Run {
     Index part;
     std::size_t first, last;
     Distances seen;
+    double measure;  ///< of the slave
   };
 
   void look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to);
@@ -83,10 +84,8 @@ class FaceIntegrator {
   double added(Index part, const Point<K>& y) const;
   double distance(const Segment<D>& segment, Index part, const Point<K>& y) const;
   Distances note_overlap(const Segment<D>& segment, Index part, DeepestOverlap<D>& deepest) const;
-  Point<D> facing(Index part, const Barycentric& there, const Point<D>& direction) const;
-  void find_sheets();
-  void leave_out_far_sheets(double size);
-  double kink(double size, const Point<D>& direction) const;
+  void keep_nearest_sheet(const Point<D>& direction, double size);
+  double kink(ElementFace<D, P> face, double size) const;
   FaceEntry<D, P>& entry(Index point, FaceIntegrals<D, P>& to);
 
   const Side<D>& slave_;
@@ -98,8 +97,8 @@ class FaceIntegrator {
   std::vector<CoveredPoint<K>> covered_;
   std::vector<Seen> seen_;  // per point
   std::vector<Run> runs_;
-  std::vector<Index> parts_;  // of the master that are seen, ascending
-  Sheets<D> sheets_;          // of these
+  std::vector<SeenPart> parts_;  // of the master, ascending
+  NearestSheet<D> sheet_;
 };
 
 }  // namespace signorini::mortar

@@ -8,7 +8,7 @@
 namespace signorini::mortar {
 
 template <int D>
-void Sheets<D>::find(const Side<D>& side, std::span<const Index> faces) {
+void Sheets<D>::find(const Side<D>& side, std::span<const Index> faces, const Creases<D>* creases) {
   edges_.clear();
   neighbours_.clear();
   root_.resize(faces.size());
@@ -32,7 +32,9 @@ void Sheets<D>::find(const Side<D>& side, std::span<const Index> faces) {
   for (std::size_t e = 1; e < edges_.size(); ++e) {
     if (edges_[e].first != edges_[e - 1].first) continue;
     neighbours_.emplace_back(edges_[e - 1].second, edges_[e].second);
-    const Index a = root(edges_[e - 1].second.face), b = root(edges_[e].second.face);
+    const Seat& seat = edges_[e].second;
+    if (creases && creases->is_crease(faces[seat.face], seat.opposite)) continue;
+    const Index a = root(edges_[e - 1].second.face), b = root(seat.face);
     if (a != b) root_[a] = b, --count_;
   }
   for (Index f = 0; f < static_cast<Index>(faces.size()); ++f) root_[f] = root(f);

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/mortar/side.hpp"
+#include "core/mortar/creases.hpp"
 
 namespace signorini::mortar {
 
@@ -17,7 +17,8 @@ class Sheets {
     int opposite;
   };
 
-  void find(const Side<D>& side, std::span<const Index> faces);
+  /// @param creases along which they do not hang together; null: they do along all edges
+  void find(const Side<D>& side, std::span<const Index> faces, const Creases<D>* creases = nullptr);
 
   Index count() const { return count_; }
   /// The same for faces of one sheet: the place of one of them.

@@ -8,6 +8,7 @@
 
 #include "core/algebra/products.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/recovery/beside_slaves.hpp"
 #include "core/fem/recovery/coincidence_set.hpp"
 #include "core/fem/recovery/contact_surface.hpp"
 #include "core/fem/recovery/held_in_set.hpp"
@@ -544,6 +545,8 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
                      [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   if (model.obstacles.size() > 1 || !discretization.held.empty())
     MeetingFaces<D, B>(nodes, model, discretization, to_global(discretization.problem, x), state.nodes).divide();
+  if constexpr (D == B)
+    if (discretization.pairs) BesideSlaves<D>(nodes, model, discretization, state.nodes).spread();
   add_functionals(reader, model, discretization, state.nodes);
   std::vector<double> largest(model.obstacles.size());
   for (const ContactNode<B>& node : state.nodes)

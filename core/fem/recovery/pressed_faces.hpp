@@ -201,6 +201,7 @@ class PressedFaces {
       const Point<D> normal = area_normal(nodes.mesh(), nodes.mesh().boundary[face]);
       std::array<Index, D>& corners = corners_.emplace_back();
       std::ranges::transform(vertices, corners.begin(), [&](Index v) { return number_of(v, normal); });
+      leave_out_beyond(corners);
       for (const Index k : corners) {
         if (k == unreachable) continue;
         face_at_[k] = face;
@@ -220,6 +221,14 @@ class PressedFaces {
       std::ranges::sort(list);
       list.erase(std::unique(list.begin(), list.end()), list.end());
     }
+  }
+
+  /// Where the part of the other body that presses ends at one of a face's corners, those without contact that another
+  /// part of it is in front of, behind an edge or a step: contact ends where that part does, not within the face.
+  void leave_out_beyond(std::array<Index, D>& corners) const {
+    if (std::ranges::none_of(corners, [&](Index k) { return pressed(k) && node_[k]->partly_covered(); })) return;
+    for (Index& k : corners)
+      if (k != unreachable && !pressed_[k] && !node_[k]->partly_covered()) k = unreachable;
   }
 
   /// All corners of a face but one, in ascending order.
@@ -362,7 +371,8 @@ class PressedFaces {
 
   double bend_around(Index k) const {
     double out = bend_[k];
-    for (const Index other : around_[k]) out = std::max(out, bend_[other]);
+    for (const Index other : around_[k])
+      if (other != unreachable) out = std::max(out, bend_[other]);
     return out;
   }
 

@@ -157,7 +157,7 @@ TYPED_TEST(Pairs, TheNearestOfSeveralLayersCounts) {
   constexpr int D = TypeParam::value;
   const auto slave = this->above(0);
   auto master = this->below(-0.4, -0.2, 1.2, 3);
-  const Index near = master.add(this->below(-0.38, 0, 0.5));
+  const Index near = master.add(this->below(-0.399, 0, 0.5));
   const auto c = couple<D>(slave.side(), master.side(), within(1));
   EXPECT_GT(c.layered, 0);
   EXPECT_NEAR(total_weight(c), 1, 1e-12);
@@ -166,7 +166,7 @@ TYPED_TEST(Pairs, TheNearestOfSeveralLayersCounts) {
     on_near += c.weight[p] * row_value(c, p, [&](Index q) { return q >= near ? 1.0 : 0.0; });
     const Point<D>& x = slave.points[c.node[p]];
     if (std::ranges::max_element(x) != x.end() && *std::ranges::max_element(x) < 0.25) {
-      EXPECT_NEAR(c.gap[p], 0.38, 1e-13);
+      EXPECT_NEAR(c.gap[p], 0.399, 1e-13);
     }
     if (x[0] > 0.75) {
       EXPECT_NEAR(c.gap[p], 0.4, 1e-13);
@@ -180,7 +180,7 @@ TYPED_TEST(Pairs, LayersOfAPartlyCoveredFaceAreParted) {
   constexpr int D = TypeParam::value;
   auto slave = this->above(0, 0, 1, 1);
   auto master = this->below(-0.2, 0, 0.5, 2);
-  master.add(this->below(-0.1, 0.25, 0.75, 3));
+  master.add(this->below(-0.195, 0.25, 0.75, 3));
   const auto c = couple<D>(slave.side(), master.side(), within(1));
   const double side = 0.5, shared = 0.25;
   EXPECT_NEAR(total_weight(c), 2 * std::pow(side, D - 1) - std::pow(shared, D - 1), 1e-12);

@@ -62,11 +62,13 @@ void try_pair(Random& random, int trial) {
     on_slave.jitter = on_master.jitter = 0.2;
   if (trial % 4 == 2) on_master.from[0] = 1 - std::pow(10, random.between(-12, -2)), on_master.to[0] = 1.5;
   double roughness = random.between(0, 0.15);  // of the least cell: no face hides another one
+  constexpr double without_edges = 0.02;       // of that, the master's: its faces turn by less than edges do
   for (int k = 0; k < K; ++k)
     for (const Grid<K>& g : {on_slave, on_master})
       if (const double cell = (g.to[k] - g.from[k]) / g.cells[k]; cell < 1) roughness *= cell;
   const auto rough = [&](const Plane<K>&) { return roughness * random.between(-1, 1); };
-  Surface<D> slave = graph<D>(on_slave, random, rough), master = graph<D>(on_master, random, rough);
+  const auto less = [&](const Plane<K>& y) { return without_edges * rough(y); };
+  Surface<D> slave = graph<D>(on_slave, random, rough), master = graph<D>(on_master, random, less);
   slave.flip();
   if constexpr (D == 3)
     if (trial % 4 == 0) {
