@@ -51,7 +51,7 @@ TEST(TouchingBodies, AreOneWithAllThatTouchEachOther) {
   const std::string self =
       "[[obstacle]]\ntype = \"elastic\"\nbody = \"e\"\non = \"left\"\nother = \"e\"\nother_on = \"right\"\n";
   const Scene scene = scene_of(square("a") + square("b") + square("c") + square("d") + square("e") +
-                               touching("b", "a") + touching("d", "b") + self + tables::fix("c", "top", "[0, 0]"));
+                               touching("d", "b") + touching("b", "a") + self + tables::fix("c", "top", "[0, 0]"));
   const Scene joined = with_touching_bodies(scene);
   EXPECT_THAT(names(joined.bodies), ElementsAre("a+b+d", "c", "e"));
   EXPECT_THAT(names(joined.bodies[0].parts), ElementsAre("a", "b", "d"));
