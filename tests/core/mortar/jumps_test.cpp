@@ -206,5 +206,80 @@ TYPED_TEST(JumpsOf, MatchingMeshesInterpolateAsDisplacements) {
   EXPECT_LE((dense_weights(Q, D) - dense_weights(P, D)).norm(), 1e-12);
 }
 
+/// Rows of the inverse, as a matrix.
+Eigen::MatrixXd dense_inverse(const Jumps<2>& jumps, Index vectors) {
+  return dense_basis(Jumps<2>{jumps.vector, jumps.inverse, jumps.basis, jumps.given}, vectors);
+}
+
+BlockRow<2> random_row(Random& random, std::initializer_list<Index> columns) {
+  BlockRow<2> out;
+  for (const Index q : columns)
+    for (double& w : out[q]) w = random.between(-1, 1);
+  return out;
+}
+
+// Slaves that are masters of others, and a pair of vectors whose unknowns are something else altogether.
+TEST(JumpBuilder, PutsRowsIntoEachOther) {
+  Random random(5);
+  constexpr Index vectors = 8;
+  JumpBuilder<2> builder;
+  const BlockRow<2> of_0 = random_row(random, {1, 4}), of_1 = random_row(random, {3, 5}),
+                    of_2 = random_row(random, {0, 6});
+  builder.add(0, of_0);
+  builder.add(1, of_1);
+  builder.add(2, of_2);
+  Eigen::Matrix4d both;
+  for (double& c : both.reshaped()) c = random.between(-1, 1);
+  const Eigen::Matrix4d back = both.inverse();
+  const auto row = [](const Eigen::Matrix4d& of, int k) {
+    BlockRow<2> out;
+    for (const int m : {0, 1})
+      for (int i = 0; i < 4; ++i) out[3 + m][i] = of(2 * k + i / 2, 2 * m + i % 2);
+    return out;
+  };
+  for (const int k : {0, 1}) builder.add(3 + k, row(both, k), row(back, k));
+  EXPECT_TRUE(builder.leads_to(of_2, 1));
+  EXPECT_TRUE(builder.leads_to({{7, {}}, {2, {}}}, 0));
+  EXPECT_FALSE(builder.leads_to(of_1, 2));
+  const Jumps<2> jumps = builder.take();
+  const Eigen::MatrixXd Z = dense_basis(jumps, vectors), inverse = dense_inverse(jumps, vectors);
+  EXPECT_LE((Z * inverse - Eigen::MatrixXd::Identity(2 * vectors, 2 * vectors)).norm(), 1e-12);
+  EXPECT_LE(
+      (inverse.block<2, 2>(0, 2) + Eigen::Map<const Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(of_0.at(1).data()))
+          .norm(),
+      1e-15);
+  const auto A = random_symmetric<2>(random, vectors, 0.3);
+  auto C = A;
+  reserve_couplings(jumps, C);
+  transform(jumps, C);
+  EXPECT_LE((dense(C) - Z.transpose() * dense(A) * Z).norm(), 1e-12 * dense(C).norm());
+  std::vector<double> b(2 * vectors);
+  for (double& c : b) c = random.between(-1, 1);
+  const Eigen::VectorXd before = vector(b);
+  transform_forces(jumps, b);
+  EXPECT_LE((vector(b) - Z.transpose() * before).norm(), 1e-13);
+  transform_forces_back(jumps, b);
+  EXPECT_LE((vector(b) - before).norm(), 1e-12);
+  VectorRow<2> c{{2, {1, -2}}, {5, {3, 1}}};
+  Eigen::RowVectorXd coefficients = Eigen::RowVectorXd::Zero(2 * vectors), transformed = coefficients;
+  for (const auto& [p, value] : c)
+    for (int i = 0; i < 2; ++i) coefficients[2 * p + i] = value[i];
+  transform_row<2>(jumps, c);
+  for (const auto& [p, value] : c)
+    for (int i = 0; i < 2; ++i) transformed[2 * p + i] = value[i];
+  EXPECT_LE((transformed - coefficients * Z).norm(), 1e-13);
+}
+
+// Of what is not chosen the unknowns are displacements, also where others refer to it.
+TEST(JumpBuilder, ChoosesSome) {
+  Random random(6);
+  JumpBuilder<2> all, some;
+  const BlockRow<2> of_0 = random_row(random, {1, 4}), of_1 = random_row(random, {3, 5});
+  all.add(0, of_0);
+  all.add(1, of_1);
+  some.add(0, of_0);
+  EXPECT_EQ(chosen_jumps(all.take(), {1, 0}), some.take());
+}
+
 }  // namespace
 }  // namespace signorini::test
