@@ -30,7 +30,7 @@ struct TieForce : NodalForce<B> {
 template <int D, int B>
 std::vector<NodalForce<B>> counterforces(const Nodes<D>& nodes, const Model<B>& model,
                                          const DiscreteProblem<B>& problem, const ContactState<B>& contact,
-                                         const std::vector<TieForce<B>>& ties);
+                                         const std::vector<TieForce<B>>& ties = {});
 
 /// The sums of those on slaves, or on masters, per obstacle of the model; zero for obstacles that act on one body.
 /// @param part what is summed up
