@@ -237,6 +237,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
       refuse_pulling(nodes(), model_, results_.contact);
       strains_ = strains(nodes(), model_, results_.u);
       refuse_folded(Nodes(hierarchy_.levels.front()), model_, strains_);
+      refuse_turned(nodes(), model_, results_.u);
     }
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;

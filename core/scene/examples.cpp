@@ -116,8 +116,9 @@ The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
   small.
 - An obstacle is never touched. The warning gives the smallest distance that is left.
 
-A scene is refused in two cases. A twentieth of a body would be pressed through itself, for example because
-displacements have other units than the body. Or an obstacle is on the wrong side, so that it would pull at the body.
+A scene is refused in three cases. A twentieth of a body would be pressed through itself, for example because
+displacements have other units than the body. Or a body would turn by more than a radian as a whole. Or an obstacle is on
+the wrong side, so that it would pull at the body.
 
 **Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
 `where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.

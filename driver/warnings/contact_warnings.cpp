@@ -203,18 +203,46 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
   return warnings;
 }
 
+namespace {
+
+/// The largest turn of a body as a whole, in radians.
+template <int D>
+double turned(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
+  if (model.plane == Plane::axisymmetric) return 0;
+  return std::ranges::max(
+      mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u));
+}
+
+template <int D>
+const char* what_turns(const Model<D>& model) {
+  return is_paired(model) ? "one of the bodies" : "the body";
+}
+
+}  // namespace
+
+template <int D>
+void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
+  constexpr double nonsense = 1;  // radian: half of it is strain
+  const double turn = turned(model, nodes, u);
+  if (model.obstacles.empty() || !(turn > nonsense)) return;
+  input_error(
+      model.origin,
+      fmt::format("{} would turn by {:.2g} degrees: linear elasticity, which is meant for small turns, says "
+                  "nothing of that; expected a fix that holds it, as where nothing but contact without friction "
+                  "keeps a round body from turning, or smaller loads",
+                  what_turns(model), turn * 180 / std::numbers::pi));
+}
+
 template <int D>
 Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
   constexpr double noticeable_turn = 0.1;
-  if (model.plane == Plane::axisymmetric) return {};
-  const std::vector<double> turns =
-      mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u);
-  const double largest = *std::ranges::max_element(turns);
-  if (!(largest > noticeable_turn)) return {};
-  return {warning<"large-turn">(model.origin, turns.size() > 1 ? "one of the bodies" : "the body",
-                                largest * 180 / std::numbers::pi, 0.5 * largest * largest)};
+  const double turn = turned(model, nodes, u);
+  if (!(turn > noticeable_turn)) return {};
+  return {warning<"large-turn">(model.origin, what_turns(model), turn * 180 / std::numbers::pi, 0.5 * turn * turn)};
 }
 
+template void refuse_turned(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
+template void refuse_turned(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&);
 template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&);
 template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);

@@ -1,6 +1,9 @@
 // Smooth surfaces through the vertices of flat faces: how near they are to the surfaces that they stand for.
 #include "core/geometry/smooth_boundary.hpp"
 
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -8,6 +11,7 @@
 #include <random>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/flat_parts.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -206,6 +210,73 @@ TEST(SmoothBoundary, PlanesThatRunIntoFilletsStayFlat) {
     }
   }
   EXPECT_LT(largest<3>(found, off), 1e-4);  // facets: 1.4e-3
+}
+
+/// A prism over a regular polygon, its ends fans of triangles without a vertex inside; turned about an axis of no
+/// special direction.
+Facets<3> turned_prism(int sides) {
+  Facets<3> facets;
+  for (const double z : {0.0, 1.0})
+    for (int i = 0; i < sides; ++i)
+      facets.points.push_back({2 * std::cos(2 * pi * i / sides), 2 * std::sin(2 * pi * i / sides), z});
+  for (Index i = 0; i < sides; ++i) {
+    const Index j = (i + 1) % sides;
+    facets.faces.push_back({i, j, j + sides});
+    facets.faces.push_back({i, j + sides, i + sides});
+    if (i > 0 && j > 0) {
+      facets.faces.push_back({0, j, i});
+      facets.faces.push_back({Index(sides), i + sides, j + sides});
+    }
+  }
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (Point<3>& p : facets.points)
+    Eigen::Map<Eigen::Vector3d>(p.data()) = turn * Eigen::Map<Eigen::Vector3d>(p.data());
+  return facets;
+}
+
+// What surface files hold. Vertices on a circle leave a quadric one term that rounding alone would decide.
+TEST(SmoothBoundary, FlatEndsStayFlatInSinglePrecision) {
+  for (const int sides : {5, 8, 24, 48}) {
+    Facets<3> facets = turned_prism(sides);
+    for (Point<3>& p : facets.points)
+      for (double& x : p) x = static_cast<float>(x);
+    const auto found = smooth(facets);
+    for (std::size_t f = 0; f < facets.faces.size(); ++f) {
+      const auto level = [&](Index v) { return v >= sides; };
+      const auto& [a, b, c] = facets.faces[f];
+      if (level(a) == level(b) && level(b) == level(c)) EXPECT_LT(bulge<3>(found.patches[f]), 2e-6) << sides;
+    }
+  }
+}
+
+TEST(RoundedAway, TellsTheDigitsOfAFile) {
+  const Facets<3> exact = turned_prism(7);
+  const auto rounded = [&](const std::function<double(double)>& round) {
+    std::vector<Point<3>> points = exact.points;
+    for (Point<3>& p : points)
+      for (double& x : p) x = round(x);
+    return rounded_away<3>(points);
+  };
+  EXPECT_LT(rounded([](double x) { return x; }), 1e-14);
+  EXPECT_NEAR(rounded([](double x) { return double(float(x)); }), 1.2e-7, 0.3e-7);
+  EXPECT_NEAR(rounded([](double x) { return std::stod(fmt::format("{:.7g}", x)); }), 1e-6, 0.3e-6);
+  EXPECT_LT(rounded([](double x) { return std::stod(fmt::format("{:.12g}", x)); }), 1e-14);
+}
+
+// Far from the origin as near to it: coordinates with all their digits lose none of the shape.
+TEST(SmoothBoundary, OfAFineCylinderFarAwayStaysRound) {
+  Facets<3> facets;
+  const int n = 400;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < n; ++i)
+      facets.points.push_back({1000 + std::cos(2 * pi * i / n), std::sin(2 * pi * i / n), 0.3 * j / 7.0});
+  for (Index j = 0; j < 3; ++j)
+    for (Index i = 0; i < n; ++i) {
+      const Index a = j * n + i, b = j * n + (i + 1) % n;
+      facets.faces.push_back({a, b, b + n});
+      facets.faces.push_back({a, b + n, a + n});
+    }
+  EXPECT_LT(largest<3>(smooth(facets), [](const Point<3>& p) { return std::hypot(p[0] - 1000, p[1]) - 1; }), 1e-8);
 }
 
 }  // namespace
