@@ -442,7 +442,7 @@ TEST(PairedSides, WithFrictionLeaveOutWhatCannotSlide) {
   pair.model.fixes = {fix<2>("up/left", {0.01, std::nullopt})};
   Index lost = -1;
   const auto all = couple_sides(pair.nodes, pair.model, term, faces.slave, faces.master);
-  const auto some = couple_sides_with_friction<2>(pair.nodes, pair.model, term, faces, pair.fixes(), {}, &lost);
+  const auto some = couple_whole_jumps<2>(pair.nodes, pair.model, term, faces, pair.fixes(), {}, {}, &lost);
   EXPECT_EQ(lost, 0);
   EXPECT_EQ(some.nodes(), all.nodes() - 1);
   double area = 0, whole = 0;  // own areas, and what is taken over
@@ -450,7 +450,7 @@ TEST(PairedSides, WithFrictionLeaveOutWhatCannotSlide) {
   for (const double w : all.weight) whole += w;
   EXPECT_NEAR(area, whole, 1e-13);
   pair.model.fixes = {fix<2>("up/bottom", {0.01, std::nullopt})};  // all of them: nobody is left to take over
-  couple_sides_with_friction<2>(pair.nodes, pair.model, term, faces, pair.fixes(), {}, &lost);
+  couple_whole_jumps<2>(pair.nodes, pair.model, term, faces, pair.fixes(), {}, {}, &lost);
   EXPECT_EQ(lost, 3);
 }
 
