@@ -238,15 +238,15 @@ TEST(Symmetry, ConditionsGoOnBeyondPlanesTheyTouch) {
                  {where([](const double* x) { return x[1] == 1; }), {Field(0), Field(0)}},
                  {where([](const double* x) { return x[0] == 1; }), {Field(0), Field(0)}}};
   model.loads = {{{}, {Field(0), Field(-1)}}};
-  const ConditionsAcross across = conditions_across<2, 2>(mesh, model);
+  const ConditionsAcross across = conditions_across<2, 2>(Nodes<2>(mesh), model);
   EXPECT_EQ(across.fixes, (std::vector<Planes>{1, 0, 1, 0}));
   EXPECT_EQ(across.loads, std::vector<Planes>{1});
   // An expression that holds at the images, too.
   model.fixes[2].on = where([](const double* x) { return x[1] == 1; }, "boundary");
   model.fixes[3].on = where([](const double* x) { return x[1] == 1 && x[0] > -0.6; });
-  EXPECT_THAT(complaint([&] { conditions_across<2, 2>(mesh, model); }), HasSubstr("x = 0"));
+  EXPECT_THAT(complaint([&] { conditions_across<2, 2>(Nodes<2>(mesh), model); }), HasSubstr("x = 0"));
   model.fixes.pop_back();
-  EXPECT_EQ((conditions_across<2, 2>(mesh, model).fixes), (std::vector<Planes>{1, 0, 1}));
+  EXPECT_EQ((conditions_across<2, 2>(Nodes<2>(mesh), model).fixes), (std::vector<Planes>{1, 0, 1}));
   EXPECT_EQ(all_planes(mesh), 1u);
   EXPECT_EQ(all_planes(rectangle({0, 0}, {1, 1}, {1, 1})), 0u);
 }
@@ -271,7 +271,7 @@ TEST(Symmetry, AsymmetricConditionsAreRefused) {
   EXPECT_EQ(complaint([&] { check_symmetry<2, 2>(meshes, other); }), "");
   other.obstacles = {{plane<2>({}, {0.6, 0.8}), on("bottom"), "obstacle.0"}};
   EXPECT_THAT(complaint([&] { check_symmetry<2, 2>(meshes, other); }), HasSubstr("obstacle.0"));
-  const ConditionsAcross across = conditions_across<2, 2>(meshes.finest(), other);
+  const ConditionsAcross across = conditions_across<2, 2>(Nodes<2>(meshes.finest()), other);
   EXPECT_NE(complaint([&] { refuse_asymmetric<2, 2>(meshes.finest(), other, across); }), "");
   EXPECT_EQ(complaint([&] { check_symmetry<2, 2>(hierarchy(rectangle({0, 0}, {1, 1}, {2, 2}), 1), other); }), "");
 }

@@ -243,9 +243,12 @@ void expect_pairs() {
     // The mean of the master's positions is right below: weights reproduce linear functions.
     Point<D> below{};
     double sum = 0;
-    for (Offset j = jumps.row[k]; j < jumps.row[k + 1]; ++j) {
-      sum += jumps.weight[j];
-      for (int i = 0; i < D; ++i) below[i] += jumps.weight[j] * pair.nodes.at(jumps.column[j])[i];
+    const auto& rows = jumps.inverse;  // u_p - sum w_q u_q
+    for (Offset j = rows.row[k]; j < rows.row[k + 1]; ++j) {
+      if (rows.column[j] == node.node) continue;
+      const double weight = -rows.at(j)[D * D - 1];  // along the last axis
+      sum += weight;
+      for (int i = 0; i < D; ++i) below[i] += weight * pair.nodes.at(rows.column[j])[i];
     }
     EXPECT_NEAR(sum, 1, 1e-12);
     EXPECT_NEAR(below[D - 1], 1, 1e-12);
