@@ -30,13 +30,15 @@ TEST_F(Cheaper, PlanesOfSymmetry) {
   EXPECT_THAT(both, HasSubstr("cheaper: symmetric about x=0.5: `--set symmetry.x=0.5`"));
   EXPECT_THAT(both, HasSubstr("`--set symmetry.y=1`"));
   EXPECT_THAT(both, Not(HasSubstr("symmetry.z")));
-  ASSERT_EQ(signorini({"solve", "scene.toml", "--out", "whole", "--quiet"}).status, 0);
-  ASSERT_EQ(
-      signorini({"solve", "scene.toml", "--out", "part", "--quiet", "--set", "symmetry.x=0.5", "--set", "symmetry.y=1"})
-          .status,
-      0);
+  const auto solve = [&](const char* out, const std::vector<std::string>& planes) {
+    std::vector<std::string> arguments{"solve", "scene.toml", "--out", out, "--quiet", "--set", "refine.uniform=2"};
+    for (const std::string& plane : planes) arguments.insert(arguments.end(), {"--set", plane});
+    return signorini(arguments).status;
+  };
+  ASSERT_EQ(solve("whole", {}), 0);
+  ASSERT_EQ(solve("part", {"symmetry.x=0.5", "symmetry.y=1"}), 0);
   const double force = report("whole")["contact"][0]["force"][2];
-  EXPECT_NEAR(report("part")["contact"][0]["force"][2], force, 1e-7 * force);
+  EXPECT_NEAR(report("part")["contact"][0]["force"][2], force, 0.005 * force) << "but for the mesh";
 
   const std::string one = check(block("z + 0.5 * ((x - 0.4)^2 + (y - 1)^2)"));
   EXPECT_THAT(one, Not(HasSubstr("symmetry.x")));
@@ -55,9 +57,10 @@ TEST_F(Cheaper, FrictionThatIsNone) {
 TEST_F(Cheaper, BodiesThatMightBeRigid) {
   const auto stack = [](const char* young) {
     return std::string(
-               "[[body]]\nname = \"upper\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\n"
-               "[[body]]\nname = \"lower\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [3, 0]\ncells = [4, "
-               "1]\nyoung = ") +
+               "[[body]]\nname = \"upper\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\nyoung = "
+               "1\npoisson = 0.3\n[[body]]\nname = \"lower\"\nshape = \"rectangle\"\nfrom = [-1, -1]\nto = [3, "
+               "0]\ncells = [4, "
+               "1]\npoisson = 0.3\nyoung = ") +
            young +
            "\n[[fix]]\nbody = \"upper\"\non = \"top\"\nvalue = [0, -0.01]\n[[fix]]\nbody = \"lower\"\non = \"bottom\"\n"
            "value = [0, 0]\n[[obstacle]]\ntype = \"elastic\"\nbody = \"upper\"\non = \"bottom\"\nother = "
