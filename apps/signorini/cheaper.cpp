@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/signorini/console.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/scene/build_model.hpp"
@@ -48,7 +49,8 @@ Extent extent_of(const Scene& scene) {
   Extent out;
   for (std::size_t body = 0; body < scene.bodies.size(); ++body)
     dispatch(
-        scene, [&]<int D, int B>() { out.add(build_hierarchy<D>(scene, B, nullptr, Progress(), body).levels.front()); },
+        scene,
+        [&]<int D, int B>() { out.add(build_hierarchy<D>(scene, B, nullptr, Console(true), body).levels.front()); },
         body);
   return out;
 }
@@ -59,7 +61,7 @@ bool is_symmetric(const Scene& scene, const Registry& registry) {
       dispatch(
           scene,
           [&]<int D, int B>() {
-            const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, nullptr, Progress(), body);
+            const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, nullptr, Console(true), body);
             for (const double t : scene.steps.at)
               check_symmetry(hierarchy, build_model<B>(scene, D, registry, t, body));
           },

@@ -117,7 +117,7 @@ The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
 - An obstacle is never touched. The warning gives the smallest distance that is left.
 
 A scene is refused in three cases. A twentieth of a body would be pressed through itself, for example because
-displacements have other units than the body. Or a body would turn by more than a radian as a whole. Or an obstacle is on
+displacements have other units than the body. Or a body would turn by more than half a turn. Or an obstacle is on
 the wrong side, so that it would pull at the body.
 
 **Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or

@@ -222,7 +222,7 @@ const char* what_turns(const Model<D>& model) {
 
 template <int D>
 void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
-  constexpr double nonsense = 1;  // radian: half of it is strain
+  constexpr double nonsense = std::numbers::pi;
   const double turn = turned(model, nodes, u);
   if (model.obstacles.empty() || !(turn > nonsense)) return;
   input_error(

@@ -31,7 +31,7 @@ Warnings apart_warnings(const Scene& scene, std::size_t body, const Report& repo
 /// share with the obstacle. One sentence per obstacle and kind, for the worst step.
 Warnings contact_warnings(const Scene& scene, const Report& report);
 
-/// Error(Exit::input) where a body turns as a whole by more than a radian, and obstacles were to stop it.
+/// Error(Exit::input) where a body turns as a whole by more than half a turn, and obstacles were to stop it.
 template <int D>
 void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
 

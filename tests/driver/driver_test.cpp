@@ -394,7 +394,7 @@ TEST(Driver, refuses_wrong_names_and_lengths_as_the_reader_does) {
       {[](Scene& s) { s.bodies[0].young = NAN; }, Exit::input, {"young", "body.0"}},
       {[](Scene& s) { s.probes.emplace_back(); }, Exit::input, {"no body ''"}},
       {[](Scene& s) { s.fixes[0].value.clear(); }, Exit::input, {"fix.0.value", "nothing is fixed"}},
-      {[](Scene& s) { s.loads[0].value.clear(); }, Exit::input, {"load.0.value", "expected 3 components, found 0"}},
+      {[](Scene& s) { s.loads[0].value.clear(); }, Exit::input, {"load.0", "none of 'value'"}},
       {[](Scene& s) { s.loads[0].value[1] = NAN; }, Exit::input, {"load.0.value", "found nan"}},
       {[](Scene& s) { s.fixes[0].value[2] = -INFINITY; }, Exit::input, {"fix.0.value", "found -inf"}},
       {[](Scene& s) { std::get<Scene::SphereShape>(*s.obstacles[0].shape).center.pop_back(); },

@@ -320,7 +320,7 @@ TEST(TwoBodies, AreRefusedWhereTheyCannotTouch) {
   expect_error(with("other = \"below\"\nother_on = \"top\"\nslave = \"body\"", ""), Exit::input, "missing key 'other'");
   expect_error(with("order = 1", "order = 2"), Exit::input, "elements of order");
   expect_error(start + tables::plane("above", "bottom", "[0, 1]", "[0, 1]"), Exit::input,
-               "two bodies of that obstacle");
+               "expected faces apart from those");
 }
 
 }  // namespace
