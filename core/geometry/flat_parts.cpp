@@ -109,7 +109,7 @@ class Finder {
       std::vector<Index> vertices;
       for (const Index f : region) vertices.insert(vertices.end(), faces_[f].begin(), faces_[f].end());
       std::ranges::sort(vertices);
-      vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
       // Of three corners of a face two are on one of the lines.
       const auto& [a, b, c] = faces_[region.front()];
       return on_two_lines(vertices, a, b) || on_two_lines(vertices, b, c) || on_two_lines(vertices, c, a);
