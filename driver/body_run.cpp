@@ -264,7 +264,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
 template <int D, int B>
 Estimate BodyRun<D, B>::estimate(bool cheap) const {
   EstimateOptions<B> options{{}, algebraic_error_};
-  if (B > 1 && !cheap) options.solve = rough_solve<B>(registry_);
+  if (nodes().order() > 1 || (B > 1 && !cheap)) options.solve = rough_solve<B>(registry_);
   const auto estimator = registry_.create<Estimator<D, B>>("estimator", "certificate");
   return estimator->estimate(nodes(), model_, results_.u, options);
 }

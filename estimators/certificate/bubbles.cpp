@@ -8,11 +8,13 @@
 namespace signorini {
 
 template <int D, int B>
-Bubbles<D, B>::Bubbles(const TrueProblem<D, B>& problem, const std::vector<double>& u)
+Bubbles<D, B>::Bubbles(const TrueProblem<D, B>& problem)
     : problem_(problem),
-      u_(u),
-      c_(static_cast<std::size_t>(problem.incidence.edges) * B),
-      lifted_(static_cast<std::size_t>(problem.incidence.edges)) {}
+      any_(!problem.u.of_edge.empty()),
+      c_(problem.u.of_edge),
+      lifted_(static_cast<std::size_t>(problem.incidence.edges)) {
+  c_.resize(lifted_.size() * B);
+}
 
 template <int D, int B>
 std::array<Index, 2> Bubbles<D, B>::ends(Index edge) const {
@@ -27,7 +29,7 @@ std::array<Index, 2> Bubbles<D, B>::ends(Index edge) const {
 template <int D, int B>
 std::array<double, 2> Bubbles<D, B>::range(Index edge, Index a, Index b) const {
   const auto* bound = problem_.gaps.at_edge(edge);
-  const auto from = distances(problem_, u_, a), to = distances(problem_, u_, b);
+  const auto from = distances(problem_, a), to = distances(problem_, b);
   const double lower = bound->lower - (from[0] + to[0]) / 4, upper = bound->upper + (from[1] + to[1]) / 4;
   return {std::isnan(lower) ? -infinity : lower, std::isnan(upper) ? infinity : upper};
 }
@@ -40,7 +42,9 @@ bool Bubbles<D, B>::lift() {
     if (!bound) continue;
     const auto [a, b] = ends(e);
     const auto [lower, upper] = range(e, a, b);
-    const double by = std::clamp(0.0, std::min(lower, upper), std::max(lower, upper));
+    double there = 0;
+    for (int i = 0; i < B; ++i) there += bound->direction[i] * c_[Offset{e} * B + i];
+    const double by = std::clamp(there, std::min(lower, upper), std::max(lower, upper)) - there;
     if (std::fabs(by) <= problem_.gaps.rounding) continue;
     std::array<double, B> n = bound->direction;
     if (problem_.edge_fix[e] >= 0) project(problem_.edge_fixes[problem_.edge_fix[e]], n);
@@ -49,18 +53,20 @@ bool Bubbles<D, B>::lift() {
       possible = false;
       continue;
     }
-    for (int i = 0; i < B; ++i) c_[Offset{e} * B + i] = n[i] * by / along;
-    lifted_[e] = any_ = true;
+    for (int i = 0; i < B; ++i) c_[Offset{e} * B + i] += n[i] * by / along;
+    lifted_[e] = any_lifted_ = any_ = true;
   }
   return possible;
 }
 
-/// H_x with grad(sum of c_e b_e) = sum over x of phi_x H_x: b_xy = 4 phi_x phi_y adds 4 c (x) grad phi_y to H_x.
+/// H_x with the gradient sum over x of phi_x H_x: b_xy = 4 phi_x phi_y adds 4 c (x) grad phi_y to H_x.
 template <int D, int B>
 std::array<Gradient<D, B>, D + 1> Bubbles<D, B>::gradients(Index e) const {
   constexpr auto local = simplex_edges<D>();
-  std::array<Gradient<D, B>, D + 1> out{};
   const auto& g = problem_.element[e].gradient;
+  std::array<Gradient<D, B>, D + 1> out;
+  out.fill(gradient<D, B>(g, problem_.mesh.elements[e], problem_.u.at_vertex));
+  if (!any_) return out;
   const Index* edge = problem_.incidence.edge.data() + Offset{e} * static_cast<Offset>(local.size());
   for (std::size_t k = 0; k < local.size(); ++k) {
     const double* c = c_.data() + Offset{edge[k]} * B;
@@ -90,9 +96,7 @@ typename Bubbles<D, B>::Local Bubbles<D, B>::local(Index edge) const {
     const Point<D>&ga = element.gradient[a], &gb = element.gradient[b];
 
     auto H = gradients(e);
-    Gradient<D, B> sum = gradient<D, B>(element.gradient, problem_.mesh.elements[e], u_);
-    for (auto& row : sum)
-      for (double& c : row) c *= D + 2;
+    Gradient<D, B> sum{};
     for (int x = 0; x <= D; ++x) add(1, H[x], sum);
     add(1, sum, H[a]);
     add(1, sum, H[b]);
@@ -136,6 +140,7 @@ std::array<double, B> Bubbles<D, B>::minimiser(Index edge, const Local& local, I
 template <int D, int B>
 double Bubbles<D, B>::sweep(bool lifted_only) {
   double won = 0;
+  any_ = true;
   for (Index e = 0; e < problem_.incidence.edges; ++e) {
     if (lifted_only && !lifted_[e]) continue;
     if (problem_.edge_fix[e] >= 0 && problem_.edge_fixes[problem_.edge_fix[e]].count == B) continue;
@@ -149,20 +154,19 @@ double Bubbles<D, B>::sweep(bool lifted_only) {
       c_[Offset{e} * B + i] += step[i];
     }
   }
-  any_ = true;
   return won;
 }
 
-/// With r(c) the residual of the bubbles at the coefficients c: -1/2 c . (r(0) + r(c)).
+/// With r the residual of the bubbles, from coefficients c_0 to c: -1/2 (c - c_0) . (r(c_0) + r(c)).
 template <int D, int B>
 double Bubbles<D, B>::energy() const {
-  if (!any_) return 0;
-  const Bubbles none(problem_, u_);
+  if (!any_lifted_) return 0;
+  const Bubbles of_u(problem_);
   double sum = 0;
   for (Index e = 0; e < problem_.incidence.edges; ++e) {
     std::array<double, B> c;
-    std::copy_n(c_.begin() + Offset{e} * B, B, c.begin());
-    if (dot(c, c) > 0) sum -= (dot(c, none.local(e).residual) + dot(c, local(e).residual)) / 2;
+    for (int i = 0; i < B; ++i) c[i] = c_[Offset{e} * B + i] - of_u.c_[Offset{e} * B + i];
+    if (dot(c, c) > 0) sum -= (dot(c, of_u.local(e).residual) + dot(c, local(e).residual)) / 2;
   }
   return sum;
 }

@@ -6,27 +6,28 @@
 
 namespace signorini {
 
-/// A correction of a finite element function u by bubbles b = 4 phi_a phi_b of edges, B coefficients for each, that
-/// keeps to what is prescribed and, between nodes, to the right side of obstacles.
+/// The bubbles b = 4 phi_a phi_b of edges, B coefficients for each, of a function with the values of the finite element
+/// function u at vertices: those of u to begin with, changed so that it keeps to what is prescribed and, between nodes,
+/// to the right side of obstacles.
 template <int D, int B>
 class Bubbles {
  public:
-  /// Keeps references.
-  Bubbles(const TrueProblem<D, B>& problem, const std::vector<double>& u);
+  /// Keeps a reference.
+  explicit Bubbles(const TrueProblem<D, B>& problem);
 
-  /// The least correction that makes u admissible between nodes. Returns whether there is one.
+  /// The least change that makes u admissible between nodes. Returns whether there is one.
   bool lift();
   /// One projected Gauss-Seidel sweep over all edges, or over those that lift() has moved. Returns the energy won: what
   /// J is less than before.
   double sweep(bool lifted_only = false);
 
-  /// J(u + correction) - J(u).
+  /// J of the function less that of u.
   double energy() const;
 
   const std::vector<double>& coefficients() const { return c_; }
-  bool any() const { return any_; }
+  bool lifted() const { return any_lifted_; }
 
-  /// The coefficients of the gradient of the correction: sum over vertices x of phi_x out[x].
+  /// The coefficients of the function's gradient: sum over vertices x of phi_x out[x].
   std::array<Gradient<D, B>, D + 1> gradients(Index e) const;
 
  private:
@@ -40,19 +41,19 @@ class Bubbles {
   std::array<Index, 2> ends(Index edge) const;
 
   const TrueProblem<D, B>& problem_;
-  const std::vector<double>& u_;
+  bool any_;
   std::vector<double> c_;
   std::vector<bool> lifted_;
-  bool any_ = false;
+  bool any_lifted_ = false;
 };
 
 /// Distances of u from the bounds of its vertices along their direction: direction . u - lower, upper - direction . u.
 template <int D, int B>
-std::array<double, 2> distances(const TrueProblem<D, B>& problem, const std::vector<double>& u, Index p) {
+std::array<double, 2> distances(const TrueProblem<D, B>& problem, Index p) {
   const auto* bound = problem.gaps.at_vertex(p);
   if (!bound) return {infinity, infinity};
   double v = 0;
-  for (int i = 0; i < B; ++i) v += bound->direction[i] * u[Offset{p} * B + i];
+  for (int i = 0; i < B; ++i) v += bound->direction[i] * problem.u.at_vertex[Offset{p} * B + i];
   return {v - bound->lower, bound->upper - v};
 }
 

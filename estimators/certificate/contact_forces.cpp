@@ -14,13 +14,14 @@ struct AtVertices {
   std::vector<std::array<double, B * B>> stiffness;
   std::vector<FixedDirections<B>> fixed;
 
-  AtVertices(const TrueProblem<D, B>& problem, const std::vector<double>& u)
+  explicit AtVertices(const TrueProblem<D, B>& problem)
       : residual(problem.mesh.points.size()), stiffness(problem.mesh.points.size()), fixed(problem.mesh.points.size()) {
+    const Bubbles<D, B> of_u(problem);
     for (Index e = 0; e < problem.elements(); ++e) {
       const Simplex<D>& v = problem.mesh.elements[e];
       const LinearElement<D>& element = problem.element[e];
-      std::array<Gradient<D, B>, D + 1> s;
-      s.fill(flux(problem.material[e], gradient<D, B>(element.gradient, v, u)));
+      std::array<Gradient<D, B>, D + 1> s = of_u.gradients(e);
+      for (auto& g : s) g = flux(problem.material[e], g);
       const auto of_element = element_residuals<D, B>(problem, e, s, {});
       for (int a = 0; a <= D; ++a) {
         const auto k = stiffness_of(problem.material[e], element.gradient[a], element.gradient[a]);
@@ -41,7 +42,7 @@ struct AtVertices {
 /// What an obstacle exerts along its direction, positive from the lower bound: where it pushes more than the way to the
 /// bound would cost, as active sets decide.
 template <int D, int B>
-double force_at(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, const std::vector<double>& u, Index p) {
+double force_at(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, Index p) {
   const auto* bound = problem.gaps.at_vertex(p);
   if (!bound) return 0;
   std::array<double, B> n = bound->direction;
@@ -52,7 +53,7 @@ double force_at(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, co
   double stiffness = 0;
   for (int i = 0; i < B; ++i)
     for (int j = 0; j < B; ++j) stiffness += bound->direction[i] * at.stiffness[p][i * B + j] * bound->direction[j];
-  const auto [below, above] = distances(problem, u, p);
+  const auto [below, above] = distances(problem, p);
   if (force > stiffness * below || -force > stiffness * above) return force;
   return 0;
 }
@@ -61,10 +62,9 @@ double force_at(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, co
 template <int D, int B>
 class Bounded {
  public:
-  Bounded(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles)
-      : problem_(problem), u_(u), bubbles_(bubbles) {}
+  Bounded(const TrueProblem<D, B>& problem, const Bubbles<D, B>& bubbles) : problem_(problem), bubbles_(bubbles) {}
 
-  double at_vertex(Index p, bool upper) const { return distances(problem_, u_, p)[upper]; }
+  double at_vertex(Index p, bool upper) const { return distances(problem_, p)[upper]; }
   double at_edge(Index e, bool upper) const {
     const auto* bound = problem_.gaps.at_edge(e);
     if (!bound) return 0;
@@ -84,7 +84,6 @@ class Bounded {
 
  private:
   const TrueProblem<D, B>& problem_;
-  const std::vector<double>& u_;
   const Bubbles<D, B>& bubbles_;
 };
 
@@ -233,14 +232,14 @@ void press_on_faces(const TrueProblem<D, B>& problem, const std::vector<double>&
 }  // namespace
 
 template <int D, int B>
-Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles) {
+Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const Bubbles<D, B>& bubbles) {
   Contact<D, B> out;
   out.work.assign(problem.element.size(), 0);
   if (!problem.gaps.any()) return out;
-  const AtVertices<D, B> at(problem, u);
+  const AtVertices<D, B> at(problem);
   std::vector<double> force(problem.mesh.points.size());
-  for (Index p = 0; p < problem.mesh.vertices(); ++p) force[p] = force_at(problem, at, u, p);
-  const Bounded<D, B> distance(problem, u, bubbles);
+  for (Index p = 0; p < problem.mesh.vertices(); ++p) force[p] = force_at(problem, at, p);
+  const Bounded<D, B> distance(problem, bubbles);
   if (problem.gaps.in_body)
     divide_in_body(problem, meet_loads_on_faces(problem, force, distance, out), distance, out);
   else
@@ -248,8 +247,7 @@ Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<dou
   return out;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B) \
-  template Contact<D, B> contact_of(const TrueProblem<D, B>&, const std::vector<double>&, const Bubbles<D, B>&);
+#define SIGNORINI_INSTANTIATE(D, B) template Contact<D, B> contact_of(const TrueProblem<D, B>&, const Bubbles<D, B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

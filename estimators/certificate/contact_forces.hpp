@@ -15,6 +15,6 @@ struct Contact {
 
 /// @param bubbles of v, as lift() and sweep() leave them
 template <int D, int B>
-Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const std::vector<double>& u, const Bubbles<D, B>& bubbles);
+Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const Bubbles<D, B>& bubbles);
 
 }  // namespace signorini

@@ -9,7 +9,6 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
   std::vector<std::string> reasons;
   if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
   if (!model.rigid.empty()) reasons.emplace_back("rigid parts are not covered");
-  if (nodes.order() != 1) reasons.emplace_back("quadratic elements are not covered, linear ones are: order = 1");
   if (model.plane == Plane::axisymmetric) reasons.emplace_back("bodies of revolution are not covered");
   const auto fix_on_faces = [](const Fix<B>& fix) { return fix.on.picks_faces(); };
   const auto load_on_faces = [](const Load<B>& load) { return !load.on || load.on->picks_faces(); };

@@ -95,8 +95,8 @@ struct OnSimplex {
 template <int D, int B>
 class Builder {
  public:
-  Builder(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u, TrueProblem<D, B>& out)
-      : nodes_(nodes), mesh_(nodes.mesh()), model_(model), u_(u), out_(out) {}
+  Builder(const Model<B>& model, TrueProblem<D, B>& out)
+      : nodes_(out.linear), mesh_(out.mesh), model_(model), out_(out) {}
 
   void build() {
     add_elements();
@@ -255,7 +255,9 @@ class Builder {
       for (const Index f : select_faces(mesh_, model_.fixes[k].on, model_.t))
         fix(model_.fixes[k], static_cast<Index>(k), out_.outer[of_boundary_[f]]);
     if (off_ > same_value * largest_)
-      out_.reasons.add("prescribed values are not linear on faces: the bounds are for their interpolation");
+      out_.reasons.add(
+          "prescribed values are not linear on faces (of quadratic elements not quadratic): the bounds are for their "
+          "interpolation");
   }
 
   void fix(const Fix<B>& fix, Index number, OuterFace<D, B>& outer) {
@@ -273,19 +275,22 @@ class Builder {
   void compare(const Field& field, const std::array<double, B>& direction, const Point<D>& normal,
                const OuterFace<D, B>& outer) {
     const auto vertices = face_vertices<D>(mesh_, out_.incidence.sides[outer.face]);
-    const auto component = [&](Index p) {
+    const QuadraticFunction& u = out_.u;
+    const auto component = [&](const std::vector<double>& of, Index p) {
       double sum = 0;
-      for (int i = 0; i < B; ++i) sum += direction[i] * u_[Offset{p} * B + i];
+      for (int i = 0; i < B && !of.empty(); ++i) sum += direction[i] * of[Offset{p} * B + i];
       return sum;
     };
     for (int a = 0; a < D; ++a)
       for (int b = 0; b <= a; ++b) {
         const Point<D> x = midpoint<D>(mesh_.points[vertices[a]], mesh_.points[vertices[b]]);
         const double wanted = field(site<D>(x, model_.t, normal));
-        off_ = std::max(off_, std::fabs(wanted - (component(vertices[a]) + component(vertices[b])) / 2));
+        const double linear = (component(u.at_vertex, vertices[a]) + component(u.at_vertex, vertices[b])) / 2;
+        const double bubble = a == b ? 0 : component(u.of_edge, edge_of(outer, vertices[a], vertices[b]));
+        off_ = std::max(off_, std::fabs(wanted - linear - bubble));
         largest_ = std::max(largest_, std::fabs(wanted));
       }
-    for (const double v : u_) largest_ = std::max(largest_, first_ ? std::fabs(v) : 0);
+    for (const double v : u.at_vertex) largest_ = std::max(largest_, first_ ? std::fabs(v) : 0);
     first_ = false;
   }
 
@@ -318,7 +323,6 @@ class Builder {
   const Nodes<D>& nodes_;
   const Mesh<D>& mesh_;
   const Model<B>& model_;
-  const std::vector<double>& u_;
   TrueProblem<D, B>& out_;
   std::vector<Index> of_boundary_, on_mirrors_;  // numbers of outer faces
   std::vector<std::array<double, B>> moments_;
@@ -330,8 +334,8 @@ class Builder {
 
 template <int D, int B>
 TrueProblem<D, B>::TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u)
-    : mesh(nodes.mesh()), incidence(mesh) {
-  Builder<D, B>(nodes, model, u, *this).build();
+    : mesh(nodes.mesh()), linear(mesh), incidence(mesh), u(quadratic_function<D, B>(nodes, incidence, u)) {
+  Builder<D, B>(model, *this).build();
 }
 
 template struct TrueProblem<2, 1>;

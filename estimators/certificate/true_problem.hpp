@@ -10,6 +10,7 @@
 #include "core/fem/model/model.hpp"
 #include "estimators/certificate/gaps.hpp"
 #include "estimators/certificate/incidence.hpp"
+#include "estimators/certificate/quadratic_function.hpp"
 #include "estimators/certificate/reasons.hpp"
 
 namespace signorini {
@@ -29,14 +30,16 @@ struct OuterFace {
 
 /// The boundary value problem whose solution is compared with a finite element function: all that integrals over
 /// elements, faces and edges need to know of it, and the reasons why what is computed here is not the model's problem
-/// itself. Linear elements.
+/// itself. Of quadratic elements the simplices are the children.
 template <int D, int B>
 struct TrueProblem {
-  /// @param u the function, B per node: values that are prescribed are compared with it
+  /// @param u the function, B coefficients per node
   TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u);
 
   const Mesh<D>& mesh;
+  Nodes<D> linear;  ///< elements on the mesh
   Incidence<D> incidence;
+  QuadraticFunction u;
   std::vector<LinearElement<D>> element;      ///< measures and gradients
   std::vector<Material<B>> material;          ///< per element
   std::vector<std::array<double, B>> source;  ///< per element: the mean of the body force or source
