@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "apps/signorini/console.hpp"
+#include "apps/signorini/evenness.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/scene/build_model.hpp"
@@ -55,22 +56,49 @@ Extent extent_of(const Scene& scene) {
   return out;
 }
 
-bool is_symmetric(const Scene& scene, const Registry& registry) {
+/// Calls use(meshes of a body, its model at the end of a step) for all bodies and steps. False where one of them
+/// refuses the scene, or returns false.
+template <class Use>
+bool all_agree(const Scene& scene, const Registry& registry, const Use& use) {
+  bool agree = true;
   try {
-    for (std::size_t body = 0; body < scene.bodies.size(); ++body)
+    for (std::size_t body = 0; body < scene.bodies.size() && agree; ++body)
       dispatch(
           scene,
           [&]<int D, int B>() {
-            const MeshHierarchy<D> hierarchy = build_hierarchy<D>(scene, B, nullptr, Console(true), body);
-            for (const double t : scene.steps.at)
-              check_symmetry(hierarchy, build_model<B>(scene, D, registry, t, body));
+            const MeshHierarchy<D> meshes = build_hierarchy<D>(scene, B, nullptr, Console(true), body);
+            double before = 0;
+            for (const double t : scene.steps.at) {
+              Model<B> model = build_model<B>(scene, D, registry, t, body);
+              place_before(scene, D, before, body, model);
+              before = t;
+              agree = agree && use(meshes, model, scene.bodies[body]);
+            }
           },
           body);
-    return true;
   } catch (const Error& error) {
     if (error.status() == Exit::interrupted) throw;
     return false;
   }
+  return agree;
+}
+
+/// The half as the solve looks at it.
+bool is_symmetric(const Scene& half, const Registry& registry) {
+  return all_agree(half, registry,
+                   []<int D, int B>(const MeshHierarchy<D>& meshes, const Model<B>& model, const auto&) {
+                     check_symmetry(meshes, model);
+                     return true;
+                   });
+}
+
+/// What acts in the half that is left out.
+bool is_even(const Scene& whole, const Mirror& plane, const Registry& registry) {
+  return all_agree(whole, registry,
+                   [&]<int D, int B>(const MeshHierarchy<D>& meshes, const Model<B>& model, const Scene::Body& body) {
+                     const bool any_shape = std::holds_alternative<geometry::Polygon>(body.shape);
+                     return is_even(meshes.levels.front(), model, plane, any_shape);
+                   });
 }
 
 bool comes_from_file(const Scene::Body& body) {
@@ -82,10 +110,12 @@ std::vector<std::string> planes_of_symmetry(const std::filesystem::path& file,
                                             const Registry& registry) {
   std::vector<std::string> out;
   if (std::ranges::any_of(scene.bodies, comes_from_file)) return out;
-  const Extent extent = extent_of(coarse(scene));
+  const Scene whole = coarse(scene);
+  const Extent extent = extent_of(whole);
   for (int axis = 0; axis < dimension_of(scene); ++axis) {
     if (std::ranges::any_of(scene.symmetry.planes, [&](const Mirror& mirror) { return mirror.axis == axis; })) continue;
-    const std::string plane = fmt::format("{}={:.9g}", axis_name(axis), extent.middle(axis));
+    const Mirror middle{axis, extent.middle(axis)};
+    const std::string plane = fmt::format("{}={:.9g}", axis_name(axis), middle.at);
     std::vector<std::string> with = overrides;
     with.push_back("symmetry." + plane);
     std::optional<Scene> halved;
@@ -94,7 +124,7 @@ std::vector<std::string> planes_of_symmetry(const std::filesystem::path& file,
     } catch (const Error&) {
       continue;
     }
-    if (is_symmetric(*halved, registry))
+    if (is_even(whole, middle, registry) && is_symmetric(*halved, registry))
       out.push_back(
           fmt::format("symmetric about {}: `--set symmetry.{}` solves half of it, with the same answer", plane, plane));
   }

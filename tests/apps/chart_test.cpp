@@ -159,6 +159,36 @@ std::vector<double> solved(const fs::path& scene, std::vector<std::string> keys,
 
 using Accuracy = Folder;
 
+const char* const pressed =
+    "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [1, 1]\ncells = [2, 2]\nyoung = 1\npoisson = "
+    "0.3\n[[fix]]\nbody = \"b\"\non = \"left\"\nvalue = [0, \"free\"]\n[[obstacle]]\ntype = \"contact\"\nbody = "
+    "\"b\"\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0.01]\nnormal = [0, 1]\n";
+
+TEST_F(Accuracy, OfTheDisplacementOfAPoint) {
+  const fs::path scene = folder_ / "scene.toml";
+  std::ofstream(scene) << pressed
+                       << "[[fix]]\nbody = \"b\"\non = \"top\"\nvalue = [\"free\", 0]\n[[probe]]\nname = "
+                          "\"corner\"\nbody = \"b\"\nat = [1, 1]\n";
+  const chart::Found found = chart::search(scene, {}, "probe corner", 0.01, [](const std::string&) {});
+  EXPECT_LE(found.error, 0.01);
+}
+
+// A round hole presses a disk from all sides.
+TEST_F(Accuracy, OfASumThatIsZeroSaysNothing) {
+  const fs::path scene = folder_ / "scene.toml";
+  std::ofstream(scene)
+      << "[[body]]\nname = \"b\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.4\nyoung = 1\npoisson = "
+         "0.3\n[symmetry]\nx = 0\ny = 0\n[[obstacle]]\ntype = \"contact\"\nbody = \"b\"\non = \"boundary\"\nshape = "
+         "\"expression\"\ndistance = \"0.97 - sqrt(x^2 + y^2)\"\nnormal = [\"-x / sqrt(x^2 + y^2)\", \"-y / sqrt(x^2 + "
+         "y^2)\"]\n";
+  try {
+    chart::search(scene, {}, "force", 0.01, [](const std::string&) {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("adds up to zero"));
+  }
+}
+
 TEST_F(Accuracy, IsKept) {
   const int scenes = nightly(200, 8);
   int kept = 0;

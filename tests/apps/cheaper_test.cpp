@@ -48,6 +48,33 @@ TEST_F(Cheaper, PlanesOfSymmetry) {
   EXPECT_THAT(check(block("z", "[[load]]\nbody = \"b\"\nvalue = [1e-3, 0, 0]\n")), Not(HasSubstr("symmetry.x")));
 }
 
+// On one side alone acts what is in the half that is kept, or in the other one.
+TEST_F(Cheaper, NoPlanesWhereSomethingActsOnOneSide) {
+  const auto beam = [](const std::string& conditions) {
+    return "[[body]]\nname = \"b\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [10, 1]\ncells = [20, 2]\nyoung = "
+           "1000\npoisson = 0.3\n[[load]]\nbody = \"b\"\nvalue = [0, -0.001]\n" +
+           conditions;
+  };
+  const auto on = [](const std::string& kind, const std::string& what) {
+    return "[[" + kind + "]]\nbody = \"b\"\n" + what + "\n";
+  };
+  const std::string bottom = on("fix", "on = \"bottom\"\nvalue = [0, 0]");
+  EXPECT_THAT(check(beam(bottom)), HasSubstr("symmetry.x=5"));
+  for (const char* side : {"left", "right"}) {
+    const std::string at = std::string("on = \"") + side + "\"\n";
+    EXPECT_THAT(check(beam(on("fix", at + "value = [0, 0]"))), Not(HasSubstr("symmetry.x"))) << side;
+    EXPECT_THAT(check(beam(bottom + on("load", at + "pressure = 1"))), Not(HasSubstr("symmetry.x"))) << side;
+    EXPECT_THAT(check(beam(bottom + on("spring", at + "stiffness = [1, 1]"))), Not(HasSubstr("symmetry.x"))) << side;
+  }
+  EXPECT_THAT(check(beam(bottom + on("load", "at = [7, 1]\nvalue = [0, -1]"))), Not(HasSubstr("symmetry.x")));
+  EXPECT_THAT(check(beam(on("fix", "where = \"y < 0.01 && x > 2.4\"\nvalue = [0, 0]"))), Not(HasSubstr("symmetry.x")));
+  // A plane that drags the body along.
+  EXPECT_THAT(check(beam(bottom + on("obstacle",
+                                     "type = \"coulomb\"\nfriction = 0.3\non = \"top\"\nshape = \"plane\"\npoint = "
+                                     "[\"0.01 * t\", 1]\nnormal = [0, -1]"))),
+              Not(HasSubstr("symmetry.x")));
+}
+
 TEST_F(Cheaper, FrictionThatIsNone) {
   const std::string scene = block("z + 0.1 * x", "friction = 0.0\n");
   const auto at = scene.find("\"contact\"");

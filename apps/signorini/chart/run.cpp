@@ -139,7 +139,8 @@ std::optional<std::vector<double>> quantity(const json& report, const std::strin
   if (of == "pressure") return joined(report["contact"], "max_pressure");
   if (of == "area") return joined(report["contact"], "area");
   for (const json& probe : report["probes"])
-    if ("probe " + probe["name"].get<std::string>() == of) return numbers(probe["value"]);
+    if ("probe " + probe["name"].get<std::string>() == of)
+      return numbers(probe[probe.contains("displacement") ? "displacement" : "value"]);
   return {};
 }
 

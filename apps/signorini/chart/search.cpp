@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -15,6 +16,20 @@
 namespace signorini::chart {
 namespace {
 
+/// A relative error of a sum that is nothing but rounding means nothing.
+void refuse_cancelled(const nlohmann::json& report, const std::vector<double>& force) {
+  constexpr double rounding = 1e-6;
+  const auto pressures = quantity(report, "pressure"), areas = quantity(report, "area");
+  if (!pressures || !areas) return;
+  double pressed = 0, sum = 0;
+  for (std::size_t k = 0; k < pressures->size(); ++k) pressed += (*pressures)[k] * (*areas)[k];
+  for (const double f : force) sum = std::max(sum, std::abs(f));
+  if (sum < rounding * pressed)
+    throw Error(Exit::usage, fmt::format("--of force: what presses adds up to zero, so that a relative error says "
+                                         "nothing; expected another quantity, such as {}",
+                                         report["probes"].empty() ? "pressure or energy" : "pressure or a probe"));
+}
+
 /// Of one solve with these keys.
 std::vector<double> value_of(const std::filesystem::path& file, std::vector<std::string> overrides,
                              const std::vector<std::string>& keys, const std::string& of) {
@@ -24,8 +39,10 @@ std::vector<double> value_of(const std::filesystem::path& file, std::vector<std:
   const Report& report = driver.solve();
   if (!report.converged())
     throw Error(Exit::not_converged, fmt::format("with {}: {}", fmt::join(keys, " "), report.reason()));
-  auto value = quantity(to_json(report), of);
+  const nlohmann::json found = to_json(report);
+  auto value = quantity(found, of);
   if (!value) throw Error(Exit::input, fmt::format("with {}: the result has no {}", fmt::join(keys, " "), of));
+  if (of == "force") refuse_cancelled(found, *value);
   return *value;
 }
 
