@@ -15,6 +15,7 @@
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/solver/attainable.hpp"
+#include "core/solver/local_coordinates.hpp"
 #include "driver/levels/turned_friction.hpp"
 #include "driver/reports/error_estimate.hpp"
 #include "driver/scene/build_model.hpp"
@@ -29,6 +30,18 @@ namespace signorini {
 namespace {
 
 void append(Warnings& warnings, Warnings more) { std::move(more.begin(), more.end(), std::back_inserter(warnings)); }
+
+/// Where friction holds back nothing, along obstacles, in global coordinates; empty without friction.
+template <int B>
+std::vector<double> rest_of_friction(const DiscreteProblem<B>& problem) {
+  const Constraints<B>& c = problem.constraints;
+  if (c.last.empty()) return {};
+  std::vector<double> x(problem.b.size());
+  for (std::size_t slot = 0; slot < c.vector.size(); ++slot)
+    for (int k = 0; k < B; ++k)
+      if (c.tangential[slot] >> k & 1u) x[Offset{c.vector[slot]} * B + k] = c.last[slot * B + k];
+  return to_global(problem, std::move(x));
+}
 
 }  // namespace
 
@@ -256,6 +269,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   }
   times_.output += watch.elapsed();
   algebraic_error_ = report.summary.algebraic_error;
+  rest_ = rest_of_friction(solution.discretization.problem);
   add_estimate(report);
   solver_.take_back(model_, std::move(solution.discretization));
   return report;
@@ -263,7 +277,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
 
 template <int D, int B>
 Estimate BodyRun<D, B>::estimate(bool cheap) const {
-  EstimateOptions<B> options{{}, algebraic_error_};
+  EstimateOptions<B> options{{}, algebraic_error_, rest_};
   if (nodes().order() > 1 || (B > 1 && !cheap)) options.solve = rough_solve<B>(registry_);
   const auto estimator = registry_.create<Estimator<D, B>>("estimator", "certificate");
   return estimator->estimate(nodes(), model_, results_.u, options);

@@ -107,6 +107,7 @@ class BodyRun {
   Results<D, B> results_;
   StrainSizes<D> strains_;      // of an elastic body, once converged
   double algebraic_error_ = 0;  // of the last solve
+  std::vector<double> rest_;    // of friction, in it
   std::vector<double> estimate_of_element_;
 };
 

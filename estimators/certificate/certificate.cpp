@@ -36,7 +36,12 @@ class Certificate {
  public:
   Certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
               const EstimateOptions<B>& options)
-      : nodes_(nodes), model_(model), options_(options), problem_(nodes, model, u), of_u_(problem_), lifted_(of_u_) {}
+      : nodes_(nodes),
+        model_(model),
+        options_(options),
+        problem_(nodes, model, u, options.rest),
+        of_u_(problem_),
+        lifted_(of_u_) {}
 
   Estimate compute() {
     if (problem_.reasons.refused) return no_numbers(problem_.reasons.all);
@@ -106,29 +111,30 @@ class Certificate {
     const ElementFlux<D, B> of_v = flux_of(lifted_);
     constexpr int steps = 2;
     std::vector<double> misfit = reduce_misfit(problem_, Misfit<D, B>(problem_, of_v), steps, values);
-    add_up(std::move(misfit), contact.work);
+    add_up(std::move(misfit), contact);
     out_.imbalance = largest_imbalance(problem_, contact.forces, values);
     if (!(out_.imbalance <= balanced))
       problem_.reasons.add(fmt::format("forces of {:.1g} of the largest one remain without balance", out_.imbalance));
   }
 
   /// 1/2 sum of (d_T + osc_T)^2 with d_T^2 / 2 the misfit: what a load does whose mean over the element is zero.
-  void add_up(std::vector<double> misfit, const std::vector<double>& work) {
+  void add_up(std::vector<double> misfit, const Contact<D, B>& contact) {
     double of_misfit = 0, with_oscillation = 0;
     for (std::size_t e = 0; e < misfit.size(); ++e) {
       const double oscillation = problem_.oscillation.empty() ? 0 : problem_.oscillation[e];
       const double d = std::sqrt(2 * std::max(0.0, misfit[e])) + oscillation;
       of_misfit += misfit[e];
       with_oscillation += d * d / 2;
-      misfit[e] = d * d / 2 + work[e];
+      misfit[e] = d * d / 2 + contact.work[e];
     }
     EstimateParts& parts = out_.parts;
     if (problem_.reasons.geometry_unknown) parts.geometry = not_known;
-    parts.contact = std::accumulate(work.begin(), work.end(), 0.0);
+    parts.friction = contact.friction;
+    parts.contact = std::max(0.0, std::accumulate(contact.work.begin(), contact.work.end(), 0.0) - contact.friction);
     parts.oscillation = with_oscillation - of_misfit;
     parts.algebra = std::min(of_misfit, options_.algebraic_error * options_.algebraic_error * out_.energy);
     parts.discretisation = of_misfit - parts.algebra;
-    out_.upper = with_oscillation + parts.contact;
+    out_.upper = with_oscillation + parts.contact + parts.friction;
     out_.of_element = std::move(misfit);
   }
 

@@ -99,13 +99,28 @@ double integral_over_face(const std::array<double, D>& p, const std::array<doubl
   return sum;
 }
 
+/// In the order of simplex_edges of its vertices.
 template <int D, int B>
-double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer, const std::array<Index, D>& v,
-                    const std::array<double, D>& p, const Bounded<D, B>& distance) {
+std::array<Index, D*(D - 1) / 2> edges_of(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer,
+                                          const std::array<Index, D>& v) {
   constexpr auto of_face = simplex_edges<D - 1>();
   constexpr auto of_element = simplex_edges<D>();
   const Index e = problem.incidence.sides[outer.face].element[0];
   const Simplex<D>& corner = problem.mesh.elements[e];
+  std::array<Index, D*(D - 1) / 2> out{};
+  for (std::size_t k = 0; k < of_face.size(); ++k)
+    for (std::size_t m = 0; m < of_element.size(); ++m) {
+      const std::array ends{corner[of_element[m][0]], corner[of_element[m][1]]};
+      if (sorted(ends) == sorted(std::array{v[of_face[k][0]], v[of_face[k][1]]}))
+        out[k] = problem.incidence.edge[static_cast<std::size_t>(e) * of_element.size() + m];
+    }
+  return out;
+}
+
+template <int D, int B>
+double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer, const std::array<Index, D>& v,
+                    const std::array<double, D>& p, const Bounded<D, B>& distance) {
+  const auto edges = edges_of<D, B>(problem, outer, v);
   double work = 0;
   for (const bool upper : {false, true}) {
     std::array<double, D> pushes, vertex;
@@ -113,13 +128,7 @@ double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& out
     if (std::ranges::all_of(pushes, [](double push) { return push == 0; })) continue;
     for (int k = 0; k < D; ++k) vertex[k] = distance.at_vertex(v[k], upper);
     std::array<double, D*(D - 1) / 2> edge{};
-    for (std::size_t k = 0; k < of_face.size(); ++k)
-      for (std::size_t m = 0; m < of_element.size(); ++m) {
-        const std::array ends{corner[of_element[m][0]], corner[of_element[m][1]]};
-        if (sorted(ends) == sorted(std::array{v[of_face[k][0]], v[of_face[k][1]]}))
-          edge[k] =
-              distance.at_edge(problem.incidence.edge[static_cast<std::size_t>(e) * of_element.size() + m], upper);
-      }
+    for (std::size_t k = 0; k < edge.size(); ++k) edge[k] = distance.at_edge(edges[k], upper);
     work += length<D>(outer.normal) * integral_over_face<D>(pushes, vertex, edge);
   }
   return work;
@@ -202,16 +211,98 @@ void divide_in_body(const TrueProblem<D, B>& problem, const std::vector<double>&
   }
 }
 
-/// On faces: a linear pressure.
+/// Friction of the vertices that it acts at.
 template <int D, int B>
-void press_on_faces(const TrueProblem<D, B>& problem, const std::vector<double>& force, const Bounded<D, B>& distance,
-                    Contact<D, B>& out) {
+class Tractions {
+ public:
+  Tractions(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, const std::vector<double>& force,
+            const std::vector<double>& area)
+      : problem_(problem), at_(at), force_(force), area_(area) {}
+
+  /// The largest traction, and what a vector has along the obstacle.
+  double most(Index p) const {
+    const auto* bound = problem_.gaps.at_vertex(p);
+    return bound ? bound->law.bound + bound->law.coefficient * std::fabs(force_[p]) / area_[p] : 0;
+  }
+  std::array<double, B> along(const std::array<double, B>& direction, const double* v) const {
+    std::array<double, B> out;
+    std::copy_n(v, B, out.begin());
+    const double across = dot(out, direction);
+    for (int i = 0; i < B; ++i) out[i] -= across * direction[i];
+    return out;
+  }
+  std::array<double, B> slip(Index p) const {
+    return along(problem_.gaps.at_vertex(p)->direction, problem_.slip.at_vertex.data() + Offset{p} * B);
+  }
+  /// What is left of the loads, less what the way since rest costs, as far as friction allows.
+  std::array<double, B> operator()(Index p) const {
+    std::array<double, B> t = at_.residual[p];
+    project(at_.fixed[p], t);
+    t = along(problem_.gaps.at_vertex(p)->direction, t.data());
+    double stiffness = 0, square = 0;
+    for (int i = 0; i < B; ++i) stiffness = std::max(stiffness, at_.stiffness[p][i * (B + 1)]);
+    const std::array<double, B> way = slip(p);
+    for (int i = 0; i < B; ++i) {
+      t[i] = (t[i] - stiffness * way[i]) / area_[p];
+      square += t[i] * t[i];
+    }
+    const double size = std::sqrt(square), most = this->most(p);
+    for (double& c : t) c *= size > most ? most / size : 1;
+    return t;
+  }
+
+  /// int s |v_t| + t . v_t, at most: |v_t| is no more than its Bernstein coefficients say.
+  double work(const OuterFace<D, B>& outer, const std::array<Index, D>& v, const std::array<Index, D*(D - 1) / 2>& edge,
+              const std::array<std::array<double, B>, D>& traction) const {
+    constexpr auto ends = simplex_edges<D - 1>();
+    std::array<double, D> s, way;
+    std::array<std::array<double, B>, D> slips;
+    for (int k = 0; k < D; ++k) {
+      s[k] = most(v[k]);
+      slips[k] = slip(v[k]);
+      way[k] = length(slips[k]);
+    }
+    std::array<std::array<double, B>, ends.size()> bubble{};
+    std::array<double, ends.size()> of_edge{};
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const auto* bound = problem_.gaps.at_edge(edge[k]);
+      if (bound && !problem_.slip.of_edge.empty())
+        bubble[k] = along(bound->direction, problem_.slip.of_edge.data() + Offset{edge[k]} * B);
+      const auto [a, b] = ends[k];
+      std::array<double, B> middle;
+      for (int i = 0; i < B; ++i) middle[i] = (slips[a][i] + slips[b][i]) / 2 + 2 * bubble[k][i];
+      of_edge[k] = (length(middle) - (way[a] + way[b]) / 2) / 2;
+    }
+    double sum = integral_over_face<D>(s, way, of_edge);
+    for (int i = 0; i < B; ++i) {
+      std::array<double, D> t, x;
+      std::array<double, ends.size()> w;
+      for (int k = 0; k < D; ++k) t[k] = traction[k][i], x[k] = slips[k][i];
+      for (std::size_t k = 0; k < ends.size(); ++k) w[k] = bubble[k][i];
+      sum += integral_over_face<D>(t, x, w);
+    }
+    return std::max(0.0, sum) * signorini::length<D>(outer.normal);
+  }
+
+ private:
+  static double length(const std::array<double, B>& v) { return std::sqrt(dot(v, v)); }
+
+  const TrueProblem<D, B>& problem_;
+  const AtVertices<D, B>& at_;
+  const std::vector<double>&force_, &area_;
+};
+
+/// On faces: a linear pressure, and linear tractions of friction.
+template <int D, int B>
+void press_on_faces(const TrueProblem<D, B>& problem, const AtVertices<D, B>& at, const std::vector<double>& force,
+                    const Bounded<D, B>& distance, Contact<D, B>& out) {
   std::vector<double> area(force.size());
   for (const OuterFace<D, B>& outer : problem.outer)
     if (outer.contact)
       for (const Index v : face_vertices<D>(problem.mesh, problem.incidence.sides[outer.face]))
         area[v] += length<D>(outer.normal) / D;
   out.forces.on_face.resize(problem.outer.size());
+  const Tractions<D, B> friction(problem, at, force, area);
   for (std::size_t n = 0; n < problem.outer.size(); ++n) {
     const OuterFace<D, B>& outer = problem.outer[n];
     if (!outer.contact) continue;
@@ -226,6 +317,16 @@ void press_on_faces(const TrueProblem<D, B>& problem, const std::vector<double>&
           for (int i = 0; i < B; ++i)
             out.forces.on_face[n][k][i] += measure * (1 + (k == m)) / (D * (D + 1)) * p[m] * bound->direction[i];
     out.work[sides.element[0]] += work_on_face<D, B>(problem, outer, v, p, distance);
+    const auto bounded = [&](Index vertex) { return problem.gaps.at_vertex(vertex) != nullptr; };
+    if (!problem.gaps.friction || !std::ranges::all_of(v, bounded)) continue;
+    std::array<std::array<double, B>, D> t;
+    for (int k = 0; k < D; ++k) t[k] = friction(v[k]);
+    for (int k = 0; k < D; ++k)
+      for (int m = 0; m < D; ++m)
+        for (int i = 0; i < B; ++i) out.forces.on_face[n][k][i] += measure * (1 + (k == m)) / (D * (D + 1)) * t[m][i];
+    const double work = friction.work(outer, v, edges_of<D, B>(problem, outer, v), t);
+    out.work[sides.element[0]] += work;
+    out.friction += work;
   }
 }
 
@@ -243,7 +344,7 @@ Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const Bubbles<D, B>& 
   if (problem.gaps.in_body)
     divide_in_body(problem, meet_loads_on_faces(problem, force, distance, out), distance, out);
   else
-    press_on_faces(problem, force, distance, out);
+    press_on_faces(problem, at, force, distance, out);
   return out;
 }
 

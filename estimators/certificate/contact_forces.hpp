@@ -6,11 +6,15 @@ namespace signorini {
 
 /// What obstacles exert on a finite element function, found from the residual at vertices, as forces that satisfy the
 /// conditions of the true problem: never pulling, in the body divided among the elements around a vertex, on faces as
-/// the linear pressure p = sum over i of (L_i / int phi_i) phi_i.
+/// the linear pressure p = sum over i of (L_i / int phi_i) phi_i, and as linear tractions along them that are at most
+/// what friction allows.
 template <int D, int B>
 struct Contact {
   ContactForces<D, B> forces;
-  std::vector<double> work;  ///< per element: int p (v - bound), v with its bubbles; what contact adds to the bound
+  /// Per element: int p (v - bound), v with its bubbles, and int s |v_t| + t . v_t of friction, with its bound s, its
+  /// traction t and the slip v_t; what contact adds to the bound.
+  std::vector<double> work;
+  double friction = 0;  ///< its part of `work`
 };
 
 /// @param bubbles of v, as lift() and sweep() leave them

@@ -43,6 +43,12 @@ class Asked {
     take(out, vertices, edges, reasons);
     out.in_body = faces_.empty();
     out.faces = faces_;
+    out.friction = term_.obstacle->friction() != nullptr;
+    if (std::ranges::any_of(out.bounds, [](const auto& bound) { return bound.law.coefficient > 0; }))
+      reasons.add(
+          fmt::format("friction ({}) follows the pressure: the bounds are those of the problem whose friction is "
+                      "at most what the pressure found allows",
+                      term_.origin));
   }
 
  private:
@@ -77,6 +83,7 @@ class Asked {
   void push(const Point<D>& x, const Point<D>& normal) {
     SurfaceVertex& vertex = points_.emplace_back();
     vertex = {};
+    vertex.measure = 1;  // what obstacles know of friction is then per area
     std::ranges::copy(x, vertex.position);
     std::ranges::copy(normal, vertex.normal);
   }
@@ -126,7 +133,7 @@ class Asked {
         const LocalConstraint<B>& c = found_[k++];
         if (c.directions == 0) continue;
         out.of_vertex[p] = static_cast<Index>(out.bounds.size());
-        out.bounds.push_back({direction(c), c.lower[0], c.upper[0]});
+        out.bounds.push_back({direction(c), c.lower[0], c.upper[0], law(c)});
         for (const double bound : {c.lower[0], c.upper[0]})
           if (std::isfinite(bound)) largest = std::max(largest, std::fabs(bound));
       }
@@ -149,6 +156,7 @@ class Asked {
       const typename Gaps<D, B>::Bound from = out.bounds[a], to = out.bounds[b];
       out.bounds.push_back({direction(middle), at_edge(from.lower, to.lower, middle.lower[0], quarter.lower[0]),
                             at_edge(from.upper, to.upper, middle.upper[0], quarter.upper[0])});
+      compare_laws(from.law, to.law, law(middle), reasons);
     }
     if (!(off <= same_value * largest))
       reasons.add(fmt::format("{} is neither linear nor quadratic between nodes: a quadratic function takes its place",
@@ -161,6 +169,18 @@ class Asked {
     return largest;
   }
 
+  FrictionLaw law(const LocalConstraint<B>& c) const {
+    const Friction* friction = term_.obstacle->friction();
+    return friction ? friction->law(c.data) : FrictionLaw{};
+  }
+  void compare_laws(const FrictionLaw& a, const FrictionLaw& b, const FrictionLaw& middle, Reasons& reasons) const {
+    const auto is_mean = [](double from, double to, double between) {
+      return std::fabs(between - (from + to) / 2) <= same_value * std::max(from, to);
+    };
+    if (!is_mean(a.bound, b.bound, middle.bound) || !is_mean(a.coefficient, b.coefficient, middle.coefficient))
+      reasons.add(
+          fmt::format("friction ({}) is not linear between nodes: its interpolation takes its place", term_.origin));
+  }
   static std::array<double, B> direction(const LocalConstraint<B>& c) {
     std::array<double, B> out;
     std::copy_n(c.direction[0], B, out.begin());

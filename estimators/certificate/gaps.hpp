@@ -4,6 +4,7 @@
 
 #include "core/fem/elements/nodes.hpp"
 #include "core/fem/model/model.hpp"
+#include "core/sdk/friction.hpp"
 #include "estimators/certificate/incidence.hpp"
 #include "estimators/certificate/reasons.hpp"
 
@@ -18,12 +19,14 @@ struct Gaps {
   struct Bound {
     std::array<double, B> direction;
     double lower, upper;  ///< of an edge those of the bubble's coefficient of `direction . v` alone
+    FrictionLaw law{};    ///< of vertices: per area
   };
 
   std::vector<Index> of_vertex, of_edge;  ///< numbers of bounds, -1: none
   std::vector<Bound> bounds;              ///< bounds of vertices; of edges coefficients of lower and upper
   double rounding = 0;                    ///< of bounds: what is no more does not count as beyond them
   bool in_body = false;                   ///< they hold in all of the body
+  bool friction = false;                  ///< bounds of vertices have a law
   std::vector<Index> faces;               ///< else: on these outer faces, numbers in Mesh::boundary
 
   bool any() const { return !bounds.empty(); }
@@ -32,7 +35,8 @@ struct Gaps {
 };
 
 /// Of a model with no more than one obstacle.
-/// @param reasons is told where bounds are not quadratic, or directions not one and the same
+/// @param reasons is told where bounds are not quadratic, bounds of friction not linear, or directions not one and the
+/// same
 template <int D, int B>
 Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons);
 

@@ -112,6 +112,7 @@ class Builder {
     fix_edges();
     out_.gaps = gaps(nodes_, model_, out_.incidence, out_.reasons);
     for (const Index f : out_.gaps.faces) out_.outer[of_boundary_[f]].contact = true;
+    if (out_.gaps.friction) keep_slip();
   }
 
  private:
@@ -305,18 +306,44 @@ class Builder {
 
   void fix_edges() {
     out_.edge_fix.assign(static_cast<std::size_t>(out_.incidence.edges), -1);
-    constexpr auto edges = simplex_edges<D - 1>();
-    for (const OuterFace<D, B>& outer : out_.outer) {
-      if (outer.open()) continue;
-      const auto vertices = face_vertices<D>(mesh_, out_.incidence.sides[outer.face]);
-      for (const auto [a, b] : edges) {
-        Index& number = out_.edge_fix[edge_of(outer, vertices[a], vertices[b])];
-        if (number < 0) {
-          number = static_cast<Index>(out_.edge_fixes.size());
-          out_.edge_fixes.emplace_back();
-        }
-        for (int k = 0; k < outer.fixed.count; ++k) out_.edge_fixes[number].add(outer.fixed.direction[k], 0, 0);
+    for (const OuterFace<D, B>& outer : out_.outer)
+      if (!outer.open())
+        fix_edges(outer, [&](FixedDirections<B>& fixes, Index) {
+          for (int k = 0; k < outer.fixed.count; ++k) fixes.add(outer.fixed.direction[k], 0, 0);
+        });
+  }
+  /// Calls add(directions, edge) for the edges of a face.
+  template <class Add>
+  void fix_edges(const OuterFace<D, B>& outer, const Add& add) {
+    const auto vertices = face_vertices<D>(mesh_, out_.incidence.sides[outer.face]);
+    for (const auto [a, b] : simplex_edges<D - 1>()) {
+      const Index edge = edge_of(outer, vertices[a], vertices[b]);
+      Index& number = out_.edge_fix[edge];
+      if (number < 0) {
+        number = static_cast<Index>(out_.edge_fixes.size());
+        out_.edge_fixes.emplace_back();
       }
+      add(out_.edge_fixes[number], edge);
+    }
+  }
+
+  /// Bubbles with friction move along the obstacle's direction alone: what friction takes stays what it is.
+  void keep_slip() {
+    for (const OuterFace<D, B>& outer : out_.outer) {
+      if (!outer.contact) continue;
+      if (!outer.open()) out_.reasons.add("friction on faces where something is prescribed is not covered");
+      fix_edges(outer, [&](FixedDirections<B>& fixes, Index edge) {
+        const auto* bound = out_.gaps.at_edge(edge);
+        for (int k = 0; bound && k < B; ++k) {
+          std::array<double, B> along{};
+          along[k] = 1;
+          for (int i = 0; i < B; ++i) along[i] -= bound->direction[k] * bound->direction[i];
+          const double size = std::sqrt(dot(along, along));
+          if (!(size > same_direction)) continue;
+          for (double& c : along) c /= size;
+          fixes.add(along.data(), 0, 0);
+        }
+      });
     }
   }
 
@@ -333,9 +360,14 @@ class Builder {
 }  // namespace
 
 template <int D, int B>
-TrueProblem<D, B>::TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u)
+TrueProblem<D, B>::TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                               const std::vector<double>& rest)
     : mesh(nodes.mesh()), linear(mesh), incidence(mesh), u(quadratic_function<D, B>(nodes, incidence, u)) {
   Builder<D, B>(model, *this).build();
+  if (!gaps.friction) return;
+  std::vector<double> moved = u;
+  for (std::size_t i = 0; i < rest.size(); ++i) moved[i] -= rest[i];
+  slip = quadratic_function<D, B>(nodes, incidence, moved);
 }
 
 template struct TrueProblem<2, 1>;

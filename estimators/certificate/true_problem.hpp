@@ -34,12 +34,14 @@ struct OuterFace {
 template <int D, int B>
 struct TrueProblem {
   /// @param u the function, B coefficients per node
-  TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u);
+  /// @param rest where friction holds back nothing, likewise; empty: at zero
+  TrueProblem(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+              const std::vector<double>& rest = {});
 
   const Mesh<D>& mesh;
   Nodes<D> linear;  ///< elements on the mesh
   Incidence<D> incidence;
-  QuadraticFunction u;
+  QuadraticFunction u, slip;                  ///< slip where there is friction: what u has moved since it was at rest
   std::vector<LinearElement<D>> element;      ///< measures and gradients
   std::vector<Material<B>> material;          ///< per element
   std::vector<std::array<double, B>> source;  ///< per element: the mean of the body force or source
@@ -49,7 +51,7 @@ struct TrueProblem {
   std::vector<double> oscillation;  ///< per element: its part of the oscillation in the energy norm; empty: none
   std::vector<OuterFace<D, B>> outer;
   std::vector<Index> outer_of_face;            ///< per face, -1: inside
-  std::vector<FixedDirections<B>> edge_fixes;  ///< directions in which edges on held faces may not move
+  std::vector<FixedDirections<B>> edge_fixes;  ///< directions in which bubbles of edges on faces may not move
   std::vector<Index> edge_fix;                 ///< per edge: which of them, -1: none
   Gaps<D, B> gaps;
   Reasons reasons;

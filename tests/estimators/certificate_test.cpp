@@ -127,6 +127,40 @@ TEST(Certificate, HasSharesOfQuadraticElements) {
   EXPECT_NEAR(sum, found.estimate.upper, 1e-12 * found.estimate.upper);
 }
 
+/// A block that is pressed onto a floor and drawn along it: some of it slips, some sticks. With one way to slip
+/// friction at nodes takes what it takes between them.
+TEST(Certificate, ContainsTheErrorWithGivenFriction) {
+  for (const int order : {1, 2}) {
+    SCOPED_TRACE(order);
+    const std::string scene =
+        tables::block("b", "[0, 0]", "[2, 1]", "[4, 2]", fmt::format("order = {}\nyoung = 1\npoisson = 0.3\n", order)) +
+        tables::fix("b", "top", "['0.02 * t', -0.03]") +
+        "[[obstacle]]\ntype = 'tresca'\nbody = 'b'\non = 'bottom'\nshape = 'plane'\npoint = [0, 0]\nnormal = [0, "
+        "1]\nbound = 0.004\n[steps]\ncount = 2\n";
+    const Estimated found = estimated(scene, 1), fine = estimated(scene, 4);
+    EXPECT_TRUE(found.estimate.guaranteed);
+    EXPECT_GT(found.estimate.parts.friction, 0);
+    EXPECT_LT(found.estimate.imbalance, rounding);
+    const TrueGap gap = true_gap(found, fine);
+    EXPECT_LE(found.estimate.lower, gap.most);
+    EXPECT_GE(found.estimate.upper, gap.least);
+    EXPECT_LE(found.estimate.upper, (order == 1 ? 3 : 4) * found.estimate.lower);
+  }
+}
+
+TEST(Certificate, ContainsTheErrorWithGivenFrictionInSpace) {
+  const std::string scene =
+      tables::block("b", "[0, 0, 0]", "[2, 1, 1]", "[4, 2, 2]") + tables::fix("b", "top", "[0.03, 0, -0.03]") +
+      "[[obstacle]]\ntype = 'tresca'\nbody = 'b'\non = 'bottom'\nshape = 'plane'\npoint = [0, 0, 0]\nnormal = [0, 0, "
+      "1]\nbound = 0.002\n";
+  const Estimated found = estimated(scene, 0), fine = estimated(scene, 2, "1e-9");
+  EXPECT_TRUE(found.estimate.guaranteed);
+  EXPECT_LE(found.estimate.upper, 6 * found.estimate.lower) << "the coarsest mesh";
+  const TrueGap gap = true_gap(found, fine);
+  EXPECT_LE(found.estimate.lower, gap.most);
+  EXPECT_GE(found.estimate.upper, gap.least);
+}
+
 /// Pressed evenly: the solution is linear, and no error is left.
 TEST(Certificate, FindsNoErrorWhereThereIsNone) {
   const std::string plane = tables::block("b", "[0, 0]", "[2, 1]", "[4, 3]") + tables::load("b", "[0, -0.1]", "top") +
@@ -215,9 +249,9 @@ TEST(Certificate, SaysWhatItDoesNotCover) {
   EXPECT_THAT(reason(block + tables::fix("b", "top", "[0, 0]") + tables::load("b", "['x', 0]")),
               HasSubstr("body force"));
   EXPECT_THAT(reason(block + tables::fix("b", "top", "[0, -0.01]") +
-                     "[[obstacle]]\ntype = 'tresca'\nbody = 'b'\non = 'bottom'\nshape = 'plane'\npoint = [0, 0]\n"
-                     "normal = [0, 1]\nbound = 0.01\n"),
-              HasSubstr("friction"));
+                     "[[obstacle]]\ntype = 'coulomb'\nbody = 'b'\non = 'bottom'\nshape = 'plane'\npoint = [0, 0]\n"
+                     "normal = [0, 1]\nfriction = 0.2\n"),
+              HasSubstr("follows the pressure"));
 }
 
 }  // namespace
