@@ -65,6 +65,10 @@ void* open(const fs::path& file) {
   const char* reason = dlerror();
   std::string text = reason ? reason : "it cannot be loaded";
   if (text.starts_with(file.string() + ": ")) text.erase(0, file.string().size() + 2);
+  // The name of a library has the version that the plugin was linked with: of the SDK its major one.
+  if (text.starts_with("libsignorini_"))
+    text = fmt::format("it is linked with another version of signorini ({}): rebuild against SDK {}.{}", text,
+                       sdk::abi_major, sdk::abi_minor);
   reject(file, text);
 }
 

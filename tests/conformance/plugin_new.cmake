@@ -1,7 +1,7 @@
 # Installs what was built, has the program there write a new plugin, and follows its README.
 #   cmake -DBUILD= -DCOMPILER= -DSCRATCH= -P plugin_new.cmake
 file(REMOVE_RECURSE ${SCRATCH})
-foreach(part sdk program)
+foreach(part dev sdk libraries plugins program)
   execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix --component ${part}
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

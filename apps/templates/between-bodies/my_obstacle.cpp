@@ -1,8 +1,8 @@
 // Contact of two elastic bodies with a coating in between: they touch where the coating fills what is between them.
 #include <iterator>
 
-#include "core/sdk/box_obstacle.hpp"
-#include "core/sdk/plugin.hpp"
+#include <signorini/sdk/box_obstacle.hpp>
+#include <signorini/sdk/plugin.hpp>
 
 using namespace signorini;
 

@@ -1,8 +1,8 @@
 // Vertices that move in a slot: -gap <= u . axis <= gap.
 #include <iterator>
 
-#include "core/sdk/box_obstacle.hpp"
-#include "core/sdk/plugin.hpp"
+#include <signorini/sdk/box_obstacle.hpp>
+#include <signorini/sdk/plugin.hpp>
 
 using namespace signorini;
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "conformance/check.hpp"
+#include <signorini/conformance/check.hpp>
 
 using namespace signorini::conformance;
 

@@ -1,10 +1,10 @@
 // Contact with a rigid shape that holds with a given traction along it: friction with the bound `traction`.
 #include <iterator>
 
-#include "core/sdk/given_friction.hpp"
-#include "core/sdk/given_friction_solver.hpp"
-#include "core/sdk/plugin.hpp"
-#include "core/sdk/rigid_contact.hpp"
+#include <signorini/sdk/given_friction.hpp>
+#include <signorini/sdk/given_friction_solver.hpp>
+#include <signorini/sdk/plugin.hpp>
+#include <signorini/sdk/rigid_contact.hpp>
 
 using namespace signorini;
 

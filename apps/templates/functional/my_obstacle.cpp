@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/sdk/functional_obstacle.hpp"
-#include "core/sdk/plugin.hpp"
+#include <signorini/sdk/functional_obstacle.hpp>
+#include <signorini/sdk/plugin.hpp>
 
 using namespace signorini;
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "amg/black_box.hpp"
+#include <signorini/matrix/black_box.hpp>
 
 using Matrix = Eigen::SparseMatrix<double>;
 

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "c/signorini.h"
+#include <signorini/c/signorini.h>
 
 enum { side = 200, unknowns = side * side };
 

@@ -1,7 +1,7 @@
 // A block that a rising plane presses against its support: read once, solved, changed and solved again.
 #include <cstdio>
 
-#include "driver/driver.hpp"
+#include <signorini/driver/driver.hpp>
 
 const char* const block = R"(
 [[body]]

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <memory>
 
-#include "core/component/plugin_loader.hpp"
-#include "core/component/settings.hpp"
+#include <signorini/component/plugin_loader.hpp>
+#include <signorini/component/settings.hpp>
 
 using namespace signorini;
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/sdk/box_obstacle.hpp"
-#include "core/sdk/plugin.hpp"
+#include <signorini/sdk/box_obstacle.hpp>
+#include <signorini/sdk/plugin.hpp>
 
 using namespace signorini;
 

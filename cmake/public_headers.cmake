@@ -1,0 +1,58 @@
+# Installs headers as others include them, <signorini/sdk/...>: those that are named and all that they include. In this
+# tree they lie in folders of the architecture, which are nobody's else names; there all lie below signorini/.
+#   public_headers(PREFIX SOURCE GENERATED PATTERN...)
+# installs into PREFIX those that match a pattern below SOURCE; headers that are written by configuring lie in GENERATED.
+# For programs that include them by the names of this tree, PREFIX/signorini/old has forwarding headers of these names.
+
+cmake_policy(VERSION 3.25)
+
+# core/sdk/x.hpp is signorini/sdk/x.hpp, amg/x.hpp is signorini/matrix/x.hpp, driver/x.hpp is signorini/driver/x.hpp.
+function(public_name header result)
+  string(REGEX REPLACE "^core/" "" name ${header})
+  string(REGEX REPLACE "^amg/" "matrix/" name ${name})
+  set(${result} signorini/${name} PARENT_SCOPE)
+endfunction()
+
+function(public_headers prefix source generated)
+  foreach(pattern ${ARGN})
+    file(GLOB found RELATIVE ${source} ${source}/${pattern})
+    if(NOT found)
+      message(FATAL_ERROR "there is no header ${pattern}")
+    endif()
+    list(APPEND waiting ${found})
+  endforeach()
+  set(done)
+  while(waiting)
+    list(POP_FRONT waiting header)
+    if(header IN_LIST done)
+      continue()
+    endif()
+    list(APPEND done ${header})
+    set(file ${source}/${header})
+    if(NOT EXISTS ${file})
+      set(file ${generated}/${header})
+    endif()
+    file(READ ${file} text)
+    string(REGEX MATCHALL "#include \"[^\"]+\"" includes "${text}")
+    public_name(${header} name)
+    foreach(include ${includes})
+      string(REGEX REPLACE ".*\"(.*)\"" "\\1" included ${include})
+      public_name(${included} other)
+      string(REPLACE "${include}" "#include <${other}>" text "${text}")
+      list(APPEND waiting ${included})
+    endforeach()
+    public_header(${prefix}/${name} "${text}")
+    public_header(${prefix}/signorini/old/${header} "#include <${name}>\n")
+  endwhile()
+endfunction()
+
+function(public_header file text)
+  set(before)
+  if(EXISTS $ENV{DESTDIR}${file})
+    file(READ $ENV{DESTDIR}${file} before)
+  endif()
+  if(NOT before STREQUAL text)  # else what includes it would be built anew
+    file(WRITE $ENV{DESTDIR}${file} "${text}")
+  endif()
+  set_property(GLOBAL APPEND PROPERTY PUBLIC_HEADERS ${file})
+endfunction()
