@@ -73,9 +73,16 @@ install(FILES ${PROJECT_BINARY_DIR}/python/VERSION LICENSE DESTINATION ${CMAKE_I
 get_property(obstacles GLOBAL PROPERTY SIGNORINI_OBSTACLES)
 install(TARGETS ${obstacles} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/signorini/plugins COMPONENT plugins)
 
-install(TARGETS signorini_pictures signorini_certificate LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries)
+# Libraries that the core library loads from its own folder, where whatever lies has a soname.
+function(signorini_companions component)
+  foreach(name ${ARGN})
+    target_link_options(signorini_${name} PRIVATE LINKER:-soname,libsignorini_${name}.so)
+    install(TARGETS signorini_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component})
+  endforeach()
+endfunction()
+signorini_companions(libraries pictures certificate)
 if(SIGNORINI_GPL)
-  install(TARGETS signorini_plane signorini_geometry signorini_cholmod LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT gpl)
+  signorini_companions(gpl plane geometry cholmod)
 endif()
 install(FILES LICENSE docs/abi.md docs/plugins.md docs/plugin_energies.md docs/plugin_check.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
 if(TARGET signorini)

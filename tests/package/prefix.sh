@@ -76,12 +76,14 @@ cat >"$scratch/old.cpp" <<'TEXT'
 #include "core/sdk/plugin.hpp"
 #include "driver/driver.hpp"
 TEXT
-configure old 'project(old LANGUAGES CXX)
+if ! { configure old 'project(old LANGUAGES CXX)
 find_package(signorini REQUIRED)
 add_library(old OBJECT ../old.cpp)
 target_compile_options(old PRIVATE -fsyntax-only)
 target_link_libraries(old PRIVATE signorini::driver signorini::c signorini::conformance)' &&
-  "$cmake" --build "$scratch/old/build" >"$scratch/old/log" 2>&1 || wrong "old names: $(cat "$scratch/old/log")"
+  "$cmake" --build "$scratch/old/build" >"$scratch/old/log" 2>&1; }; then
+  wrong "old names: $(cat "$scratch/old/log")"
+fi
 
 # pkg-config: the examples of the pages. Libraries are found where they are, and a plugin needs no more than the SDK.
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name signorini_c.pc)")
