@@ -7,4 +7,4 @@ if ! /usr/bin/python3 -c "import mypy, numpy" 2>/dev/null; then
   exit 77
 fi
 cd "$1/python"
-/usr/bin/python3 -m mypy --strict --cache-dir "$2" signorini wheel_backend.py bench.py
+/usr/bin/python3 -m mypy --strict --cache-dir "$2" signorini wheel_backend.py bench.py notebook.py

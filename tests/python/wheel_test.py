@@ -50,8 +50,9 @@ def test_the_wheel_holds_the_library_and_says_for_what_it_is(wheel):
 
 def test_an_installed_prefix_makes_a_wheel_of_its_own_library(tmp_path):
     tree = os.environ.get("SIGNORINI_BUILD", source / "build" / "release-assert")
-    subprocess.run(["cmake", "--install", tree, "--prefix", tmp_path, "--component", "sdk"], check=True,
-                   capture_output=True)
+    for component in ("dev", "c", "gpl"):
+        subprocess.run(["cmake", "--install", tree, "--prefix", tmp_path, "--component", component], check=True,
+                       capture_output=True)
     installed = tmp_path / "share" / "signorini" / "python"
     environment = {key: value for key, value in os.environ.items() if key != "SIGNORINI_LIBRARY"}
     made = subprocess.run([*command, str(tmp_path)], cwd=installed, env=environment, capture_output=True, text=True)
