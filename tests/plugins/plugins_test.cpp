@@ -65,6 +65,7 @@ TEST(Plugins, DoWhatEveryPluginHasTo) {
   expect_conforms("winkler");
   expect_conforms("porous_medium", {"start=0.1"});
   expect_conforms("american_put");
+  expect_conforms("stefan");
   expect_conforms("elliptic_friction", {"grooves=[1, 0.3, 0.2]", "bound=0.1", "bound_across=0.3"});
 }
 
@@ -165,6 +166,33 @@ TEST(Plugins, GasSpreadsAsBarenblattSays) {
   EXPECT_LT(fine.error, coarse.error / 4) << "order 1 in time, and at the edge in space";
   // At the corner the weight depends on the diagonal there.
   EXPECT_LT(fine.amount_error, 2e-3);
+}
+
+// Where the ice begins: behind its edge w grows as L/2 times the square of the distance.
+double edge_error(int refinements, int steps) {
+  const Solved r("stefan/melting.toml",
+                 {"refine.uniform=" + std::to_string(refinements), "steps.count=" + std::to_string(steps)});
+  double lambda = 0.5;  // the root of a growing function, by Newton's method
+  for (int k = 0; k < 20; ++k) {
+    const double root = std::sqrt(std::acos(-1.0)), e = std::exp(lambda * lambda),
+                 f = root * lambda * e * std::erf(lambda);
+    lambda -= (f - 1) / (root * e * (1 + 2 * lambda * lambda) * std::erf(lambda) + 2 * lambda);
+  }
+  EXPECT_NEAR(lambda, 0.6201, 5e-5) << "published";
+  double last = 0, edge = 0;
+  for (std::size_t v = 0; v < r.size(); ++v) {
+    if (r.points[2 * v + 1] != 0 || !(r.u[v] > 0) || r.points[2 * v] < last) continue;
+    last = r.points[2 * v];
+    edge = last + std::sqrt(2 * r.u[v]);
+  }
+  return std::fabs(edge / (2 * lambda * std::sqrt(0.1)) - 1);
+}
+
+TEST(Plugins, IceMeltsAsNeumannSays) {
+  const double coarse = edge_error(1, 10), fine = edge_error(3, 80);
+  EXPECT_LT(coarse, 0.05);
+  EXPECT_LT(fine, coarse / 3);
+  EXPECT_LT(fine, 0.008);
 }
 
 // Cox, Ross and Rubinstein's binomial tree; the mean of n and n + 1 steps, between which it oscillates.
