@@ -29,9 +29,9 @@ std::string rebuild() {
   return "rebuild against SDK " + std::to_string(sdk::abi_major) + "." + std::to_string(sdk::abi_minor);
 }
 
-TEST(LastRelease, APluginThatItCompiledIsLoadedAndGivesItsBounds) {
+TEST(KeptPlugin, IsLoadedAndGivesItsBounds) {
   Registry registry;
-  const std::string reason = rejection(registry, SIGNORINI_SOURCE_DIR "/tests/obstacles/last_release", "slot");
+  const std::string reason = rejection(registry, SIGNORINI_SOURCE_DIR "/tests/obstacles/kept", "slot");
   if (!reason.empty()) {  // by another compiler, under sanitizers, or an interface of another major version
     EXPECT_THAT(reason, HasSubstr(rebuild()));
     GTEST_SKIP() << reason;
@@ -50,6 +50,17 @@ TEST(LastRelease, APluginThatItCompiledIsLoadedAndGivesItsBounds) {
   EXPECT_EQ(c.direction[0][1], 1);
   EXPECT_EQ(c.lower[0], -0.5);
   EXPECT_EQ(c.upper[0], 0.5);
+}
+
+// Compiled against the headers of version 0.2.0.
+TEST(LastRelease, APluginOfItIsLoadedOrRefusedInOneMessageWithTheCure) {
+  Registry registry;
+  const std::string reason = rejection(registry, SIGNORINI_SOURCE_DIR "/tests/obstacles/last_release", "slot");
+  if (reason.empty()) {
+    EXPECT_TRUE(registry.has("obstacle", "slot"));
+  } else {
+    EXPECT_THAT(reason, HasSubstr(rebuild()));
+  }
 }
 
 TEST(LastRelease, AnSdkThatIsNotThereIsNamedWithTheCure) {
