@@ -11,8 +11,8 @@
 namespace signorini::sdk {
 
 /// The version of the plugin interface: another major is incompatible, a newer minor adds something.
-inline constexpr unsigned abi_major = 5;
-inline constexpr unsigned abi_minor = 1;
+inline constexpr unsigned abi_major = 6;
+inline constexpr unsigned abi_minor = 0;
 
 inline constexpr char magic[16] = "SIGNORINIplugin";
 

@@ -100,13 +100,13 @@ TEST(PluginLoader, RejectsAShortEntry) { EXPECT_THAT(rejection("short_struct"), 
 TEST(PluginLoader, RejectsNullMembers) { EXPECT_THAT(rejection("null_member"), HasSubstr("null members")); }
 
 TEST(PluginLoader, RejectsAnotherMajorVersionNamingBoth) {
-  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.1 in the plugin, 5.1 here"),
-                                              HasSubstr("rebuild against SDK 5.1"), Not(HasSubstr("newer"))));
+  EXPECT_THAT(rejection("wrong_major"), AllOf(HasSubstr("plugin interface: 0.0 in the plugin, 6.0 here"),
+                                              HasSubstr("rebuild against SDK 6.0"), Not(HasSubstr("newer"))));
 }
 
 TEST(PluginLoader, ANewerMinorVersionNeedsANewerProgram) {
   EXPECT_THAT(rejection("newer_minor"),
-              AllOf(HasSubstr("5.2 in the plugin, 5.1 here"), HasSubstr("needs a newer signorini with SDK 5.2")));
+              AllOf(HasSubstr("6.1 in the plugin, 6.0 here"), HasSubstr("needs a newer signorini with SDK 6.1")));
 }
 
 TEST(PluginLoader, TakesPluginsOfAnOlderMinorVersionWhoseEntryIsShorter) {
@@ -130,15 +130,15 @@ TEST(PluginLoader, KnowsTheLicencesOfAllThatIsLoaded) {
 
 TEST(PluginLoader, NamesTheFieldInWhichTheBuildsDiffer) {
   EXPECT_THAT(rejection("wrong_field"),
-              AllOf(HasSubstr("EIGEN_MAX_ALIGN_BYTES: 17 in the plugin, 32 here: rebuild against SDK 5.1"),
+              AllOf(HasSubstr("EIGEN_MAX_ALIGN_BYTES: 17 in the plugin, 32 here: rebuild against SDK 6.0"),
                     Not(HasSubstr(";"))));
 }
 
 TEST(PluginLoader, NamesAllDifferencesInOneMessage) {
   EXPECT_THAT(rejection("wrong_fields"),
-              AllOf(HasSubstr("7.1 in the plugin, 5.1 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
+              AllOf(HasSubstr("7.0 in the plugin, 6.0 here"), HasSubstr("compiler: 'tcc' in the plugin, '"),
                     HasSubstr("size of Index: 8 in the plugin, 4 here"), HasSubstr(": nothing in the plugin, "),
-                    HasSubstr("rebuild against SDK 5.1")));
+                    HasSubstr("rebuild against SDK 6.0")));
 }
 
 TEST(PluginLoader, RejectsALibraryThatIsNoPlugin) {
