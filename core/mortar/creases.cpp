@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/sorted_range.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/mortar/element_face.hpp"
 
@@ -83,7 +84,7 @@ void Creases<D>::find_sharp(const std::vector<Joint>& joints) {
     for (int i = 0; i < D; ++i) {
       if (i == joint.opposite[s]) continue;
       const Index v = side_.faces[joint.face[s]][i];
-      for (const auto& [node, f] : std::ranges::equal_range(around, v, {}, &std::pair<Index, Index>::first)) {
+      for (const auto& [node, f] : part_with(around, v, &std::pair<Index, Index>::first)) {
         if (dot(side_.normal[f], own) < dot(side_.normal[f], other)) continue;
         const auto& corners = side_.faces[f];
         most = std::max(most, turns[seat(f, static_cast<int>(std::ranges::find(corners, v) - corners.begin()))]);

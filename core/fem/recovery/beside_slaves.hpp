@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/sorted_range.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/fem/recovery/counterforces.hpp"
 #include "core/fem/recovery/meeting_faces.hpp"
@@ -41,7 +42,7 @@ class BesideSlaves {
     return std::ranges::any_of(at(vertex), [this](const auto& node) { return presses(node); });
   }
 
-  auto at(Index vertex) const { return std::ranges::equal_range(contact_, vertex, {}, &ContactNode<D>::vertex); }
+  auto at(Index vertex) const { return part_with(contact_, vertex, &ContactNode<D>::vertex); }
 
   /// @param forces by ascending node
   void spread(Index pair, const std::vector<NodalForce<D>>& forces) {
@@ -58,7 +59,7 @@ class BesideSlaves {
       for (int i = 0; i < D; ++i) node.direction[i] = -slave.normal[k][i];
       if (!touches_beside(pair, forces, surface.faces(node))) continue;
       double force = 0;
-      for (const NodalForce<D>& f : std::ranges::equal_range(forces, node.vertex, {}, &NodalForce<D>::node))
+      for (const NodalForce<D>& f : part_with(forces, node.vertex, &NodalForce<D>::node))
         if (f.obstacle == pair) force += dot(f.force, node.direction);
       spread(node, force, slave.covered[k], surface);
     }
@@ -67,7 +68,7 @@ class BesideSlaves {
   /// Whether the slave presses on some node of the master's faces.
   bool touches_beside(Index pair, const std::vector<NodalForce<D>>& forces, const std::vector<Index>& faces) const {
     const auto pressed = [&](Index p) {
-      return std::ranges::any_of(std::ranges::equal_range(forces, p, {}, &NodalForce<D>::node),
+      return std::ranges::any_of(part_with(forces, p, &NodalForce<D>::node),
                                  [&](const auto& force) { return force.obstacle == pair; });
     };
     return std::ranges::any_of(faces, [&](Index f) { return std::ranges::any_of(nodes_.of_face(f), pressed); });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/rounding.hpp"
+#include "core/base/sorted_range.hpp"
 #include "core/fem/conditions/bounds.hpp"
 #include "core/fem/conditions/walls.hpp"
 #include "core/fem/elements/element.hpp"
@@ -110,12 +111,11 @@ class MeetingFaces {
 
   /// The one in contact that pushes so, where none of the obstacle itself does.
   const ContactNode<B>* find(Index vertex, Index obstacle, const std::array<double, B>& pushes) const {
-    const auto [first, last] = std::ranges::equal_range(contact_, vertex, {}, &ContactNode<B>::vertex);
     const ContactNode<B>* out = nullptr;
-    for (auto node = first; node != last; ++node) {
-      if (!node->contact || !push_the_same_way<B>(node->direction, pushes)) continue;
-      if (node->obstacle == obstacle) return nullptr;
-      if (!out && has_faces(node->obstacle)) out = &*node;
+    for (const ContactNode<B>& node : part_with(contact_, vertex, &ContactNode<B>::vertex)) {
+      if (!node.contact || !push_the_same_way<B>(node.direction, pushes)) continue;
+      if (node.obstacle == obstacle) return nullptr;
+      if (!out && has_faces(node.obstacle)) out = &node;
     }
     return out;
   }
@@ -234,9 +234,8 @@ class MeetingFaces {
 template <int B>
 double part_of_meeting(const std::vector<ContactNode<B>>& all, const ContactNode<B>& node) {
   double sum = 0;
-  const auto [first, last] = std::ranges::equal_range(all, node.vertex, {}, &ContactNode<B>::vertex);
-  for (auto other = first; other != last; ++other)
-    if (other->contact && push_the_same_way<B>(other->direction, node.direction)) sum += other->area;
+  for (const ContactNode<B>& other : part_with(all, node.vertex, &ContactNode<B>::vertex))
+    if (other.contact && push_the_same_way<B>(other.direction, node.direction)) sum += other.area;
   return node.contact && sum > 0 ? node.area / sum : 1;
 }
 
