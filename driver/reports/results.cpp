@@ -12,6 +12,7 @@
 #include "core/fem/conditions/fixes.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select_nodes.hpp"
+#include "core/fem/recovery/better_side.hpp"
 #include "core/fem/recovery/between_nodes.hpp"
 #include "core/fem/recovery/cut_faces.hpp"
 #include "core/fem/recovery/ties.hpp"
@@ -42,7 +43,10 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
   out.slaves.resize(model.obstacles.size());
   out.ties = tie_forces(nodes, model, solution.discretization, solution.x);
   out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact, out.ties);
-  out.masters = master_side(nodes, model, out.counterforces, out.u);
+  MasterSide<B> masters = master_side(nodes, model, out.counterforces, out.u);
+  if constexpr (D == B)
+    if (solution.discretization.pairs) take_better_side(model, *solution.discretization.pairs, masters, out.contact);
+  out.masters = std::move(masters.nodes);
   sum_up(out.ties, out.contact.obstacles);
   const auto back = totals(out.counterforces, model.obstacles.size(), true);
   const auto along = totals(out.counterforces, model.obstacles.size(), true, &NodalForce<B>::tangential);

@@ -504,6 +504,7 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
     summary.peaks_at_edge = recovered.peaks_at_edge;
+    summary.error = recovered.error;
   }
   for (const ContactNode<B>& node : state.nodes)
     if (node.obstacle == obstacle) totals.add(node);

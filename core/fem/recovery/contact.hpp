@@ -72,6 +72,7 @@ struct ContactSummary {
   double max_pressure = 0;        ///< the largest ContactNode::recovered
   bool resolved = true;           ///< nodes enough for pressures, see recover_pressure()
   bool peaks_at_edge = false;     ///< see recover_pressure()
+  double error = infinity;        ///< of pressures, see recover_pressure(); over the largest one
   Index undetermined_nodes = 0;   ///< of those in contact the held and the shared ones
   double undetermined_force = 0;  ///< the sum of what presses there
   Index slip_nodes = 0, stick_nodes = 0;

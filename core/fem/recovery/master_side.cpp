@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/fem/elements/element.hpp"
 #include "core/fem/pairs/added_gap.hpp"
@@ -21,7 +22,8 @@ class Master {
   Master(const Nodes<D>& nodes, const Model<D>& model, Index obstacle)
       : nodes_(nodes), model_(model), obstacle_(obstacle), surface_(nodes, model, obstacle) {}
 
-  std::vector<ContactNode<D>> find(const std::vector<NodalForce<D>>& forces, const std::vector<double>& u) {
+  /// Adds its nodes.
+  void find(const std::vector<NodalForce<D>>& forces, const std::vector<double>& u, MasterSide<D>& to) {
     add_nodes(u);
     add_forces(forces);
     double largest = 0;
@@ -33,14 +35,15 @@ class Master {
     }
     std::vector<std::array<double, D>> traction;
     for (const ContactNode<D>& node : out_) traction.push_back(node.traction);
-    recover_pressure(nodes_, surface_, obstacle_, least, {}, out_);
+    to.pressures[obstacle_] = recover_pressure(nodes_, surface_, obstacle_, least, {}, out_);
     // Of the recovered pressure the part that friction is of the nodal one: so it stays within Coulomb's law.
     for (std::size_t k = 0; k < out_.size(); ++k) {
       out_[k].traction = traction[k];
       const double part = out_[k].pressure > 0 ? std::min(out_[k].recovered / out_[k].pressure, 1.0) : 0;
       for (double& t : out_[k].traction) t *= part;
     }
-    return std::move(out_);
+    to.nodes.insert(to.nodes.end(), out_.begin(), out_.end());
+    to.seen[obstacle_] = std::move(seen_);
   }
 
  private:
@@ -49,22 +52,28 @@ class Master {
     const ObstacleTerm<D>& term = model_.obstacles[obstacle_];
     const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
     const MortarCoupling<D> found = couple_sides(nodes_, model_, term, faces.slave, faces.master);
-    for (Index k = 0; k < found.nodes(); ++k) {
+    std::vector<Index> order(found.node.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::ranges::sort(order, {}, [&](Index k) { return nodes_.of_vertex(found.node[k]); });
+    for (const Index k : order) {
       ContactNode<D> node{};
       node.vertex = nodes_.of_vertex(found.node[k]);
+      seen_.node.push_back(node.vertex);
       node.obstacle = obstacle_;
       std::array<double, D> jump;
       std::copy_n(u.data() + Offset{node.vertex} * D, D, jump.begin());
-      for (Offset j = found.row[k]; j < found.row[k + 1]; ++j)
-        for (int i = 0; i < D; ++i)
-          jump[i] -= found.value[j] * u[static_cast<std::size_t>(Offset{nodes_.of_vertex(found.column[j])} * D + i)];
+      for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
+        const Index q = nodes_.of_vertex(found.column[j]);
+        for (int i = 0; i < D; ++i) jump[i] -= found.value[j] * u[static_cast<std::size_t>(Offset{q} * D + i)];
+        seen_.column.push_back(q), seen_.weight.push_back(found.value[j]);
+      }
+      seen_.row.push_back(static_cast<Offset>(seen_.column.size()));
       node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) +
                  added_gap<D>(term, nodes_.at(node.vertex), found.normal[k]);
       for (int i = 0; i < D; ++i) node.direction[i] = -found.normal[k][i];
       node.covered = found.covered[k];
       out_.push_back(node);
     }
-    std::ranges::sort(out_, {}, &ContactNode<D>::vertex);
   }
 
   /// A node sticks where most of the force comes from the slave's nodes that do.
@@ -103,14 +112,16 @@ class Master {
   const Index obstacle_;
   const ContactSurface<D, D> surface_;
   std::vector<ContactNode<D>> out_;
+  MasterMeans seen_;
 };
 
 }  // namespace
 
 template <int D, int B>
-std::vector<ContactNode<B>> master_side(const Nodes<D>& nodes, const Model<B>& model,
-                                        const std::vector<NodalForce<B>>& counterforces, const std::vector<double>& u) {
-  std::vector<ContactNode<B>> out;
+MasterSide<B> master_side(const Nodes<D>& nodes, const Model<B>& model, const std::vector<NodalForce<B>>& counterforces,
+                          const std::vector<double>& u) {
+  MasterSide<B> out;
+  out.pressures.resize(model.obstacles.size()), out.seen.resize(model.obstacles.size());
   if constexpr (D == B) {
     if (!is_paired(model)) return out;
     Model<B> exchanged = model;
@@ -119,16 +130,15 @@ std::vector<ContactNode<B>> master_side(const Nodes<D>& nodes, const Model<B>& m
     exchange_sides(choices, exchanged);
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       if (!model.obstacles[k].other || model.obstacles[k].tied) continue;
-      const auto nodes_of_it = Master<D>(nodes, exchanged, k).find(counterforces, u);
-      out.insert(out.end(), nodes_of_it.begin(), nodes_of_it.end());
+      Master<D>(nodes, exchanged, k).find(counterforces, u, out);
     }
   }
   return out;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                  \
-  template std::vector<ContactNode<B>> master_side(const Nodes<D>&, const Model<B>&, \
-                                                   const std::vector<NodalForce<B>>&, const std::vector<double>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                       \
+  template MasterSide<B> master_side(const Nodes<D>&, const Model<B>&, const std::vector<NodalForce<B>>&, \
+                                     const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -31,7 +31,8 @@ class Recovery {
         surface_(surface),
         faces_(faces),
         samples_(nodes, surface, faces),
-        square_(static_cast<std::size_t>(faces.size())) {
+        square_(static_cast<std::size_t>(faces.size())),
+        error_(static_cast<std::size_t>(faces.size()), infinity) {
     for (Index k = 0; k < faces.size(); ++k) {
       inside_.push_back(faces.inside(k));
       at_middle_.push_back(faces.node(k).pressure);
@@ -45,6 +46,7 @@ class Recovery {
       if (!tells(k)) continue;
       ContactNode<B>& node = faces_.node(k);
       const auto found = fitted(k);
+      error_[k] = found ? found->error : infinity;
       square_[k] = found ? found->square : node.pressure * node.pressure;
       node.recovered = limited(k, std::sqrt(std::max(square_[k], 0.0)), found && found->of > rings ? found->of : 1);
       if (const double least = at_least(k); least > 0) square_[k] = std::max(square_[k], least * least);
@@ -87,6 +89,20 @@ class Recovery {
     for (Index k = 0; k < faces_.size(); ++k)
       if (faces_.pressed(k) && !tells(k) && faces_.node(k).pressure > steep * largest) return true;
     return false;
+  }
+
+  /// See RecoveredPressure.
+  double error() const {
+    double largest = 0, sum = 0, weight = 0;
+    for (Index k = 0; k < faces_.size(); ++k) {
+      if (!tells(k)) continue;
+      largest = std::max(largest, faces_.node(k).recovered);
+      if (!std::isfinite(error_[k])) continue;
+      sum += faces_.node(k).area * error_[k];
+      weight += faces_.node(k).area;
+    }
+    const double scale = of_squares_ ? 2 * largest * largest : largest;
+    return weight > 0 && scale > 0 ? sum / (weight * scale) : infinity;
   }
 
   double area() const {
@@ -245,7 +261,8 @@ class Recovery {
 
   struct Fitted {
     double square;
-    int of = rings;  ///< rings of neighbours
+    int of = rings;           ///< rings of neighbours
+    double error = infinity;  ///< of what is fitted
   };
   std::optional<Fitted> fitted(Index k) const {
     const auto some = samples(k);
@@ -263,7 +280,7 @@ class Recovery {
     for (int wanted = rings;; some = faded(samples(k, wanted), wanted)) {
       const auto here = fitted_value_and_error(some);
       if (!here) break;
-      if (!best || here->error < best->error) best = here, out = {square_of(here->value), wanted};
+      if (!best || here->error < best->error) best = here, out = {square_of(here->value), wanted, here->error};
       if (best->error <= (of_squares_ ? 2 : 1) * scatter * std::abs(best->value)) break;
       if (++wanted > most_rings || meets_edge(k, wanted)) break;
     }
@@ -387,6 +404,7 @@ class Recovery {
   std::vector<double> at_middle_;  // the pressure at the middle of each node's basis function
   bool of_squares_ = true;         // are fits
   std::vector<double> square_;     // of the pressure, per node; it goes on beyond the edge
+  std::vector<double> error_;      // of what is fitted, per node; infinite: not known
 };
 
 }  // namespace
@@ -399,7 +417,7 @@ RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
   if constexpr (B > 1) recover_traction(nodes, surface, faces);
-  return {recovery.area(), recovery.resolved(), recovery.peaks_at_edge()};
+  return {recovery.area(), recovery.resolved(), recovery.peaks_at_edge(), recovery.error()};
 }
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                        \

@@ -26,10 +26,13 @@ namespace signorini {
 /// where the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no
 /// node is at its edge. Where an edge or a tip lies there, nodes enough on either side. `peaks_at_edge`: the largest
 /// pressure is at its edge, or at an edge or a tip within, as where an edge or a corner of a body touches: smaller
-/// elements find larger ones.
+/// elements find larger ones. `error`: what errors of the forces, independent of each other and as large as these
+/// scatter about the fits, do to pressures, in the mean over nodes inside the contact; over the largest pressure.
+/// Infinite where nothing tells.
 struct RecoveredPressure {
-  double area;
-  bool resolved, peaks_at_edge;
+  double area = 0;
+  bool resolved = true, peaks_at_edge = false;
+  double error = infinity;
 };
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,

@@ -215,7 +215,8 @@ void expect_master() {
   const auto back = counterforces(bodies.nodes, bodies.model, bodies.problem, bodies.contact);
   std::vector<double> u(bodies.mesh.points.size() * D, 0);
   for (Index v = unit_mesh<D>(3).vertices(); v < bodies.mesh.vertices(); ++v) u[v * D + D - 1] = 0.05;
-  const auto found = master_side<D, D>(bodies.nodes, bodies.model, back, u);
+  const MasterSide<D> side = master_side<D, D>(bodies.nodes, bodies.model, back, u);
+  const std::vector<ContactNode<D>>& found = side.nodes;
   EXPECT_EQ(found.size(), D == 2 ? 4u : 20u);
   EXPECT_TRUE(std::ranges::is_sorted(found, {}, &ContactNode<D>::vertex));
   double area = 0, force = 0;
@@ -230,8 +231,12 @@ void expect_master() {
   }
   EXPECT_NEAR(area, 1, 1e-12);
   EXPECT_NEAR(force, p, 1e-12);
+  ASSERT_EQ(side.pressures.size(), bodies.model.obstacles.size());
+  EXPECT_NEAR(side.pressures[0].error, 0, 1e-12);
+  EXPECT_EQ(side.seen[0].node.size(), found.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(side.seen[0].node[k], found[k].vertex);
   Model<D> alone;
-  EXPECT_TRUE((master_side<D, D>(bodies.nodes, alone, back, u).empty()));
+  EXPECT_TRUE((master_side<D, D>(bodies.nodes, alone, back, u).nodes.empty()));
 }
 
 TEST(MasterSide, HasTheForcesAndGapsOfTheSlave) {
@@ -243,7 +248,7 @@ TEST(MasterSide, HasTheForcesAndGapsOfTheSlave) {
 TEST(MasterSide, IsOpenWithoutForces) {
   const Pressing<2> bodies(1);
   const std::vector<double> u(bodies.mesh.points.size() * 2, 0);
-  for (const ContactNode<2>& node : master_side<2, 2>(bodies.nodes, bodies.model, {}, u)) {
+  for (const ContactNode<2>& node : master_side<2, 2>(bodies.nodes, bodies.model, {}, u).nodes) {
     EXPECT_FALSE(node.contact);
     EXPECT_EQ(node.recovered, 0);
     EXPECT_NEAR(node.gap, 0, 1e-14);

@@ -1,0 +1,94 @@
+#include "core/fem/recovery/better_side.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace signorini {
+namespace {
+
+/// One side of an obstacle between bodies.
+template <int B>
+class PressedSide {
+ public:
+  /// @param all those of several obstacles, each by ascending node
+  PressedSide(std::vector<ContactNode<B>>& all, Index obstacle) {
+    for (ContactNode<B>& node : all)
+      if (node.obstacle == obstacle) nodes_.push_back(&node);
+  }
+
+  /// Of a node in contact, in the mean; NaN without any.
+  double area() const {
+    double sum = 0;
+    int count = 0;
+    for (const ContactNode<B>* node : nodes_)
+      if (node->contact) sum += node->area, ++count;
+    return sum / count;
+  }
+
+  double largest() const {
+    double out = 0;
+    for (const ContactNode<B>* node : nodes_)
+      if (node->contact) out = std::max(out, node->recovered);
+    return out;
+  }
+
+  /// Pressures, and what friction is of them, become those of the other side.
+  /// @param seen what nodes see of it
+  void take(const PressedSide& other, const MasterMeans& seen) {
+    for (ContactNode<B>* node : nodes_) {
+      const auto row = std::ranges::lower_bound(seen.node, node->vertex);
+      if (!node->contact || row == seen.node.end() || *row != node->vertex) continue;
+      const double before = node->recovered;
+      node->recovered = other.mean(seen, row - seen.node.begin()).value_or(before);
+      if constexpr (B > 1)
+        for (double& t : node->traction) t *= before > 0 ? node->recovered / before : 1;
+    }
+  }
+
+ private:
+  const ContactNode<B>* at(Index vertex) const {
+    const auto found = std::ranges::lower_bound(nodes_, vertex, {}, [](const auto* node) { return node->vertex; });
+    return found != nodes_.end() && (*found)->vertex == vertex ? *found : nullptr;
+  }
+
+  /// Without contact the pressure is zero. Weights at nodes of the side that looks are no part of the mean.
+  std::optional<double> mean(const MasterMeans& seen, std::ptrdiff_t row) const {
+    double sum = 0, part = 0, least = infinity, most = 0;
+    for (Offset k = seen.row[row]; k < seen.row[row + 1]; ++k) {
+      const ContactNode<B>* node = at(seen.column[k]);
+      if (!node) continue;
+      const double pressure = node->contact ? node->recovered : 0;
+      sum += seen.weight[k] * pressure, part += seen.weight[k];
+      least = std::min(least, pressure), most = std::max(most, pressure);
+    }
+    return part > 0 ? std::optional(std::clamp(sum / part, least, most)) : std::nullopt;
+  }
+
+  std::vector<ContactNode<B>*> nodes_;
+};
+
+}  // namespace
+
+template <int B>
+void take_better_side(const Model<B>& model, const PairedBodies<B>& pairs, MasterSide<B>& masters,
+                      ContactState<B>& slaves) {
+  for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
+    if (!model.obstacles[k].other || model.obstacles[k].tied) continue;
+    PressedSide<B> slave(slaves.nodes, k), master(masters.nodes, k);
+    ContactSummary<B>& summary = slaves.obstacles[k];
+    const RecoveredPressure& of_master = masters.pressures[k];
+    const double larger = master.area() / slave.area();  // NaN where one is not pressed
+    if (larger > 1 && of_master.resolved && pairs.means && of_master.error < std::sqrt(larger) * summary.error) {
+      slave.take(master, *pairs.means);
+      summary.max_pressure = slave.largest();
+      summary.resolved = of_master.resolved, summary.peaks_at_edge = of_master.peaks_at_edge;
+    } else if (larger < 1 && summary.resolved && summary.error < of_master.error / std::sqrt(larger)) {
+      master.take(slave, masters.seen[k]);
+    }
+  }
+}
+
+template void take_better_side(const Model<2>&, const PairedBodies<2>&, MasterSide<2>&, ContactState<2>&);
+template void take_better_side(const Model<3>&, const PairedBodies<3>&, MasterSide<3>&, ContactState<3>&);
+
+}  // namespace signorini
