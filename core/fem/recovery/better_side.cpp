@@ -6,6 +6,9 @@
 namespace signorini {
 namespace {
 
+/// What it adds to the error of what was taken to be independent that so many go along with each other.
+double added(double so_many, double error) { return std::sqrt(so_many - 1) * error; }
+
 /// One side of an obstacle between bodies.
 template <int B>
 class PressedSide {
@@ -78,11 +81,13 @@ void take_better_side(const Model<B>& model, const PairedBodies<B>& pairs, Maste
     ContactSummary<B>& summary = slaves.obstacles[k];
     const RecoveredPressure& of_master = masters.pressures[k];
     const double larger = master.area() / slave.area();  // NaN where one is not pressed
-    if (larger > 1 && of_master.resolved && pairs.means && of_master.error < std::sqrt(larger) * summary.error) {
+    if (larger > 1 && pairs.means && of_master.error < added(larger, summary.error)) {
+      summary.resolved = of_master.resolved;
+      if (!summary.resolved) continue;
       slave.take(master, *pairs.means);
       summary.max_pressure = slave.largest();
-      summary.resolved = of_master.resolved, summary.peaks_at_edge = of_master.peaks_at_edge;
-    } else if (larger < 1 && summary.resolved && summary.error < of_master.error / std::sqrt(larger)) {
+      summary.peaks_at_edge = of_master.peaks_at_edge;
+    } else if (larger < 1 && summary.resolved && summary.error < added(1 / larger, of_master.error)) {
       master.take(slave, masters.seen[k]);
     }
   }
