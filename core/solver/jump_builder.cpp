@@ -1,6 +1,7 @@
 #include "core/solver/jump_builder.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "core/sdk/block.hpp"
 
@@ -30,6 +31,53 @@ BlockRow<B> row_of(const BlockRows<B>& rows, Index s) {
   return out;
 }
 
+/// Finds what depends on each other: strongly connected components (Tarjan, Depth-first search and linear graph
+/// algorithms, SIAM J. Comput. 1, 1972).
+/// @tparam Row of an Index, what it depends on; null: nothing
+template <int B, class Row>
+class Circles {
+ public:
+  explicit Circles(const Row& row) : row_(row) {}
+
+  void visit(Index p) {
+    if (place_.contains(p)) return;
+    const auto at = static_cast<Index>(place_.size());
+    Place& mine = place_[p] = {at, at, true};  // references stay in a map
+    open_.push_back(p);
+    if (const BlockRow<B>* row = row_(p))
+      for (const auto& [q, W] : *row) {
+        if (!row_(q)) continue;
+        if (q == p) circles_.insert(p);
+        visit(q);
+        if (const Place& other = place_.at(q); other.open) mine.root = std::min(mine.root, other.root);
+      }
+    if (mine.root == at) close(p);
+  }
+
+  bool on_circle(Index p) const { return circles_.contains(p); }
+
+ private:
+  struct Place {
+    Index number, root;
+    bool open;
+  };
+
+  void close(Index p) {
+    const auto first = std::find(open_.rbegin(), open_.rend(), p).base() - 1;
+    const bool several = open_.end() - first > 1;
+    for (auto q = first; q != open_.end(); ++q) {
+      place_.at(*q).open = false;
+      if (several) circles_.insert(*q);
+    }
+    open_.erase(first, open_.end());
+  }
+
+  const Row& row_;
+  std::map<Index, Place> place_;
+  std::vector<Index> open_;
+  std::set<Index> circles_;
+};
+
 }  // namespace
 
 template <int B>
@@ -44,12 +92,28 @@ void JumpBuilder<B>::add(Index p, BlockRow<B> by_unknowns, BlockRow<B> by_displa
 }
 
 template <int B>
+const BlockRow<B>* JumpBuilder<B>::weights(Index p) const {
+  const auto found = rows_.find(p);
+  return found != rows_.end() && !found->second.resolved ? &found->second.weights : nullptr;
+}
+
+template <int B>
 bool JumpBuilder<B>::leads_to(const BlockRow<B>& W, Index p) const {
-  return std::ranges::any_of(W, [&](const auto& entry) {
-    if (entry.first == p) return true;
-    const auto next = rows_.find(entry.first);
-    return next != rows_.end() && !next->second.resolved && leads_to(next->second.weights, p);
-  });
+  return !circles({{p, W}}).empty();
+}
+
+template <int B>
+std::vector<Index> JumpBuilder<B>::circles(const std::map<Index, BlockRow<B>>& rows) const {
+  const auto row = [&](Index p) {
+    const auto found = rows.find(p);
+    return found != rows.end() ? &found->second : weights(p);
+  };
+  Circles<B, decltype(row)> found(row);
+  std::vector<Index> out;
+  for (const auto& [p, W] : rows) found.visit(p);
+  for (const auto& [p, W] : rows)
+    if (found.on_circle(p)) out.push_back(p);
+  return out;
 }
 
 template <int B>

@@ -21,6 +21,9 @@ class JumpBuilder {
   void add(Index p, BlockRow<B> W);
   /// Whether u_p depends on such a p by this row: that row must not be added for p.
   bool leads_to(const BlockRow<B>& W, Index p) const;
+  /// Of rows that are to be added, none of which is there yet, those on circles: by them and by what is there such a
+  /// u_p would depend on itself. Ascending.
+  std::vector<Index> circles(const std::map<Index, BlockRow<B>>& rows) const;
   /// Both rows, which are the inverse of each other within the vectors that are added by this.
   void add(Index p, BlockRow<B> by_unknowns, BlockRow<B> by_displacements);
   bool has(Index p) const { return rows_.contains(p); }
@@ -33,6 +36,8 @@ class JumpBuilder {
     BlockRow<B> weights;  // see add(); of both rows the inverse
     bool resolved = false;
   };
+  /// What u_p depends on; null: on x_p alone, or on what is known.
+  const BlockRow<B>* weights(Index p) const;
   const BlockRow<B>& resolve(Index p);
 
   std::map<Index, Rows> rows_;

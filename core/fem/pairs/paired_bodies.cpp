@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
@@ -14,11 +13,10 @@
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
 #include "core/fem/pairs/added_gap.hpp"
+#include "core/fem/pairs/contact_pairs.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/fem/pairs/rigid_parts.hpp"
 #include "core/fem/pairs/tied_sides.hpp"
-#include "core/mesh/join.hpp"
-#include "core/mesh/mirror.hpp"
 #include "core/solver/jump_builder.hpp"
 
 namespace signorini {
@@ -53,18 +51,13 @@ void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Overlap
                           deepest.depth, fmt::join(deepest.place, ", ")));
 }
 
-/// Couples one obstacle after the other.
+/// Couples ties one after the other, and then what may touch.
 template <int D>
 class Coupler {
  public:
   Coupler(const Nodes<D>& nodes, const Model<D>& model, const std::vector<FixedDirections<D>>& fixes,
           const std::vector<Point<D>>& shift)
-      : nodes_(nodes),
-        model_(model),
-        fixes_(fixes),
-        shift_(shift),
-        slave_of_(nodes.size(), -1),
-        master_of_(nodes.size(), -1) {
+      : nodes_(nodes), model_(model), fixes_(fixes), shift_(shift), slave_of_(nodes.size(), -1) {
     out_.rigid = add_rigid_parts(nodes, model, jumps_);
     for (const RigidNodes<D>& part : out_.rigid) take(part.nodes);
   }
@@ -89,22 +82,24 @@ class Coupler {
     take(tied);
   }
 
-  void add(Index obstacle) {
-    const ObstacleTerm<D>& term = model_.obstacles[obstacle];
-    const Mesh<D>& mesh = nodes_.mesh();
-    const PairedFaces faces = paired_faces(mesh, term, model_.t);
-    const std::vector<Point<D>> points = shifted_points(obstacle, faces.slave);
-    const MortarCoupling<D> found = term.obstacle->functional()
-                                        ? couple_whole_jumps<D>(nodes_, model_, term, faces, fixes_, points, taken_)
-                                        : couple_beside<D>(nodes_, model_, term, faces, points, taken_);
-    if (shift_.empty() && !term.resolve)
-      refuse_deep<D>(mesh, term, deepest_overlap<D>(mesh, term, faces, model_.t, found.deepest));
-    const std::size_t before = out_.nodes.size();
-    for (Index k = 0; k < found.nodes(); ++k) add(obstacle, found, k);
-    if (taken_.empty() && found.nodes() > 0 && out_.nodes.size() == before)
-      input_error(term.origin,
-                  "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
-                  "the master off them; expected free nodes, or the other body as the slave");
+  void touch() {
+    std::vector<Index> left_out = of_other_obstacles(nodes_.mesh(), model_);
+    left_out.insert(left_out.end(), taken_.begin(), taken_.end());
+    std::ranges::sort(left_out);
+    left_out.erase(std::unique(left_out.begin(), left_out.end()), left_out.end());
+    std::vector<ContactPair<D>> pairs;
+    for (Index k = 0; k < std::ssize(model_.obstacles); ++k) {
+      const ObstacleTerm<D>& term = model_.obstacles[k];
+      if (!term.other || term.tied) continue;
+      const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
+      const ContactPair<D>& pair =
+          pairs.emplace_back(nodes_, model_, fixes_, k, faces, shifted_points(k, faces.slave), left_out);
+      if (shift_.empty() && !term.resolve)
+        refuse_deep<D>(nodes_.mesh(), term,
+                       deepest_overlap<D>(nodes_.mesh(), term, faces, model_.t, pair.coupling().deepest));
+    }
+    share_slaves(pairs);
+    for (ContactPair<D>& pair : pairs) add(pair);
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {
@@ -162,18 +157,57 @@ class Coupler {
     return out;
   }
 
-  void add(Index obstacle, const MortarCoupling<D>& found, Index k) {
-    const Index p = nodes_.of_vertex(found.node[k]);
-    refuse_rigid(p, obstacle);
-    if (jumps_.has(p) && slave_of_[p] < 0) return;  // tied
-    Point<D> normal = found.normal[k];
-    keep_within<D>(nodes_.mesh().mirrors, nodes_.at(p), normal);
-    normalise(normal);
-    const std::optional<FreeNormal<D>> free = free_normal<D>(fixes_, p, normal);
-    if (!free) return;
-    const bool with_friction = model_.obstacles[obstacle].obstacle->functional() != nullptr;
+  void add(ContactPair<D>& pair) {
+    std::map<Index, BlockRow<D>> rows = rows_of(pair);
+    for (std::vector<Index> circle; !(circle = jumps_.circles(rows)).empty(); rows = rows_of(pair))
+      break_circle(pair, std::move(circle));
+    const MortarCoupling<D>& found = pair.coupling();
+    bool any = false;
+    for (Index k = 0; k < found.nodes(); ++k) {
+      const auto row = rows.find(nodes_.of_vertex(found.node[k]));
+      if (row == rows.end()) continue;
+      any = true;
+      add(pair, k, std::move(row->second));
+    }
+    if (!pair.has_left_out() && found.nodes() > 0 && !any)
+      input_error(pair.term().origin,
+                  "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
+                  "the master off them; expected free nodes, or the other body as the slave");
+  }
+
+  /// Where masters depend on the slave's nodes, as at a point where bodies meet one after the other all around it,
+  /// these are left out.
+  void break_circle(ContactPair<D>& pair, std::vector<Index> circle) const {
+    for (Index& p : circle) p = nodes_.vertex(p);
+    pair.leave_out(circle);
+    for (const Index v : circle)
+      if (pair.has(v)) refuse_circle(nodes_.of_vertex(v), pair.obstacle());
+  }
+
+  /// Of all nodes at which a condition holds.
+  std::map<Index, BlockRow<D>> rows_of(const ContactPair<D>& pair) const {
+    const MortarCoupling<D>& found = pair.coupling();
+    std::map<Index, BlockRow<D>> out;
+    for (Index k = 0; k < found.nodes(); ++k) {
+      const Index p = nodes_.of_vertex(found.node[k]);
+      refuse_rigid(p, pair.obstacle());
+      if (jumps_.has(p) && slave_of_[p] < 0) continue;  // tied
+      if (const auto free = pair.free(k))
+        out[p] = projected(found, k, pair.term().obstacle->functional() ? onto_free(p) : along(*free, pair.normal(k)));
+    }
+    return out;
+  }
+
+  /// @param row of the jump
+  void add(const ContactPair<D>& pair, Index k, BlockRow<D> row) {
+    const MortarCoupling<D>& found = pair.coupling();
+    const Index p = nodes_.of_vertex(found.node[k]), obstacle = pair.obstacle();
+    const Point<D> normal = pair.normal(k);
+    const std::optional<FreeNormal<D>> free = pair.free(k);
+    const bool with_friction = pair.term().obstacle->functional() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
-    take_side(slave_of_, master_of_, p, obstacle);
+    if (slave_of_[p] >= 0) refuse_twice(p, obstacle, slave_of_[p]);
+    slave_of_[p] = obstacle;
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     // Bounds are reduced to what is free later on, but for friction, whose coordinates are to be free.
     for (int i = 0; i < D; ++i) node.away[i] = with_friction ? -free->direction[i] : -normal[i];
@@ -185,13 +219,9 @@ class Coupler {
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
     Seen& seen = seen_.emplace_back(Seen{p, {}, {}});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
-      const Index q = nodes_.of_vertex(found.column[j]);
-      seen.column.push_back(q);
+      seen.column.push_back(nodes_.of_vertex(found.column[j]));
       seen.weight.push_back(found.value[j]);
-      if (!found.is_own(found.column[j])) take_side(master_of_, slave_of_, q, obstacle);
     }
-    BlockRow<D> row = projected(found, k, with_friction ? onto_free(p) : along(*free, normal));
-    if (jumps_.leads_to(row, p)) refuse_circle(p, obstacle);
     jumps_.add(p, std::move(row));
   }
 
@@ -242,42 +272,21 @@ class Coupler {
     return out;
   }
 
-  /// Between the same two bodies one obstacle does for both; else the sides have to be others.
-  [[noreturn]] void refuse_node(Index p, Index obstacle, Index taken, bool twice) const {
-    const ObstacleTerm<D>&term = model_.obstacles[obstacle], &before = model_.obstacles[taken];
-    if (between_the_same(term, before))
-      input_error(term.origin,
-                  fmt::format("at ({}) is between the same two bodies as {}, which is not available in this version; "
-                              "expected one obstacle with the faces of both ('where', 'other_where'), or faces apart "
-                              "from each other",
-                              fmt::join(nodes_.at(p), ", "), before.origin));
-    input_error(term.origin,
-                fmt::format("at ({}) {} lets the same body touch another one, {}, which is not available in this "
-                            "version; expected faces apart from each other{}",
-                            fmt::join(nodes_.at(p), ", "), before.origin,
-                            twice ? "as the slave both times" : "as the slave there and the master here, or so",
-                            twice ? "" : ", or the two bodies of one of them exchanged"));
-  }
-
-  static bool between_the_same(const ObstacleTerm<D>& a, const ObstacleTerm<D>& b) {
-    const auto bodies = [](const ObstacleTerm<D>& term) {
-      return std::set{body_of(term.on->part.value_or("")), body_of(term.other->part.value_or(""))};
-    };
-    return bodies(a) == bodies(b);
-  }
-
-  /// A node is on one slave side, or on master sides.
-  void take_side(std::vector<Index>& side, const std::vector<Index>& other, Index p, Index obstacle) {
-    const bool twice = &side == &slave_of_ && side[p] >= 0 && side[p] != obstacle;
-    if (twice || other[p] >= 0) refuse_node(p, obstacle, twice ? side[p] : other[p], twice);
-    side[p] = obstacle;
+  /// Of a face that has no other nodes.
+  [[noreturn]] void refuse_twice(Index p, Index obstacle, Index taken) const {
+    input_error(
+        model_.obstacles[obstacle].origin,
+        fmt::format("at ({}) {} lets the same side touch another body, and so at all nodes of an element's face, "
+                    "which is not available in this version; expected smaller elements there, quadratic ones, "
+                    "or the other body as the slave ('slave')",
+                    fmt::join(nodes_.at(p), ", "), model_.obstacles[taken].origin));
   }
 
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const std::vector<FixedDirections<D>>& fixes_;
   const std::vector<Point<D>>& shift_;
-  std::vector<Index> slave_of_, master_of_;  // per node: obstacle, -1: none
+  std::vector<Index> slave_of_;  // per node: obstacle, -1: none
   JumpBuilder<D> jumps_;
   std::vector<Seen> seen_;
   std::vector<Index> taken_;  // vertices of rigid parts and ties, ascending
@@ -292,15 +301,9 @@ std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const 
                                                    const std::vector<Point<D>>& shift) {
   if (!changes_unknowns(model)) return nullptr;
   Coupler<D> coupler(nodes, model, fixes, shift);
-  for (const bool tied : {true, false})
-    for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
-      const ObstacleTerm<D>& term = model.obstacles[k];
-      if (!term.other || term.tied.has_value() != tied) continue;
-      if (tied)
-        coupler.tie(k);
-      else
-        coupler.add(k);
-    }
+  for (Index k = 0; k < std::ssize(model.obstacles); ++k)
+    if (model.obstacles[k].other && model.obstacles[k].tied) coupler.tie(k);
+  coupler.touch();
   return coupler.take();
 }
 

@@ -93,6 +93,17 @@ std::vector<Index> faces_of_body(const Mesh<D>& mesh, const Selection& some, dou
 }
 
 template <int D>
+std::vector<Index> of_other_obstacles(const Mesh<D>& mesh, const Model<D>& model) {
+  std::vector<Index> out;
+  for (const ObstacleTerm<D>& term : model.obstacles) {
+    if (term.other || !term.on) continue;
+    for (const Index f : select_faces(mesh, *term.on, model.t))
+      out.insert(out.end(), mesh.boundary[f].vertices.begin(), mesh.boundary[f].vertices.end());
+  }
+  return out;
+}
+
+template <int D>
 std::optional<Overlap<D>> overlap_of_sides(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const PairedFaces& sides,
                                            double t, std::span<const Point<D>> points,
                                            const std::function<double(const Point<D>&, Index)>& added) {
@@ -289,14 +300,20 @@ std::vector<Index> on_faces(const Mesh<D>& mesh, const std::vector<Index>& faces
   return out;
 }
 
-/// Those of some vertices, ascending, that are on no face all of whose vertices are among them.
+/// Those of some vertices, ascending, that are on no face of an element all of whose vertices are among them.
+/// @param faces those of quadratic elements follow each other in parts
 template <int D>
-std::vector<Index> with_neighbours(const Mesh<D>& mesh, const std::vector<Index>& faces, std::vector<Index> some) {
+std::vector<Index> with_neighbours(const Nodes<D>& nodes, const std::vector<Index>& faces, std::vector<Index> some) {
+  const auto parts = static_cast<std::size_t>(nodes.faces_per_element());
   const auto among = [&](Index v) { return std::ranges::binary_search(some, v); };
-  std::vector<Index> alone;
-  for (const Index f : faces)
-    if (const auto& corners = mesh.boundary[f].vertices; std::ranges::all_of(corners, among))
-      alone.insert(alone.end(), corners.begin(), corners.end());
+  std::vector<Index> alone, corners;
+  for (std::size_t first = 0; first < faces.size(); first += parts) {
+    corners.clear();
+    for (std::size_t k = first; k < first + parts; ++k)
+      corners.insert(corners.end(), nodes.mesh().boundary[faces[k]].vertices.begin(),
+                     nodes.mesh().boundary[faces[k]].vertices.end());
+    if (std::ranges::all_of(corners, among)) alone.insert(alone.end(), corners.begin(), corners.end());
+  }
   std::ranges::sort(alone);
   std::erase_if(some, [&](Index v) { return std::ranges::binary_search(alone, v); });
   return some;
@@ -308,8 +325,7 @@ template <int D>
 MortarCoupling<D> couple_beside(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                 const PairedFaces& faces, std::span<const Point<D>> points,
                                 const std::vector<Index>& left_out) {
-  const std::vector<Index> some =
-      with_neighbours(nodes.mesh(), faces.slave, on_faces(nodes.mesh(), faces.slave, left_out));
+  const std::vector<Index> some = with_neighbours(nodes, faces.slave, on_faces(nodes.mesh(), faces.slave, left_out));
   return couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, some);
 }
 
@@ -322,7 +338,7 @@ MortarCoupling<D> couple_whole_jumps(const Nodes<D>& nodes, const Model<D>& mode
   const std::vector<Index> apart = held_apart<D>(nodes, fixes, points, faces.master, found);
   std::vector<Index> all;
   std::ranges::set_union(apart, on_faces(nodes.mesh(), faces.slave, left_out), std::back_inserter(all));
-  all = with_neighbours(nodes.mesh(), faces.slave, std::move(all));
+  all = with_neighbours(nodes, faces.slave, std::move(all));
   if (lost) *lost = static_cast<Index>(apart.size() - all.size());
   return all.empty() ? std::move(found) : couple_sides<D>(nodes, model, term, faces.slave, faces.master, points, all);
 }
@@ -396,6 +412,8 @@ template std::optional<FreeNormal<2>> free_normal<2>(const std::vector<FixedDire
 template std::optional<FreeNormal<3>> free_normal<3>(const std::vector<FixedDirections<3>>&, Index, const Point<3>&);
 template double longest_edge(const Mesh<2>&, const Face<2>&);
 template double longest_edge(const Mesh<3>&, const Face<3>&);
+template std::vector<Index> of_other_obstacles(const Mesh<2>&, const Model<2>&);
+template std::vector<Index> of_other_obstacles(const Mesh<3>&, const Model<3>&);
 template bool of_one_body(const ObstacleTerm<2>&);
 template bool of_one_body(const ObstacleTerm<3>&);
 template std::vector<Index> faces_of_body(const Mesh<2>&, const Selection&, double);

@@ -28,6 +28,10 @@ bool of_one_body(const ObstacleTerm<D>& term);
 template <int D>
 std::vector<Index> faces_of_body(const Mesh<D>& mesh, const Selection& some, double t);
 
+/// Vertices of faces that obstacles act on which are none between bodies.
+template <int D>
+std::vector<Index> of_other_obstacles(const Mesh<D>& mesh, const Model<D>& model);
+
 /// How deep the bodies of an obstacle overlap; nothing where these are one and the same.
 /// @param points where the vertices of the mesh are
 /// @param added see find_overlap()
@@ -55,8 +59,8 @@ MortarCoupling<D> couple_sides(const Nodes<D>& nodes, const Model<D>& model, con
                                const std::vector<Index>& slave, const std::vector<Index>& master,
                                std::span<const Point<D>> points = {}, std::span<const Index> left_out = {});
 
-/// The same without some vertices of the slave, ascending, whose share is their neighbours'; but for faces all of whose
-/// vertices are such.
+/// The same without some vertices of the slave, ascending, whose share is their neighbours'; but for faces of elements
+/// all of whose vertices are such.
 template <int D>
 MortarCoupling<D> couple_beside(const Nodes<D>& nodes, const Model<D>& model, const ObstacleTerm<D>& term,
                                 const PairedFaces& faces, std::span<const Point<D>> points,

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/fem/elements/select.hpp"
 
 namespace signorini {
 namespace {
@@ -16,18 +15,6 @@ namespace {
 constexpr double touching = 0.02;
 /// Weights of less than this are rounding, and so is this part of a displacement.
 constexpr double seen_least = 1e-9;
-
-/// Vertices of faces that obstacles act on which are none between bodies.
-template <int D>
-std::vector<Index> of_other_obstacles(const Mesh<D>& mesh, const Model<D>& model) {
-  std::vector<Index> out;
-  for (const ObstacleTerm<D>& term : model.obstacles) {
-    if (term.other || !term.on) continue;
-    for (const Index f : select_faces(mesh, *term.on, model.t))
-      out.insert(out.end(), mesh.boundary[f].vertices.begin(), mesh.boundary[f].vertices.end());
-  }
-  return out;
-}
 
 /// Whether fixes prescribe all that a node sees of the master to go along with it, where they prescribe something of
 /// it.
