@@ -210,8 +210,11 @@ void DirichletNeumann<D>::build_models(const Model<D>& model, const LoadStep& st
   for (const bool masters : {false, true})
     for (Index k = 0; k < std::ssize(parts_); ++k)
       if (parts_[k]->is_master == masters) order_.push_back(k);
-  for (std::size_t l = 0; l < levels_.size(); ++l)
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
     levels_[l].pairs = pair_bodies<D>(nodes_[l], model, collect_fixes<D, D>(nodes_[l], model));
+    refuse_shared_nodes(model, levels_[l]);
+  }
+  refuse_lost<D>(nodes_.back(), model, *levels_.back().pairs);
 }
 
 /// A displacement of the finest joint mesh at the nodes of all meshes.
@@ -227,6 +230,23 @@ std::vector<std::vector<double>> DirichletNeumann<D>::on_all_meshes(Vector u) co
         std::copy_n(out[l + 1].begin() + Offset{v} * D, D, out[l].begin() + Offset{a} * D);
   }
   return out;
+}
+
+/// What a slave's node sees has to be the master's own displacement: of no other slave, nor of its own body.
+template <int D>
+void DirichletNeumann<D>::refuse_shared_nodes(const Model<D>& model, const Level& level) const {
+  const Jumps<D>& jumps = *level.pairs->jumps;
+  for (const PairedNode<D>& pair : level.pairs->nodes) {
+    const auto s = std::ranges::lower_bound(jumps.vector, pair.node) - jumps.vector.begin();
+    for (Offset k = jumps.inverse.row[s]; k < jumps.inverse.row[s + 1]; ++k) {
+      const Index q = jumps.inverse.column[k];
+      if (q == pair.node) continue;
+      if (level.part[q] != level.part[pair.node] && !std::ranges::binary_search(jumps.vector, q)) continue;
+      input_error(model.obstacles[pair.obstacle].origin,
+                  "nodes that touch several bodies, or a rigid obstacle beside a body, are not available with bodies = "
+                  "\"dirichlet-neumann\"; expected \"jumps\"");
+    }
+  }
 }
 
 /// Per slave's node the mean displacement of the master in front of it.

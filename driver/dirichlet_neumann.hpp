@@ -58,6 +58,7 @@ class DirichletNeumann {
   void number_nodes(const MeshHierarchy<D>& joint);
   void build_models(const Model<D>& model, const LoadStep& step);
   void order_parts();
+  void refuse_shared_nodes(const Model<D>& model, const Level& level) const;
   std::vector<Vector> on_all_meshes(Vector u) const;
   Vector mean_of_masters(const Level& level, const Vector& u) const;
   std::vector<std::shared_ptr<const PairedBodies<D>>> obstacles(Index part, const std::vector<Vector>& moved) const;

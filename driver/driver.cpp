@@ -15,6 +15,7 @@
 #include "driver/components.hpp"
 #include "driver/reports/merge.hpp"
 #include "driver/scene/fitting_order.hpp"
+#include "driver/scene/found_pairs.hpp"
 #include "driver/scene/problem.hpp"
 #include "driver/scene/touching_bodies.hpp"
 #include "driver/warnings/contact_warnings.hpp"
@@ -38,6 +39,7 @@ const Progress& Driver::waiting() {
 
 Driver::Driver(Scene scene, const Progress& progress)
     : scene_(std::move(scene)), progress_(progress), registry_(all_components()) {
+  add_found_pairs(scene_);
   check_components(scene_, registry_);
   report_.scene = scene_.file.string();
   report_.title = scene_.title;

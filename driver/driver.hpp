@@ -27,7 +27,8 @@ namespace signorini {
 /// Errors are Error, with the program's exit status and a message that names the place in the scene.
 class Driver {
  public:
-  /// Loads the plugins that the scene names; Error(Exit::plugin) where one is missing.
+  /// Loads the plugins that the scene names; Error(Exit::plugin) where one is missing. What [contact] finds is among
+  /// the scene's obstacles then, see add_found_pairs().
   /// @param progress is told how work goes on, and may end it; it outlives the driver
   explicit Driver(Scene scene, const Progress& progress = waiting());
   ~Driver();

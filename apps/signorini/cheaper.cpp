@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/scene/build_model.hpp"
+#include "driver/scene/found_pairs.hpp"
 #include "driver/scene/problem.hpp"
 #include "driver/scene/symmetry.hpp"
 #include "driver/scene/touching_bodies.hpp"
@@ -39,6 +40,7 @@ struct Extent {
 
 /// As coarse as symmetry can be looked at.
 Scene coarse(Scene scene) {
+  add_found_pairs(scene);
   scene.dimension = dimension_of(scene);
   scene = with_touching_bodies(scene);
   scene.refine.uniform = std::min(scene.refine.uniform, 1);

@@ -22,6 +22,7 @@
 #include "driver/reports/results.hpp"
 #include "driver/scene/build_model.hpp"
 #include "driver/scene/fitting_order.hpp"
+#include "driver/scene/found_pairs.hpp"
 #include "driver/scene/numbers.hpp"
 #include "driver/scene/problem.hpp"
 #include "driver/scene/symmetry.hpp"
@@ -118,6 +119,8 @@ void print_contacts(const Nodes<D>& nodes, const Scene& scene, const Scene::Body
   std::vector<FunctionalNumbers<B>> functionals;
   std::shared_ptr<const PairedBodies<B>> pairing;
   if constexpr (D == B) pairing = pair_bodies(nodes, model, collect_fixes(nodes, model));
+  if constexpr (D == B)
+    if (pairing) refuse_lost(nodes, model, *pairing);
   for (const Bound<B>& bound : collect_bounds<D, B>(nodes, model, functionals, pairing.get()))
     candidates[bound.obstacle].insert(bound.vertex);
   for (const TiedNode& tie : pairing ? pairing->ties : std::vector<TiedNode>())
@@ -222,11 +225,14 @@ void check(Scene& scene, const Registry& registry, std::size_t body) {
 
 void check_command(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   Scene scene = read_scene(file, overrides);
+  const std::vector<FoundPair> found = add_found_pairs(scene);
   Registry registry = solver_components();
   check_components(scene, registry);
   const auto plugins = load_plugins(scene, registry);
   say("{}{}\ndimension: {}\n", file.string(), scene.title.empty() ? "" : ": " + scene.title, dimension_of(scene));
   for (const auto& plugin : plugins) say("plugin: {} {} from {}\n", plugin.id, plugin.version, plugin.file);
+  for (const FoundPair& pair : found)
+    say("contact: obstacle {} between {} and {}, {:.4g} apart\n", pair.obstacle, pair.body, pair.other, pair.distance);
   const Scene written = scene;
   const Stopwatch watch;
   scene.dimension = dimension_of(scene);

@@ -151,13 +151,28 @@ void check_obstacles(const Scene& scene) {
   }
 }
 
+void check_contact(const Scene& scene) {
+  if (!scene.contact) return;
+  const std::string& place = scene.contact->source.of("between");
+  for (const std::string& name : scene.contact->between) {
+    refuse_unknown_body(scene, name, place);
+    if (std::ranges::count(scene.contact->between, name) > 1)
+      input_error(place, fmt::format("body {} is listed twice", in_quotes(name)));
+    if (scalar(scene, name))
+      input_error(place, fmt::format("body '{}' has equation = 'diffusion'; expected elastic bodies", name));
+  }
+  if (std::ranges::count_if(scene.bodies, [&](const auto& body) { return scene.looks_for_pairs(body); }) < 2)
+    input_error(place, "there are not two elastic bodies in the scene");
+}
+
 template <class Table>
 bool any_of(const std::vector<Table>& tables, const Scene::Body& body) {
   return std::any_of(tables.begin(), tables.end(), [&](const Table& table) { return table.body == body.name; });
 }
 
 bool is_touched(const Scene& scene, const Scene::Body& body) {
-  return std::ranges::any_of(scene.obstacles, [&](const auto& obstacle) { return obstacle.other == body.name; });
+  return scene.looks_for_pairs(body) ||
+         std::ranges::any_of(scene.obstacles, [&](const auto& obstacle) { return obstacle.other == body.name; });
 }
 
 void check_held(const Scene& scene, const std::string& place) {
@@ -283,6 +298,7 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_springs(scene);
   check_rigids(scene);
   check_obstacles(scene);
+  check_contact(scene);
   check_held(scene, place);
   check_symmetry(scene);
   check_common_dimension(scene);

@@ -21,6 +21,12 @@ void for_touching(Scene& scene, const Visit& visit) {
     const auto body = named(obstacle.body), other = named(obstacle.other);
     if (body != scene.bodies.end() && other != scene.bodies.end()) visit(*body, *other);
   }
+  Scene::Body* last = nullptr;  // of those that may turn out to touch each other
+  for (Scene::Body& body : scene.bodies) {
+    if (!scene.looks_for_pairs(body)) continue;
+    if (last) visit(*last, body);
+    last = &body;
+  }
 }
 
 void take_over_from_touching(Scene& scene) {

@@ -239,6 +239,20 @@ another energy of its own. Such a body does not remember its way: a step of it i
 reached. The run goes on after a step that failed.
 )";
 
+constexpr const char* contact_details = R"(
+All bodies that are in front of each other may touch, with friction:
+
+```
+[contact]
+between = "all"
+friction = 0.3
+```
+
+Each two bodies become an obstacle of type `elastic`, or `elastic_coulomb` with friction, whose sides are the faces that
+are in front of the other body. They follow those of `[[obstacle]]` in the report, and `signorini check` lists them.
+[pairs.md](pairs.md) has an example.
+)";
+
 constexpr TableText texts[] = {
     {"", R"(title = "A block pressed on a ball")", ""},
     {"body", R"([[body]]
@@ -275,6 +289,7 @@ shape = "sphere"
 center = [1, 0.5, -3]
 radius = 3)",
      obstacle_details},
+    {"contact", "", contact_details},
     {"solver", R"([solver]
 tolerance = 1e-10)",
      "\nNone of these has to be given. They are explained in [solver_options.md](solver_options.md).\n"},

@@ -22,6 +22,10 @@ void refuse_word(const TableReader& reader, const RawTable& table) {
                 "option 'normal' of the obstacle's type is called 'along' beside a plane, as in along = \"body\"");
 }
 
+Pairing pairing(const TableReader& reader) {
+  return reader.text("pairing") == "closest" ? Pairing::closest : Pairing::normal;
+}
+
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
 Scene::ObstacleShape shape(const TableReader& reader, const RawTable& table, std::string_view name) {
@@ -59,7 +63,7 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   obstacle.other_on = reader.selection("other_");
   const std::string slave = reader.text("slave");
   obstacle.slave = slave == "body" ? Slave::body : slave == "other" ? Slave::other : Slave::automatic;
-  obstacle.pairing = reader.text("pairing") == "closest" ? Pairing::closest : Pairing::normal;
+  obstacle.pairing = pairing(reader);
   obstacle.resolve = reader.flag("resolve");
   obstacle.renew = reader.flag("renew");
   if (!spec) return obstacle;
@@ -75,6 +79,28 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
     obstacle.options.entries.emplace_back("normal", *table.find("along"));
   }
   return obstacle;
+}
+
+Scene::Contact read_contact(const RawTable& table, const std::filesystem::path& folder) {
+  const TableReader reader(table, find_table("contact")->keys, folder);
+  reader.check_keys();
+  Scene::Contact contact;
+  contact.between = reader.texts("between");
+  if (contact.between == std::vector<std::string>{"all"})
+    contact.between.clear();
+  else if (contact.between.size() < 2)
+    input_error(reader.origin("between"), "expected \"all\", or the names of two bodies or more");
+  if (reader.given("friction")) {
+    reader.field("friction");  // or it is refused
+    contact.friction = *table.find("friction");
+  }
+  if (reader.given("reach")) contact.reach = reader.number("reach");
+  contact.adjust = reader.number("adjust");
+  contact.pairing = pairing(reader);
+  contact.resolve = reader.flag("resolve");
+  contact.renew = reader.flag("renew");
+  contact.source = reader.source();
+  return contact;
 }
 
 std::vector<std::string> Scene::Obstacle::core_keys() const {

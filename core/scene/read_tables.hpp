@@ -9,6 +9,7 @@ namespace signorini {
 
 Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder);
 Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path& folder);
+Scene::Contact read_contact(const RawTable& table, const std::filesystem::path& folder);
 Scene::Material read_material(const RawTable& table, const std::filesystem::path& folder);
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder);
 Scene::Rigid read_rigid(const RawTable& table, const std::filesystem::path& folder);

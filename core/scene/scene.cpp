@@ -130,6 +130,11 @@ const Scene::Body& Scene::body(std::string_view body_name) const {
   return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == body_name; });
 }
 
+bool Scene::looks_for_pairs(const Body& body) const {
+  if (!contact || body.equation != Equation::elasticity) return false;
+  return contact->between.empty() || std::ranges::find(contact->between, body.name) != contact->between.end();
+}
+
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                   std::span<const std::string> overrides) {
   RawDocument document = parse_toml(text, name);
@@ -149,6 +154,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   for (const Scene::Body& body : scene.bodies)
     if (scene.dimension == 0) scene.dimension = dimension_of(body);
   scene.obstacles = read_all(document, "obstacle", folder, read_obstacle);
+  for (const RawTable& table : document.of("contact")) scene.contact = read_contact(table, folder);
   scene.probes = read_all(document, "probe", folder, read_probe);
   read_settings(document, folder, scene);
   choose_elements(scene);

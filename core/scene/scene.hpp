@@ -161,6 +161,7 @@ struct Scene {
     Pairing pairing = Pairing::normal;
     bool resolve = false;    ///< however deep the two overlap at the start
     bool renew = true;       ///< pairs faces anew where the last step has moved them to
+    double adjust = 0;       ///< gaps and overlaps at the start up to this count as none
     std::string shape_name;  ///< the key `shape`; empty without
     std::optional<ObstacleShape> shape;
     RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate
@@ -168,6 +169,17 @@ struct Scene {
 
     /// The core's keys that this obstacle may have, for suggestions beside the plugin's own.
     std::vector<std::string> core_keys() const;
+  };
+
+  /// Obstacles between bodies that are found by their distance: see driver/scene/found_pairs.hpp.
+  struct Contact {
+    std::vector<std::string> between;  ///< bodies; empty: all that are elastic
+    std::optional<RawValue> friction;  ///< what the obstacles say of it
+    std::optional<double> reach;       ///< surfaces no farther apart are a pair; nothing: an element
+    double adjust = 0;
+    Pairing pairing = Pairing::normal;
+    bool resolve = false, renew = true;
+    Source source;
   };
 
   struct Solver : SolverOptions {
@@ -226,6 +238,7 @@ struct Scene {
   std::vector<Spring> springs;
   std::vector<Rigid> rigids;
   std::vector<Obstacle> obstacles;
+  std::optional<Contact> contact;  ///< nothing: none are found, or all are among the obstacles
   Solver solver;
   Refine refine;
   Symmetry symmetry;
@@ -236,6 +249,8 @@ struct Scene {
 
   /// The body of that name; it exists, the reader has checked it.
   const Body& body(std::string_view body_name) const;
+  /// Whether `contact` looks for obstacles of that body.
+  bool looks_for_pairs(const Body& body) const;
 };
 
 /// Reads and validates a scene. Errors are Error(Exit::input) naming file and line, key, what was found, what was

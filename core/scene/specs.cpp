@@ -154,6 +154,25 @@ constexpr KeySpec rigid[] = {
     {"torque", values, "", "", "", "about the point, likewise, as many as rotations"},
 };
 
+constexpr KeySpec pairing_key = {
+    "pairing",
+    text,
+    "normal",
+    "normal | closest",
+    "",
+    "how distances between two bodies are measured: along the slave's normal, or to the master's closest point"};
+constexpr KeySpec resolve_key = {
+    "resolve", boolean, "false",
+    "",        "",      "two bodies may overlap at the start by more than an element, and are pressed apart"};
+constexpr KeySpec renew_key = {
+    "renew",
+    boolean,
+    "true",
+    "",
+    "",
+    "with `[steps]` faces of two bodies are paired anew where the last step has moved them to; else as they are "
+    "undeformed"};
+
 constexpr KeySpec obstacle[] = {
     {"type", text, nullptr, "", "", "id of an obstacle plugin, such as \"contact\""},
     {"body", text, nullptr, "", "", "name of a body"},
@@ -165,13 +184,24 @@ constexpr KeySpec obstacle[] = {
     {"other_where", condition, "", "", "", "the same by an expression, as `where`"},
     {"slave", text, "auto", "auto | body | other", "",
      "which of the two has the contact's unknowns: `body`, `other`, or the one that the program chooses"},
-    {"pairing", text, "normal", "normal | closest", "",
-     "how distances between two bodies are measured: along the slave's normal, or to the master's closest point"},
-    {"resolve", boolean, "false", "", "",
-     "two bodies may overlap at the start by more than an element, and are pressed apart"},
-    {"renew", boolean, "true", "", "",
-     "with `[steps]` faces of two bodies are paired anew where the last step has moved them to; else as they are "
-     "undeformed"},
+    pairing_key,
+    resolve_key,
+    renew_key,
+};
+
+constexpr KeySpec contact[] = {
+    {"between", texts, nullptr, "", "",
+     "\"all\": all elastic bodies; or a list of bodies. Those two of them touch each other whose surfaces are within "
+     "reach, unless an `[[obstacle]]` is between them"},
+    {"friction", field, "0", "[0, inf)", "", "coefficient of friction of all pairs, a number or an expression"},
+    {"reach", number, "", "[0, inf)", "",
+     "surfaces no farther apart at the start are a pair; by default the longest edge of the faces of both bodies, on "
+     "the coarsest mesh"},
+    {"adjust", number, "0", "[0, inf)", "",
+     "gaps and overlaps at the start of up to this count as none: the surfaces touch there, without any strain"},
+    pairing_key,
+    resolve_key,
+    renew_key,
 };
 
 constexpr const char* along_help =
@@ -279,6 +309,10 @@ const std::vector<TableSpec>& tables() {
        "prescribed, or free and moved by a force, a torque. See docs/joints.md.",
        rigid},
       {"obstacle", true, "What the body may not penetrate.", obstacle},
+      {"contact", false,
+       "Obstacles between elastic bodies that need not be listed: pairs of them are found by their distance. See "
+       "docs/pairs.md.",
+       contact},
       {"solver", false, "How the algebraic problem is solved.", solver_keys()},
       {"refine", false, "How the mesh is refined.", refine},
       {"symmetry", false,

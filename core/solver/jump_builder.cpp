@@ -1,7 +1,8 @@
 #include "core/solver/jump_builder.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
-#include <set>
+#include <iterator>
 
 #include "core/sdk/block.hpp"
 
@@ -31,52 +32,83 @@ BlockRow<B> row_of(const BlockRows<B>& rows, Index s) {
   return out;
 }
 
-/// Finds what depends on each other: strongly connected components (Tarjan, Depth-first search and linear graph
-/// algorithms, SIAM J. Comput. 1, 1972).
+/// No displacement of what depends on itself is so many times an unknown.
+constexpr double largest_gain = 4;
+
+/// Divides rows into those that depend on each other: strongly connected components, each after those that it depends
+/// on (Tarjan, Depth-first search and linear graph algorithms, SIAM J. Comput. 1, 1972).
 /// @tparam Row of an Index, what it depends on; null: nothing
 template <int B, class Row>
 class Circles {
  public:
   explicit Circles(const Row& row) : row_(row) {}
 
+  /// Adds those of p, and of what it depends on.
   void visit(Index p) {
     if (place_.contains(p)) return;
     const auto at = static_cast<Index>(place_.size());
-    Place& mine = place_[p] = {at, at, true};  // references stay in a map
+    Place& mine = place_[p] = {at, true};  // references stay in a map
     open_.push_back(p);
-    if (const BlockRow<B>* row = row_(p))
-      for (const auto& [q, W] : *row) {
-        if (!row_(q)) continue;
-        if (q == p) circles_.insert(p);
-        visit(q);
-        if (const Place& other = place_.at(q); other.open) mine.root = std::min(mine.root, other.root);
-      }
+    for (const auto& [q, W] : *row_(p)) {
+      if (!row_(q)) continue;
+      visit(q);
+      if (const Place& other = place_.at(q); other.open) mine.root = std::min(mine.root, other.root);
+    }
     if (mine.root == at) close(p);
   }
 
-  bool on_circle(Index p) const { return circles_.contains(p); }
+  const std::vector<std::vector<Index>>& all() const { return all_; }
+  /// Whether some of these, one of all(), depends on itself.
+  bool is_circle(const std::vector<Index>& some) const {
+    return some.size() > 1 || row_(some.front())->contains(some.front());
+  }
 
  private:
   struct Place {
-    Index number, root;
+    Index root;
     bool open;
   };
 
   void close(Index p) {
-    const auto first = std::find(open_.rbegin(), open_.rend(), p).base() - 1;
-    const bool several = open_.end() - first > 1;
-    for (auto q = first; q != open_.end(); ++q) {
-      place_.at(*q).open = false;
-      if (several) circles_.insert(*q);
-    }
-    open_.erase(first, open_.end());
+    std::vector<Index>& out = all_.emplace_back();
+    do {
+      out.push_back(open_.back());
+      place_.at(open_.back()).open = false;
+      open_.pop_back();
+    } while (out.back() != p);
   }
 
   const Row& row_;
   std::map<Index, Place> place_;
   std::vector<Index> open_;
-  std::set<Index> circles_;
+  std::vector<std::vector<Index>> all_;
 };
+
+/// What u_p of a circle is by x_p and what comes from outside: (1 - W)^-1 within it. Empty where there is no inverse.
+template <int B, class Row>
+Eigen::MatrixXd gains(const std::vector<Index>& circle, const Row& row) {
+  const auto size = static_cast<Index>(circle.size()) * B;
+  Eigen::MatrixXd M = Eigen::MatrixXd::Identity(size, size);
+  for (std::size_t s = 0; s < circle.size(); ++s)
+    for (std::size_t t = 0; t < circle.size(); ++t) {
+      const auto entry = row(circle[s])->find(circle[t]);
+      if (entry == row(circle[s])->end()) continue;
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j)
+          M(static_cast<Index>(s) * B + i, static_cast<Index>(t) * B + j) -= entry->second[i * B + j];
+    }
+  const Eigen::MatrixXd out = M.partialPivLu().inverse();
+  return out.allFinite() ? out : Eigen::MatrixXd();
+}
+
+template <int B>
+void add_product(const double* M, const BlockRow<B>& row, BlockRow<B>& out) {
+  for (const auto& [r, Z] : row) {
+    double MZ[B * B];
+    block::multiply<B>(M, Z.data(), MZ);
+    for (int i = 0; i < B * B; ++i) out[r][i] += MZ[i];
+  }
+}
 
 }  // namespace
 
@@ -99,7 +131,10 @@ const BlockRow<B>* JumpBuilder<B>::weights(Index p) const {
 
 template <int B>
 bool JumpBuilder<B>::leads_to(const BlockRow<B>& W, Index p) const {
-  return !circles({{p, W}}).empty();
+  const auto row = [&](Index q) { return q == p ? &W : weights(q); };
+  Circles<B, decltype(row)> found(row);
+  found.visit(p);
+  return found.is_circle(found.all().back());
 }
 
 template <int B>
@@ -109,39 +144,54 @@ std::vector<Index> JumpBuilder<B>::circles(const std::map<Index, BlockRow<B>>& r
     return found != rows.end() ? &found->second : weights(p);
   };
   Circles<B, decltype(row)> found(row);
-  std::vector<Index> out;
   for (const auto& [p, W] : rows) found.visit(p);
-  for (const auto& [p, W] : rows)
-    if (found.on_circle(p)) out.push_back(p);
+  std::vector<Index> out;
+  for (const std::vector<Index>& circle : found.all()) {
+    if (!found.is_circle(circle)) continue;
+    const Eigen::MatrixXd gain = gains<B>(circle, row);
+    if (gain.size() > 0 && gain.cwiseAbs().maxCoeff() <= largest_gain) continue;
+    std::ranges::copy_if(circle, std::back_inserter(out), [&](Index p) { return rows.contains(p); });
+  }
+  std::ranges::sort(out);
   return out;
 }
 
+/// Of rows that depend on each other, all others of which are known.
 template <int B>
-const BlockRow<B>& JumpBuilder<B>::resolve(Index p) {
-  Rows& rows = rows_.at(p);
-  if (!rows.basis.empty()) return rows.basis;
-  BlockRow<B> out;
-  out[p] = identity<B>();
-  for (const auto& [q, W] : rows.weights) {
-    if (!has(q)) {
-      for (int i = 0; i < B * B; ++i) out[q][i] += W[i];
-      continue;
-    }
-    for (const auto& [r, Z] : resolve(q)) {
-      double WZ[B * B];
-      block::multiply<B>(W.data(), Z.data(), WZ);
-      for (int i = 0; i < B * B; ++i) out[r][i] += WZ[i];
+void JumpBuilder<B>::resolve(const std::vector<Index>& circle) {
+  std::vector<BlockRow<B>> from_outside(circle.size());
+  for (std::size_t s = 0; s < circle.size(); ++s) {
+    from_outside[s][circle[s]] = identity<B>();
+    for (const auto& [q, W] : rows_.at(circle[s]).weights) {
+      if (std::ranges::find(circle, q) != circle.end()) continue;
+      add_product<B>(W.data(), has(q) ? rows_.at(q).basis : BlockRow<B>{{q, identity<B>()}}, from_outside[s]);
     }
   }
-  return rows.basis = std::move(out);
+  const auto row = [&](Index p) { return weights(p); };
+  const bool alone = circle.size() == 1 && !weights(circle.front())->contains(circle.front());
+  const Eigen::MatrixXd gain = alone ? Eigen::MatrixXd::Identity(B, B) : gains<B>(circle, row);
+  for (std::size_t s = 0; s < circle.size(); ++s) {
+    BlockRow<B>& out = rows_.at(circle[s]).basis;
+    for (std::size_t t = 0; t < circle.size(); ++t) {
+      std::array<double, B * B> M;
+      for (int i = 0; i < B; ++i)
+        for (int j = 0; j < B; ++j) M[i * B + j] = gain(static_cast<Index>(s) * B + i, static_cast<Index>(t) * B + j);
+      if (std::ranges::any_of(M, [](double c) { return c != 0; })) add_product<B>(M.data(), from_outside[t], out);
+    }
+  }
 }
 
 template <int B>
 Jumps<B> JumpBuilder<B>::take() {
+  const auto row = [&](Index p) { return weights(p); };
+  Circles<B, decltype(row)> found(row);
+  for (const auto& [p, rows] : rows_)
+    if (row(p)) found.visit(p);
+  for (const std::vector<Index>& circle : found.all()) resolve(circle);
   Jumps<B> out;
   for (auto& [p, rows] : rows_) {
     out.vector.push_back(p);
-    append<B>(resolve(p), out.basis);
+    append<B>(rows.basis, out.basis);
     out.given.push_back(rows.resolved);
     if (rows.resolved) {
       append<B>(rows.weights, out.inverse);

@@ -16,13 +16,14 @@ using BlockRow = std::map<Index, std::array<double, B * B>>;
 template <int B>
 class JumpBuilder {
  public:
-  /// u_p = x_p + sum_q W_pq u_q. The q may be such p themselves, but no p may lead to itself, see leads_to(). Nothing
-  /// is known of p before.
+  /// u_p = x_p + sum_q W_pq u_q. The q may be such p themselves, on circles(), too, but for those that this finds.
+  /// Nothing is known of p before.
   void add(Index p, BlockRow<B> W);
-  /// Whether u_p depends on such a p by this row: that row must not be added for p.
+  /// Whether u_p depends on such a p by this row.
   bool leads_to(const BlockRow<B>& W, Index p) const;
-  /// Of rows that are to be added, none of which is there yet, those on circles: by them and by what is there such a
-  /// u_p would depend on itself. Ascending.
+  /// Of rows that are to be added, none of which is there yet, those on circles that leave no unknowns, or nearly so:
+  /// by these and by what is there u_p would depend on itself, and by so much that displacements are large for small x.
+  /// They must not be added. Ascending.
   std::vector<Index> circles(const std::map<Index, BlockRow<B>>& rows) const;
   /// Both rows, which are the inverse of each other within the vectors that are added by this.
   void add(Index p, BlockRow<B> by_unknowns, BlockRow<B> by_displacements);
@@ -38,7 +39,7 @@ class JumpBuilder {
   };
   /// What u_p depends on; null: on x_p alone, or on what is known.
   const BlockRow<B>* weights(Index p) const;
-  const BlockRow<B>& resolve(Index p);
+  void resolve(const std::vector<Index>& circle);
 
   std::map<Index, Rows> rows_;
 };

@@ -65,6 +65,7 @@ bool LevelPairs<D, B>::find(const Model<B>& model) {
       stay = stay && level.all_pairs && same_jumps(*now, *level.all_pairs);
       level.all_pairs = std::move(now);
     }
+    refuse_lost<D>(levels_.finest().nodes, model, *levels_.finest().all_pairs);
     const bool held_before = std::exchange(held_, held(model));
     stay = stay && held_ == held_before;
     for (std::size_t k = first_; k < levels_.size(); ++k)

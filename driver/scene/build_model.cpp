@@ -266,6 +266,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     term.pairing = obstacle.pairing;
     term.resolve = obstacle.resolve;
     term.renew = obstacle.renew;
+    term.adjust = obstacle.adjust;
     term.tied = adjust<B>(obstacle, *term.obstacle);
   }
   return model;

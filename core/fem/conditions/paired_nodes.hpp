@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -36,6 +37,13 @@ struct RigidNodes {
   double length = 1;                             ///< the second carrier has the rotation times that
 };
 
+/// A node of a slave at which a condition of contact is left away, for other ones hold at all nodes of a face there.
+struct LostNode {
+  Index node;
+  Index obstacle;  ///< whose condition that is
+  Index by = -1;   ///< another obstacle; -1: a circle of masters that are slaves
+};
+
 /// What nodes of slave sides see of the masters in the mean: the sum of w_q u_q in all directions, also those that are
 /// no part of their jumps.
 struct MasterMeans {
@@ -51,6 +59,7 @@ struct PairedBodies {
   std::vector<PairedNode<B>> nodes;  ///< of one obstacle after the other, each by ascending node
   std::vector<TiedNode> ties;        ///< by ascending node
   std::vector<RigidNodes<B>> rigid;  ///< as Model::rigid
+  std::optional<LostNode> lost;      ///< the first one of those; not admitted on the finest mesh
   std::shared_ptr<const Jumps<B>> jumps;
   std::shared_ptr<const MasterMeans> means;  ///< of all nodes that there are; null: not known
 };

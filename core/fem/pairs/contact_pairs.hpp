@@ -20,7 +20,6 @@ class ContactPair {
   Index obstacle() const { return obstacle_; }
   const ObstacleTerm<D>& term() const { return model_->obstacles[obstacle_]; }
   const MortarCoupling<D>& coupling() const { return found_; }
-  bool has_left_out() const { return !left_out_.empty(); }
 
   /// Outer unit normal of the slave at its k-th node; within planes of symmetry.
   Point<D> normal(Index k) const;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
@@ -43,6 +45,7 @@ Overlap<D> deepest_overlap(const Mesh<D>& mesh, const ObstacleTerm<D>& term, con
 template <int D>
 void refuse_deep(const Mesh<D>& mesh, const ObstacleTerm<D>& term, const Overlap<D>& deepest) {
   if (deepest.slave_face < 0) return;
+  if (deepest.depth <= term.adjust) return;
   if (deepest.depth <= std::ldexp(longest_edge(mesh, mesh.boundary[deepest.slave_face]), mesh.refinements)) return;
   input_error(term.origin,
               fmt::format("the bodies overlap at the start, by {:.4g} at ({:.6g}), which is more than an "
@@ -159,40 +162,50 @@ class Coupler {
 
   void add(ContactPair<D>& pair) {
     std::map<Index, BlockRow<D>> rows = rows_of(pair);
-    for (std::vector<Index> circle; !(circle = jumps_.circles(rows)).empty(); rows = rows_of(pair))
-      break_circle(pair, std::move(circle));
-    const MortarCoupling<D>& found = pair.coupling();
-    bool any = false;
-    for (Index k = 0; k < found.nodes(); ++k) {
-      const auto row = rows.find(nodes_.of_vertex(found.node[k]));
-      if (row == rows.end()) continue;
-      any = true;
-      add(pair, k, std::move(row->second));
+    std::vector<Index> dropped;
+    for (std::vector<Index> circle; !(circle = jumps_.circles(rows)).empty();) {
+      leave_out(pair, circle);
+      std::ranges::copy_if(circle, std::back_inserter(dropped), [&](Index p) { return pair.has(nodes_.vertex(p)); });
+      rows = rows_of(pair);
+      for (const Index p : dropped) rows.erase(p);
     }
-    if (!pair.has_left_out() && found.nodes() > 0 && !any)
+    if (!dropped.empty()) lose({dropped.front(), pair.obstacle()});
+    const MortarCoupling<D>& found = pair.coupling();
+    bool free = false;
+    for (Index k = 0; k < found.nodes(); ++k) {
+      free = free || pair.free(k);
+      if (const auto row = rows.find(nodes_.of_vertex(found.node[k])); row != rows.end())
+        add(pair, k, std::move(row->second));
+    }
+    if (taken_.empty() && found.nodes() > 0 && !free)
       input_error(pair.term().origin,
                   "the displacement of all nodes of the slave is prescribed, or that along the normal: nothing keeps "
                   "the master off them; expected free nodes, or the other body as the slave");
   }
 
-  /// Where masters depend on the slave's nodes, as at a point where bodies meet one after the other all around it,
-  /// these are left out.
-  void break_circle(ContactPair<D>& pair, std::vector<Index> circle) const {
+  /// Where masters depend on the slave's nodes, as with friction at a point where bodies meet all around it, these are
+  /// left out.
+  void leave_out(ContactPair<D>& pair, std::vector<Index> circle) const {
     for (Index& p : circle) p = nodes_.vertex(p);
-    pair.leave_out(circle);
-    for (const Index v : circle)
-      if (pair.has(v)) refuse_circle(nodes_.of_vertex(v), pair.obstacle());
+    pair.leave_out(std::move(circle));
+  }
+
+  void lose(LostNode node) {
+    if (!out_.lost) out_.lost = node;
   }
 
   /// Of all nodes at which a condition holds.
-  std::map<Index, BlockRow<D>> rows_of(const ContactPair<D>& pair) const {
+  std::map<Index, BlockRow<D>> rows_of(const ContactPair<D>& pair) {
     const MortarCoupling<D>& found = pair.coupling();
     std::map<Index, BlockRow<D>> out;
     for (Index k = 0; k < found.nodes(); ++k) {
       const Index p = nodes_.of_vertex(found.node[k]);
       refuse_rigid(p, pair.obstacle());
       if (jumps_.has(p) && slave_of_[p] < 0) continue;  // tied
-      if (const auto free = pair.free(k))
+      const auto free = pair.free(k);
+      if (free && slave_of_[p] >= 0)
+        lose({p, pair.obstacle(), slave_of_[p]});
+      else if (free)
         out[p] = projected(found, k, pair.term().obstacle->functional() ? onto_free(p) : along(*free, pair.normal(k)));
     }
     return out;
@@ -206,7 +219,6 @@ class Coupler {
     const std::optional<FreeNormal<D>> free = pair.free(k);
     const bool with_friction = pair.term().obstacle->functional() != nullptr;
     if (with_friction && free->part < nearly_across) refuse_inclined(p, obstacle);
-    if (slave_of_[p] >= 0) refuse_twice(p, obstacle, slave_of_[p]);
     slave_of_[p] = obstacle;
     PairedNode<D>& node = out_.nodes.emplace_back(PairedNode<D>{p, obstacle, {}, 0});
     // Bounds are reduced to what is free later on, but for friction, whose coordinates are to be free.
@@ -216,6 +228,7 @@ class Coupler {
     node.covered = found.covered[k];
     node.taken = found.taken[k];
     node.gap = found.distance(k) + before;
+    if (std::abs(node.gap) <= pair.term().adjust) node.gap = 0;
     if (with_friction) node.gap = (node.gap - free->prescribed) / free->part;
     Seen& seen = seen_.emplace_back(Seen{p, {}, {}});
     for (Offset j = found.row[k]; j < found.row[k + 1]; ++j) {
@@ -223,13 +236,6 @@ class Coupler {
       seen.weight.push_back(found.value[j]);
     }
     jumps_.add(p, std::move(row));
-  }
-
-  [[noreturn]] void refuse_circle(Index p, Index obstacle) const {
-    input_error(model_.obstacles[obstacle].origin,
-                fmt::format("at ({}) the other body is tied to the slave's node there, so that these cannot touch each "
-                            "other; expected faces apart from the tie",
-                            fmt::join(nodes_.at(p), ", ")));
   }
 
   /// All of the slave's body is moved, for what is inside it is looked for; of a body that touches itself its side.
@@ -272,16 +278,6 @@ class Coupler {
     return out;
   }
 
-  /// Of a face that has no other nodes.
-  [[noreturn]] void refuse_twice(Index p, Index obstacle, Index taken) const {
-    input_error(
-        model_.obstacles[obstacle].origin,
-        fmt::format("at ({}) {} lets the same side touch another body, and so at all nodes of an element's face, "
-                    "which is not available in this version; expected smaller elements there, quadratic ones, "
-                    "or the other body as the slave ('slave')",
-                    fmt::join(nodes_.at(p), ", "), model_.obstacles[taken].origin));
-  }
-
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const std::vector<FixedDirections<D>>& fixes_;
@@ -305,6 +301,20 @@ std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const 
     if (model.obstacles[k].other && model.obstacles[k].tied) coupler.tie(k);
   coupler.touch();
   return coupler.take();
+}
+
+template <int D>
+void refuse_lost(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& pairs) {
+  if (!pairs.lost) return;
+  const auto [node, obstacle, by] = *pairs.lost;
+  input_error(
+      model.obstacles[obstacle].origin,
+      fmt::format("at ({}) {}, and so at all nodes of an element's face, which is not available in this version; "
+                  "expected smaller elements there, quadratic ones, the other body as the slave ('slave'), or "
+                  "faces apart from each other",
+                  fmt::join(nodes.at(node), ", "),
+                  by >= 0 ? fmt::format("{} lets the slave touch another body", model.obstacles[by].origin)
+                          : "what the slave touches is held by the slave itself through others"));
 }
 
 template <int D>
@@ -391,7 +401,7 @@ bool has(const PairedBodies<D>& pairs, Index node) {
 /// All pairs that are among these jumps.
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pairs_of(const PairedBodies<D>& all, std::shared_ptr<const Jumps<D>> jumps) {
-  PairedBodies<D> out{{}, all.ties, all.rigid, std::move(jumps), all.means};
+  PairedBodies<D> out{{}, all.ties, all.rigid, all.lost, std::move(jumps), all.means};
   std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
   return std::make_shared<const PairedBodies<D>>(std::move(out));
 }
@@ -439,6 +449,8 @@ template std::shared_ptr<const PairedBodies<2>> near_contact(const Nodes<2>&, co
                                                              const std::vector<double>&, const PairedBodies<2>*);
 template std::shared_ptr<const PairedBodies<3>> near_contact(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&,
                                                              const std::vector<double>&, const PairedBodies<3>*);
+template void refuse_lost(const Nodes<2>&, const Model<2>&, const PairedBodies<2>&);
+template void refuse_lost(const Nodes<3>&, const Model<3>&, const PairedBodies<3>&);
 template bool same_jumps(const PairedBodies<2>&, const PairedBodies<2>&);
 template bool same_jumps(const PairedBodies<3>&, const PairedBodies<3>&);
 template std::shared_ptr<const PairedBodies<2>> with_new_gaps(const PairedBodies<2>&, const PairedBodies<2>&);

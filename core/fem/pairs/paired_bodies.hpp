@@ -6,8 +6,9 @@ namespace signorini {
 
 /// What of a model is not said of single nodes: contact between bodies, ties and rigid parts. Of contact nodes whose
 /// displacement is prescribed completely, or along the normal, are left out. Null where the model has none of these.
-/// Error(Exit::input) that names the obstacle: a node on several sides, or sides that have faces in common; a slave all
-/// of whose nodes are prescribed; bodies that overlap at the start by more than an element of the coarsest mesh.
+/// Error(Exit::input) that names the obstacle: sides that have faces in common; a slave all of whose nodes are
+/// prescribed; bodies that overlap at the start by more than an element of the coarsest mesh. A node has one condition
+/// of contact at most, see share_slaves().
 /// @param fixes collect_fixes() of both
 /// @param shift per obstacle of the model: sides find each other as if the slave's were moved by that, and may overlap
 /// there; gaps are counted from the undeformed bodies on, as the unknowns are. Empty: none is
@@ -15,6 +16,11 @@ template <int D>
 std::shared_ptr<const PairedBodies<D>> pair_bodies(const Nodes<D>& nodes, const Model<D>& model,
                                                    const std::vector<FixedDirections<D>>& fixes,
                                                    const std::vector<Point<D>>& shift = {});
+
+/// Error(Exit::input) where conditions are left away at a node: to be asked on the finest mesh. On coarser ones that
+/// makes a worse start.
+template <int D>
+void refuse_lost(const Nodes<D>& nodes, const Model<D>& model, const PairedBodies<D>& pairs);
 
 /// By how much the slave of an obstacle has moved past the master.
 template <int D>

@@ -487,9 +487,10 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<
     if (node.obstacle != obstacle) continue;
     if constexpr (B > 1) covered.tell(node);
     node.area = (std::max(node.covered, node.least_covered) + node.taken) * surface.area(node);
-    node.recovered = node.pressure = node.area > 0 ? node.pressure / node.area : 0;
+    const double with_taken = node.covered > 0 ? 1 + node.taken / node.covered : 1;  // of what the pressure exerts
+    node.recovered = node.pressure = node.area > 0 ? with_taken * node.pressure / node.area : 0;
     if constexpr (B > 1)
-      for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = node.tangential[i] / node.area;
+      for (int i = 0; i < B && node.area > 0; ++i) node.traction[i] = with_taken * node.tangential[i] / node.area;
   }
   if constexpr (B == 1) {
     const auto found = held_in_set(nodes, surface, obstacle, state.nodes, discretization.held);

@@ -221,7 +221,7 @@ std::vector<CutSelection> cut_selections(const Mesh<D>& mesh, const Model<B>& mo
   std::optional<FacettedVertices<D>> facetted;
   std::optional<Pieces<D>> pieces;
   const auto add = [&](const Selection& selection) {
-    if (!selection.where) return;
+    if (!selection.where || selection.where->origin().empty()) return;  // the program's own is of whole faces
     if (!facetted) facetted.emplace(mesh), pieces.emplace(mesh);
     const CutSelection found = cut(mesh, selection, *facetted, *pieces, model.t);
     if (found.missed > 0 || found.wrong > 0) out.push_back(found);

@@ -185,8 +185,9 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   const Mesh<D> there = displaced(nodes, u);
   const Nodes<D> moved = nodes.on(there);
   const Surface<D> faces = term.other ? Surface<D>{} : faces_of(nodes, model, obstacle, false);
-  const auto all =
+  auto all =
       term.other ? pair_gaps(nodes, couple_displaced(nodes, model, obstacle, u), term) : gaps(moved, faces, term);
+  for (Gap<D>& gap : all) gap.distance -= std::clamp(gap.distance, -term.adjust, term.adjust);
   if (all.empty() && !term.other) return {};
   const auto* faceted = dynamic_cast<const geometry::FacetedDistance*>(term.shape.get());
   DeformedContact out;

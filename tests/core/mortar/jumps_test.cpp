@@ -270,6 +270,41 @@ TEST(JumpBuilder, PutsRowsIntoEachOther) {
   EXPECT_LE((transformed - coefficients * Z).norm(), 1e-13);
 }
 
+// Three that depend on each other in a circle, and one that depends on them.
+TEST(JumpBuilder, ResolvesCircles) {
+  Random random(7);
+  constexpr Index vectors = 7;
+  std::map<Index, BlockRow<2>> rows{
+      {0, random_row(random, {1, 5})}, {1, random_row(random, {2, 6})}, {2, random_row(random, {0, 4})}};
+  for (auto& [p, row] : rows)
+    for (auto& [q, W] : row)
+      for (double& w : W) w *= 0.4;
+  JumpBuilder<2> builder;
+  builder.add(3, random_row(random, {1, 4}));
+  EXPECT_TRUE(builder.circles(rows).empty());
+  for (const auto& [p, row] : rows) builder.add(p, row);
+  const Jumps<2> jumps = builder.take();
+  const Eigen::MatrixXd Z = dense_basis(jumps, vectors), inverse = dense_inverse(jumps, vectors);
+  EXPECT_LE((Z * inverse - Eigen::MatrixXd::Identity(2 * vectors, 2 * vectors)).norm(), 1e-12);
+  EXPECT_GT(Z.block(0, 2, 2, 2).norm(), 0.01);
+  EXPECT_GT((Z.block(0, 0, 2, 2) - Eigen::Matrix2d::Identity()).norm(), 1e-4) << "it comes back";
+}
+
+// Around a point the sum of all jumps is nothing, unless each is of another component than the next one.
+TEST(JumpBuilder, FindsCirclesThatLeaveNoUnknowns) {
+  const BlockRow<2>::mapped_type all{1, 0, 0, 1}, first{1, 0, 0, 0}, second{0, 0, 0, 1};
+  for (const bool turns : {false, true}) {
+    JumpBuilder<2> builder;
+    builder.add(0, {{1, turns ? first : all}});
+    builder.add(1, {{2, turns ? second : all}});
+    builder.add(2, {{3, turns ? first : all}});
+    const std::map<Index, BlockRow<2>> last{{3, {{0, turns ? second : all}}}, {4, {{3, all}}}};
+    EXPECT_EQ(builder.circles(last), turns ? std::vector<Index>{} : std::vector<Index>{3});
+    EXPECT_TRUE(builder.leads_to(last.at(3), 3));
+    EXPECT_FALSE(builder.leads_to(last.at(4), 4));
+  }
+}
+
 // Of what is not chosen the unknowns are displacements, also where others refer to it.
 TEST(JumpBuilder, ChoosesSome) {
   Random random(6);

@@ -1,0 +1,237 @@
+#include "driver/scene/found_pairs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "core/base/dot.hpp"
+#include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
+#include "core/fem/elements/element.hpp"
+#include "core/fem/pairs/paired_sides.hpp"
+#include "core/mesh/mirror.hpp"
+#include "core/mortar/couple.hpp"
+#include "core/scene/read_tables.hpp"
+#include "driver/scene/coarse_mesh.hpp"
+
+namespace signorini {
+namespace {
+
+/// Of the faces' longest edge: what is so much farther off than another body is behind that.
+constexpr double behind = 0.01;
+
+/// The boundary of one body.
+template <int D>
+struct Side {
+  const Scene::Body* body;
+  Mesh<D> mesh;
+  std::vector<Index> faces;  // all
+  Point<D> low, high;        // of the box around it
+  double longest = 0;        // edge of its faces
+
+  Side(const Scene& scene, std::size_t number)
+      : body(&scene.bodies[number]), mesh(coarsest_mesh<D>(scene, number, D, nullptr, Progress())) {
+    faces.resize(mesh.boundary.size());
+    std::iota(faces.begin(), faces.end(), Index{0});
+    low = high = mesh.points.front();
+    for (const Point<D>& x : mesh.points)
+      for (int i = 0; i < D; ++i) low[i] = std::min(low[i], x[i]), high[i] = std::max(high[i], x[i]);
+    for (const Face<D>& face : mesh.boundary) longest = std::max(longest, longest_edge(mesh, face));
+  }
+};
+
+/// Per vertex how far the other body is; infinite where it is not in front.
+using Distances = std::vector<double>;
+
+/// Two sides that may touch, by their numbers, and how each sees the other one.
+struct Found {
+  std::size_t first, second;
+  double reach, least;
+  std::array<Distances, 2> seen;
+};
+
+template <int D>
+class Finder {
+ public:
+  explicit Finder(const Scene& scene) : scene_(scene), contact_(*scene.contact) {
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k)
+      if (scene.looks_for_pairs(scene.bodies[k])) sides_.emplace_back(scene, k);
+  }
+
+  std::vector<FoundPair> add_to(Scene& out) {
+    for (std::size_t i = 0; i < sides_.size(); ++i)
+      for (std::size_t j = i + 1; j < sides_.size(); ++j)
+        if (!is_given(*sides_[i].body, *sides_[j].body)) look_at(i, j);
+    std::vector<FoundPair> all;
+    for (const Found& pair : found_) {
+      if (picked(pair, 0)->empty() || picked(pair, 1)->empty()) continue;  // a third body is between them
+      all.push_back({out.obstacles.size(), sides_[pair.first].body->name, sides_[pair.second].body->name, pair.least});
+      out.obstacles.push_back(obstacle(pair));
+    }
+    if (all.empty()) refuse_none();
+    return all;
+  }
+
+ private:
+  /// Whether an obstacle of the scene is between two bodies.
+  bool is_given(const Scene::Body& a, const Scene::Body& b) const {
+    return std::ranges::any_of(scene_.obstacles, [&](const Scene::Obstacle& obstacle) {
+      return std::minmax(obstacle.body, obstacle.other) == std::minmax(a.name, b.name);
+    });
+  }
+
+  void look_at(std::size_t i, std::size_t j) {
+    const Side<D>&a = sides_[i], &b = sides_[j];
+    const double reach = contact_.reach.value_or(std::max(a.longest, b.longest));
+    double extent = 0, apart = 0;  // of both, and of their boxes
+    for (int k = 0; k < D; ++k) {
+      const double from = std::min(a.low[k], b.low[k]), to = std::max(a.high[k], b.high[k]);
+      extent += (to - from) * (to - from);
+      apart = std::max({apart, a.low[k] - b.high[k], b.low[k] - a.high[k]});
+    }
+    extent = std::sqrt(extent);
+    nearest_ = std::min(nearest_, apart);
+    // A distance along a normal is at most twice that of the boxes where faces are 60 degrees from opposite.
+    if (apart > reach + rounding_of_differences * extent) return;
+    Found out{i, j, reach + rounding_of_differences * extent, infinity, {}};
+    out.seen = {distances(a, b, extent, reach, out.least), distances(b, a, extent, reach, out.least)};
+    if (std::isfinite(out.least)) nearest_ = std::min(nearest_, std::max(out.least, 0.0));
+    if (out.least <= out.reach) found_.push_back(std::move(out));
+  }
+
+  /// @param least gets the least of them, if it was more
+  Distances distances(const Side<D>& from, const Side<D>& to, double extent, double reach, double& least) const {
+    const auto corners = [](const Side<D>& side) {
+      std::vector<std::array<Index, D>> out;
+      for (const Face<D>& face : side.mesh.boundary) out.push_back(face.vertices);
+      return out;
+    };
+    const auto own = corners(from), other = corners(to);
+    const std::string& place = contact_.source.table;
+    const MortarCoupling<D> coupling = couple<D>({from.mesh.points, own, place, 1, &from.mesh, from.faces},
+                                                 {to.mesh.points, other, place, 1, &to.mesh, to.faces},
+                                                 {.pairing = contact_.pairing,
+                                                  .reach = extent,
+                                                  .depth = contact_.resolve ? extent : std::max(reach, contact_.adjust),
+                                                  .axisymmetric = from.body->plane == Plane::axisymmetric});
+    Distances out(from.mesh.points.size(), infinity);
+    for (Index k = 0; k < coupling.nodes(); ++k) {
+      out[coupling.node[k]] = coupling.nearest[k];
+      least = std::min(least, coupling.nearest[k]);
+    }
+    return out;
+  }
+
+  Scene::Obstacle obstacle(const Found& pair) const {
+    const Scene::Body &body = *sides_[pair.first].body, &other = *sides_[pair.second].body;
+    Scene::Obstacle out;
+    const RawValue* friction = contact_.friction ? &*contact_.friction : nullptr;
+    out.type = friction && !is_zero(*friction) ? "elastic_coulomb" : "elastic";
+    out.body = body.name;
+    out.other = other.name;
+    out.source = contact_.source;
+    out.source.table += fmt::format(" between {} and {}", body.name, other.name);
+    out.on = faces(pair, 0, out.source.table);
+    out.other_on = faces(pair, 1, out.source.table);
+    out.pairing = contact_.pairing;
+    out.resolve = contact_.resolve;
+    out.renew = contact_.renew;
+    out.adjust = contact_.adjust;
+    out.options.origin = out.source.table;
+    if (out.type == "elastic_coulomb") out.options.entries.emplace_back("friction", *friction);
+    return out;
+  }
+
+  static bool is_zero(const RawValue& value) {
+    const auto* number = std::get_if<double>(&value.value);
+    const auto* whole = std::get_if<std::int64_t>(&value.value);
+    return (number && *number == 0) || (whole && *whole == 0);
+  }
+
+  using Corners = std::map<Point<D>, std::vector<Point<D>>>;  // normals of faces by vertex
+
+  /// Of a side the faces that see the other one, and no third one in front of it.
+  std::shared_ptr<const Corners> picked(const Found& pair, int which) const {
+    const std::size_t number = which == 0 ? pair.first : pair.second;
+    const Side<D>& side = sides_[number];
+    Distances nearest(side.mesh.points.size(), infinity);
+    for (const Found& any : found_)
+      for (const int k : {0, 1})
+        if ((k == 0 ? any.first : any.second) == number)
+          for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], any.seen[k][v]);
+    const Distances& seen = pair.seen[which];
+    auto out = std::make_shared<Corners>();
+    for (const Face<D>& face : side.mesh.boundary) {
+      const auto& corners = face.vertices;
+      if (!std::ranges::all_of(corners, [&](Index v) { return std::isfinite(seen[v]); })) continue;
+      if (!std::ranges::any_of(corners, [&](Index v) { return seen[v] <= nearest[v] + behind * side.longest; }))
+        continue;
+      Point<D> normal = area_normal(side.mesh, face);
+      normalise(normal);
+      for (const Index v : corners) (*out)[side.mesh.points[v]].push_back(normal);
+    }
+    return out;
+  }
+
+  Selection faces(const Found& pair, int which, const std::string& origin) const {
+    const Scene::Body& body = *sides_[which == 0 ? pair.first : pair.second].body;
+    const Scene::Body& other = *sides_[which == 0 ? pair.second : pair.first].body;
+    return {{},
+            Field([corners = picked(pair, which), mirrors = scene_.symmetry.planes](
+                      const Site& site) { return holds(*corners, mirrors, site) ? 1.0 : 0.0; },
+                  fmt::format("{} in front of {}", body.name, other.name), "", true, false),
+            origin};
+  }
+
+  /// Whether a vertex with that normal is one of a face that is picked, or the image of one.
+  static bool holds(const Corners& picked, const std::vector<Mirror>& mirrors, const Site& site) {
+    Point<D> x, normal;
+    std::copy_n(site.x, D, x.begin());
+    std::copy_n(site.n, D, normal.begin());
+    for (const Mirror& mirror : mirrors)
+      if (x[mirror.axis] < mirror.at) {
+        x[mirror.axis] = 2 * mirror.at - x[mirror.axis];
+        normal[mirror.axis] *= -1;
+      }
+    const auto at = picked.find(x);
+    return at != picked.end() &&
+           std::ranges::any_of(at->second, [&](const Point<D>& n) { return dot(n, normal) > 1 - rounding_of_bases; });
+  }
+
+  [[noreturn]] void refuse_none() const {
+    const Scene::Source& source = contact_.source;
+    input_error(source.of(source.given("reach") ? "reach" : "between"),
+                std::isfinite(nearest_)
+                    ? fmt::format("no two of the bodies have surfaces within reach in front of each other: the nearest "
+                                  "are {:.4g} apart; expected a larger 'reach', or no table [contact]",
+                                  nearest_)
+                    : "an [[obstacle]] is between any two of the bodies; expected no table [contact]");
+  }
+
+  const Scene& scene_;
+  const Scene::Contact contact_;
+  std::vector<Side<D>> sides_;
+  std::vector<Found> found_;
+  double nearest_ = infinity;
+};
+
+}  // namespace
+
+std::vector<FoundPair> add_found_pairs(Scene& scene) {
+  if (!scene.contact) return {};
+  Scene out = scene;
+  out.dimension = dimension_of(scene);
+  const std::vector<FoundPair> found = out.dimension == 2 ? Finder<2>(scene).add_to(out) : Finder<3>(scene).add_to(out);
+  out.dimension = scene.dimension;
+  out.contact.reset();
+  check_scene(out, scene.file.string());
+  scene = std::move(out);
+  return found;
+}
+
+}  // namespace signorini
