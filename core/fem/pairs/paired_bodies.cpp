@@ -310,8 +310,9 @@ void refuse_lost(const Nodes<D>& nodes, const Model<D>& model, const PairedBodie
   input_error(
       model.obstacles[obstacle].origin,
       fmt::format("at ({}) {}, and so at all nodes of an element's face, which is not available in this version; "
-                  "expected smaller elements there, quadratic ones, the other body as the slave ('slave'), or "
-                  "faces apart from each other",
+                  "expected one obstacle with the faces of both, where they are between the same two bodies; else "
+                  "smaller elements there, quadratic ones, the other body as the slave ('slave'), or faces apart from "
+                  "each other",
                   fmt::join(nodes.at(node), ", "),
                   by >= 0 ? fmt::format("{} lets the slave touch another body", model.obstacles[by].origin)
                           : "what the slave touches is held by the slave itself through others"));
