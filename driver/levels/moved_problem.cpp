@@ -63,18 +63,20 @@ void stay(DiscreteProblem<B>& problem, std::vector<double>& x, std::vector<doubl
   for (double& bound : problem.constraints.upper) bound = std::max(bound, 0.0);
 }
 
-/// The right-hand side of the prescribed values of now.
+/// The right-hand side of the loads and prescribed values of now.
 template <int B>
 void prescribe_anew(Discretization<B>& discretization) {
   DiscreteProblem<B>& problem = discretization.problem;
   problem.b = local_forces(problem, discretization.load);
+  discretization.prescribed.take_load(problem.b);
   prescribe(problem, discretization.prescribed);
 }
 
 }  // namespace
 
 template <int B>
-MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x,
+MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way,
+                              const std::vector<double>& of_springs, std::vector<double>& x,
                               std::vector<double>& pressure)
     : discretization_(discretization), way_(std::move(way)), x_(x) {
   if (way_.empty()) return;
@@ -82,15 +84,17 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   for_each_prescribed(problem, [&](std::size_t i) { prescribed_.push_back(problem.start[i]); });
   lower_ = problem.constraints.lower;
   upper_ = problem.constraints.upper;
+  load_ = discretization.load;
   const Rest rest(way_);
   for_each_prescribed(problem, [&](std::size_t i) { problem.start[i] = rest(problem.start[i], way_[i]); });
   facet_ = problem.constraints.facet;
   problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
+  for (std::size_t k = 0; k < of_springs.size(); ++k) discretization.load[k] += of_springs[k];
   prescribe_anew(discretization);
   if (rests(problem, rest)) stay(problem, x, pressure);
   const std::vector<double> moved = to_global(problem, way_);
-  problem.prescribed_work += dot(moved, discretization.load);
+  problem.prescribed_work += (dot(moved, load_) + dot(moved, discretization.load)) / 2;  // springs are linear
 }
 
 template <int B>
@@ -106,6 +110,7 @@ double MovedProblem<B>::back() {
   std::swap(c.lower, lower_);
   std::swap(c.upper, upper_);
   std::swap(c.facet, facet_);
+  discretization_.load = std::move(load_);
   prescribe_anew(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];

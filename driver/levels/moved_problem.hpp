@@ -11,11 +11,13 @@ namespace signorini {
 template <int B>
 class MovedProblem {
  public:
-  /// Takes `way` off prescribed values, bounds and x. Keeps references to discretization and x until back(), which is
-  /// called once. Where nothing else is left to do, x becomes zero, and so does the start of a pressure.
-  /// @param way a motion without energy, local coordinates; empty: none
-  MovedProblem(Discretization<B>& discretization, std::vector<double> way, std::vector<double>& x,
-               std::vector<double>& pressure);
+  /// Takes `way` off prescribed values, bounds and x, and adds to the loads what springs do against it. Keeps
+  /// references to discretization and x until back(), which is called once. Where nothing else is left to do, x becomes
+  /// zero, and so does the start of a pressure.
+  /// @param way a motion that has no energy but in springs, local coordinates; empty: none
+  /// @param of_springs what these exert on the nodes then, global coordinates; empty: nothing
+  MovedProblem(Discretization<B>& discretization, std::vector<double> way, const std::vector<double>& of_springs,
+               std::vector<double>& x, std::vector<double>& pressure);
 
   /// The problem as it was, without a load that follows the solution, and x with the way added. What is at a bound
   /// stays there.
@@ -26,6 +28,7 @@ class MovedProblem {
  private:
   Discretization<B>& discretization_;
   std::vector<double> way_;
+  std::vector<double> load_;  // of the problem as it was
   std::vector<double>& x_;
   std::vector<double> prescribed_, lower_, upper_;  // of the problem as it was
   std::vector<Facet<B>> facet_;

@@ -14,6 +14,7 @@
 #include "core/fem/assembly/admissible_sets.hpp"
 #include "core/fem/assembly/check_functionals.hpp"
 #include "core/fem/elements/nested.hpp"
+#include "core/fem/assembly/springs.hpp"
 #include "core/fem/incompressible/pressure_load.hpp"
 #include "core/mesh/families.hpp"
 #include "core/solver/admissible.hpp"
@@ -62,6 +63,16 @@ void add_force(const std::vector<double>& force, double sign, std::vector<double
 
 template <int D, int B>
 using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
+/// What springs exert on a body that has moved by `way`, local coordinates, in global ones.
+template <int D, int B>
+std::vector<double> spring_load(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem,
+                                const std::vector<double>& way) {
+  if (way.empty() || model.springs.empty()) return {};
+  std::vector<double> forces(way.size());
+  add_spring_forces(nodes, model, to_global(problem, way), forces);
+  return forces;
+}
+
 
 }  // namespace
 
@@ -434,8 +445,9 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   const MeshLevel<D, B>& here = levels_[level];
   if (level == first_) continue_algebraically(solution.discretization.problem);
   solution.discretization.problem.galerkin = matrices_.products_below(level);
-  MovedProblem<B> moved(solution.discretization, body ? body->fall(solution.x) : std::vector<double>{}, solution.x,
-                        solution.pressure);
+  std::vector<double> way = body ? body->fall(solution.x) : std::vector<double>{};
+  const std::vector<double> of_springs = spring_load(here.nodes, model, solution.discretization.problem, way);
+  MovedProblem<B> moved(solution.discretization, std::move(way), of_springs, solution.x, solution.pressure);
   std::optional<LoadOf<D, B>> pressure;
   if constexpr (D == B) {
     if (here.pressure_space) {

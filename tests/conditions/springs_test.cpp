@@ -116,6 +116,70 @@ TEST(Springs, hold_a_disk_of_revolution) {
   }
 }
 
+// A bar whose left end is moved by d, with a spring of k per area at its right end: u = d s / (s + k), s = E / L.
+TEST(Springs, hold_against_one_common_prescribed_value) {
+  const double d = 0.1, k = 50, stiff = 1000.0 / 2, u = d * stiff / (stiff + k);
+  const std::string spring = table("spring", fmt::format("on = \"right\"\nstiffness = {}", k)),
+                    probe = table("probe", "name = \"end\"\nat = [2, 0.5]"), refined = "[refine]\nuniform = 1\n";
+  const std::string bar = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [4, 2]\n";
+  const std::string elastic = bar + "young = 1000\npoisson = 0\n";
+  const std::vector<std::string> scenes{
+      text_of(elastic, table("fix", fmt::format("on = \"left\"\nvalue = [{}, 0]", d)) + spring + probe),
+      text_of(elastic,
+              table("rigid", fmt::format("on = \"left\"\ndisplacement = [{}, 0]\nrotation = [0]", d)) + spring + probe),
+      text_of(bar + "equation = \"diffusion\"\ndiffusion = 1000\n",
+              table("fix", fmt::format("on = \"left\"\nvalue = {}", d)) + spring + probe),
+      text_of("shape = \"rectangle\"\nfrom = [1, 0]\nto = [2, 2]\ncells = [2, 4]\nyoung = 1000\npoisson = 0\n"
+              "plane = \"axisymmetric\"\n",
+              table("fix", fmt::format("on = \"bottom\"\nvalue = [0, {}]", d)) +
+                  table("spring", fmt::format("on = \"top\"\nstiffness = [0, {}]", k)) +
+                  table("probe", "name = \"end\"\nat = [1.5, 2]"))};
+  for (const std::string& scene : scenes) {
+    SCOPED_TRACE(scene);
+    const bool axial = &scene == &scenes.back();
+    const double area = axial ? 3 * pi : 1;
+    const StepReport step = solved(scene + refined);
+    EXPECT_NEAR(step.probes[0].value[axial ? 1 : 0], u, 1e-9);
+    const std::size_t along = axial ? 1 : 0;
+    EXPECT_NEAR(step.springs.at(0).force[along], -k * u * area, 1e-8);
+    EXPECT_NEAR(step.balance[0].reactions[along] + step.balance[0].applied[along], 0, 1e-7);
+    // What an independent sum of springs has: bar and spring beside each other.
+    EXPECT_NEAR(step.summary.energy, area * (stiff * (d - u) * (d - u) + k * u * u) / 2, 1e-9 * area);
+  }
+}
+
+// The same where bodies are glued, and where an obstacle holds the other end: the bar is moved to it, and past.
+TEST(Springs, hold_against_one_common_prescribed_value_of_several_bodies) {
+  const auto block = [](const std::string& name, int from, int to, int cells) {
+    return fmt::format(
+        "[[body]]\nname = \"{}\"\nshape = \"rectangle\"\nfrom = [{}, 0]\nto = [{}, 1]\ncells = [{}, {}]\n"
+        "young = 1000\npoisson = 0\n",
+        name, from, to, cells, cells);
+  };
+  const StepReport step =
+      solved(block("b", 0, 1, 4) + block("c", 1, 2, 3) + table("fix", "on = \"left\"\nvalue = [0.1, 0]") +
+             "[[obstacle]]\ntype = \"tied\"\nbody = \"b\"\non = \"right\"\nother = \"c\"\nother_on = \"left\"\n"
+             "[[spring]]\nbody = \"c\"\non = \"right\"\nstiffness = 50\n"
+             "[[probe]]\nname = \"end\"\nbody = \"c\"\nat = [2, 0.5]\n");
+  EXPECT_NEAR(step.probes[0].value[0], 0.1 * 500 / 550, 1e-9);
+}
+
+// Moved by d along x and pressed on a plane: as if the spring had been loaded by -k d, and only the rest were moved.
+TEST(Springs, hold_against_one_common_prescribed_value_in_contact) {
+  const std::string
+      body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [2, 1]\ncells = [8, 4]\nyoung = 1000\npoisson = 0.3\n",
+      rest = table("spring", "on = \"right\"\nstiffness = [50, 0]") + table("probe", "name = \"p\"\nat = [2, 0.5]") +
+             table("obstacle",
+                   "type = \"contact\"\non = \"bottom\"\nshape = \"plane\"\n"
+                   "point = [0, 0]\nnormal = [0, 1]");
+  const StepReport moved = solved(text_of(body, table("fix", "on = \"top\"\nvalue = [0.1, -0.01]") + rest)),
+                   loaded = solved(text_of(body, table("fix", "on = \"top\"\nvalue = [0, -0.01]") +
+                                                     table("load", "on = \"right\"\nvalue = [-5, 0]") + rest));
+  EXPECT_NEAR(moved.probes[0].value[0], loaded.probes[0].value[0] + 0.1, 1e-8);
+  EXPECT_NEAR(moved.probes[0].value[1], loaded.probes[0].value[1], 1e-8);
+  EXPECT_NEAR(moved.contact[0].force[1], loaded.contact[0].force[1], 1e-5);
+}
+
 // Two blocks in contact, the upper one loaded and held by a spring: springs beside each other bear F = (K + E A / L) d.
 TEST(Springs, hold_bodies_that_touch) {
   const std::string material = "young = 2\npoisson = 0\n";

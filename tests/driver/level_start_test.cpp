@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "core/fem/assembly/springs.hpp"
 #include "core/mesh/refine.hpp"
+#include "core/solver/convergence.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "driver/levels/level_solution.hpp"
 #include "driver/levels/level_start.hpp"
@@ -131,15 +133,18 @@ TEST(OwnNumbers, GoOverToOtherNodes) {
   EXPECT_EQ(untouched.problem.constraints.before, std::vector<double>{0});
 }
 
-/// An elastic block whose top is moved, above a plane; the way is one of all of it.
+/// An elastic block whose top is moved, above a plane, and which springs hold all around; the way is one of all of it.
 template <int D>
 void expect_moved() {
   Point<D> up{};
   up[D - 1] = 1;
   Point<D> below{};
   below[D - 1] = -9;  // out of the way
-  const Model<D> model = pressed_block<D>(plane<D>(below, up), 0.3);
-  Discretization<D> discretization = discretize<D, D>(cube<D>(0, 1, 2), model);
+  Model<D> model = pressed_block<D>(plane<D>(below, up), 0.3);
+  Spring<D>& spring = model.springs.emplace_back(Spring<D>{{std::nullopt, Field(1.0), ""}, {}});
+  for (int i = 0; i < D; ++i) spring.stiffness[i] = 0.1 * (i + 1);
+  const Mesh<D> mesh = cube<D>(0, 1, 2);
+  Discretization<D> discretization = discretize<D, D>(mesh, model);
   const DiscreteProblem<D>& problem = discretization.problem;
   const auto solution = [&] {  // without the bounds
     const Eigen::VectorXd x = dense(problem.A).ldlt().solve(vector(problem.b));
@@ -151,8 +156,11 @@ void expect_moved() {
   for (Index p = 0; p < problem.A.size(); ++p)
     for (int i = 0; i < D; ++i) way_u.push_back(i == D - 1 ? -0.25 : 0.1);
   const std::vector<double> way = to_local(problem, way_u);
-  std::vector<double> x = whole, pressure;
-  MovedProblem<D> moved(discretization, way, x, pressure);
+  std::vector<double> x = whole, pressure, of_springs(way.size());
+  add_spring_forces<D, D>(Nodes<D>(mesh), model, way_u, of_springs);
+  const double all = energy(problem, whole);
+  MovedProblem<D> moved(discretization, way, of_springs, x, pressure);
+  EXPECT_NEAR(energy(problem, x), all, 1e-13);
   // What is left is as if nothing had moved, and solves the problem of now.
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], whole[i] - way[i], 1e-13);
   expect_near(solution(), x, 1e-12);
@@ -187,7 +195,7 @@ TEST(MovedProblem, StaysWithoutAWay) {
   Discretization<2> discretization = discretize<2, 2>(cube<2>(0, 1, 2), pressed_block<2>(plane<2>({}, {0, 1}), 0.3));
   const DiscreteProblem<2> before = discretization.problem;
   std::vector<double> x(before.b.size(), 0.5), pressure;
-  MovedProblem<2> moved(discretization, {}, x, pressure);
+  MovedProblem<2> moved(discretization, {}, {}, x, pressure);
   EXPECT_EQ(discretization.problem.b, before.b);
   EXPECT_EQ(discretization.problem.constraints.lower, before.constraints.lower);
   EXPECT_EQ(moved.back(), 0);
@@ -202,7 +210,7 @@ TEST(MovedProblem, RestsWhereNothingElseIsLeftToDo) {
   for (Index p = 0; p < discretization.problem.A.size(); ++p) way_u.insert(way_u.end(), {0, -0.3});
   std::vector<double> x(way_u.size(), 0.5), pressure(3, 0.5);
   const std::vector<double> way = to_local(discretization.problem, way_u);
-  MovedProblem<2> moved(discretization, way, x, pressure);
+  MovedProblem<2> moved(discretization, way, {}, x, pressure);
   EXPECT_EQ(x, std::vector<double>(x.size(), 0));
   EXPECT_EQ(pressure, std::vector<double>(3, 0));
   moved.back();

@@ -22,6 +22,21 @@ void each_spring_point(const Nodes<D>& nodes, const Model<B>& model, const Sprin
   });
 }
 
+/// Calls use(IntegrationPoint, traction) where a spring pulls, with the traction -K u.
+template <int D, int B, class Use>
+void each_spring_traction(const Nodes<D>& nodes, const Model<B>& model, const Spring<B>& spring,
+                          const std::vector<double>& u, const Use& use) {
+  each_spring_point(nodes, model, spring, [&](const auto& point, double whole) {
+    const auto K = spring_matrix<D, B>(spring, whole, point.x, point.normal, model.t);
+    std::array<double, B> v{}, traction{};
+    for (std::size_t a = 0; a < point.node.size(); ++a)
+      for (int i = 0; i < B; ++i) v[i] += point.value[a] * u[Offset{point.node[a]} * B + i];
+    for (int i = 0; i < B; ++i)
+      for (int j = 0; j < B; ++j) traction[i] -= K[i * B + j] * v[j];
+    use(point, traction);
+  });
+}
+
 template <int B>
 void add(BlockMatrix<B>& A, Index p, Index q, double factor, const std::array<double, B * B>& K) {
   const auto begin = A.column.begin() + A.row[p], end = A.column.begin() + A.row[p + 1];
@@ -79,16 +94,22 @@ std::vector<std::array<double, B>> spring_forces(const Nodes<D>& nodes, const Mo
   std::vector<std::array<double, B>> out;
   for (const Spring<B>& spring : model.springs) {
     std::array<double, B>& force = out.emplace_back();
-    each_spring_point(nodes, model, spring, [&](const auto& point, double whole) {
-      const auto K = spring_matrix<D, B>(spring, whole, point.x, point.normal, model.t);
-      std::array<double, B> v{};
-      for (std::size_t a = 0; a < point.node.size(); ++a)
-        for (int i = 0; i < B; ++i) v[i] += point.value[a] * u[Offset{point.node[a]} * B + i];
-      for (int i = 0; i < B; ++i)
-        for (int j = 0; j < B; ++j) force[i] -= point.weight * K[i * B + j] * v[j];
+    each_spring_traction<D, B>(nodes, model, spring, u, [&](const auto& point, const std::array<double, B>& traction) {
+      for (int i = 0; i < B; ++i) force[i] += point.weight * traction[i];
     });
   }
   return out;
+}
+
+template <int D, int B>
+void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                       std::vector<double>& forces) {
+  for (const Spring<B>& spring : model.springs)
+    each_spring_traction<D, B>(nodes, model, spring, u, [&](const auto& point, const std::array<double, B>& traction) {
+      for (std::size_t a = 0; a < point.node.size(); ++a)
+        for (int i = 0; i < B; ++i)
+          forces[Offset{point.node[a]} * B + i] += point.weight * point.value[a] * traction[i];
+    });
 }
 
 template <int D, int B>
@@ -108,13 +129,14 @@ void each_spring_hold(const Nodes<D>& nodes, const Model<B>& model,
     });
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                                   \
-  template void add_springs(const Nodes<D>&, const Model<B>&, BlockMatrix<B>&);                                       \
-  template std::vector<std::array<double, B>> spring_forces<D, B>(const Nodes<D>&, const Model<B>&,                   \
-                                                                  const std::vector<double>&);                        \
-  template void each_spring_hold(const Nodes<D>&, const Model<B>&, const std::function<void(const SpringHold<B>&)>&); \
-  template std::array<double, B * B> spring_matrix<D, B>(const Spring<B>&, double, const Point<D>&, const Point<D>&,  \
-                                                         double);                                                     \
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                    \
+  template void add_springs(const Nodes<D>&, const Model<B>&, BlockMatrix<B>&);                                        \
+  template std::vector<std::array<double, B>> spring_forces<D, B>(const Nodes<D>&, const Model<B>&,                    \
+                                                                  const std::vector<double>&);                         \
+  template void add_spring_forces(const Nodes<D>&, const Model<B>&, const std::vector<double>&, std::vector<double>&); \
+  template void each_spring_hold(const Nodes<D>&, const Model<B>&, const std::function<void(const SpringHold<B>&)>&);  \
+  template std::array<double, B * B> spring_matrix<D, B>(const Spring<B>&, double, const Point<D>&, const Point<D>&,   \
+                                                         double);                                                      \
   template double spring_whole(const Nodes<D>&, const Model<B>&, const Spring<B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)

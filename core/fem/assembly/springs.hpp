@@ -22,6 +22,12 @@ template <int D, int B>
 std::vector<std::array<double, B>> spring_forces(const Nodes<D>& nodes, const Model<B>& model,
                                                  const std::vector<double>& u);
 
+/// Adds what all springs exert on the nodes: minus the matrix of add_springs() times u, both in global coordinates and
+/// B per node.
+template <int D, int B>
+void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                       std::vector<double>& forces);
+
 /// A point where a spring holds the body along a direction.
 template <int B>
 struct SpringHold {
