@@ -133,6 +133,53 @@ TEST(Supports, on_a_plane_of_symmetry_are_those_of_both_sides) {
   EXPECT_NEAR(sunk[1] / sunk[0], 1, 5e-3);
 }
 
+// A force is that of the whole body, whichever key it is given by: an edge that lies in a plane of symmetry or crosses
+// it, and a point in two of them.
+TEST(Supports, are_those_of_the_whole_where_planes_of_symmetry_cut_it) {
+  const auto pressed = [](const std::string& body, const std::string& load, const std::string& more) {
+    const Report report =
+        solved(text_of(body, table("load", load) + table("probe", "name = \"p\"\nat = [1.5, 0.5, 0.5]") + more));
+    return std::pair{report.last().applied[0].force.back(), report.last().probes[0].value.back()};
+  };
+  const std::string solid =
+                        "shape = \"box\"\nfrom = [-2, -1, 0]\nto = [2, 1, 1]\ncells = [4, 4, 2]\nyoung = 2\n"
+                        "poisson = 0.25\norder = 1\n",
+                    held = table("fix", "on = \"bottom\"\nvalue = [0, 0, 0]");
+  const std::string point = "at = [0, 0, 1]\n", edge = "on = [\"top\", \"front\"]\n";
+  for (const auto& [where, length] : {std::pair{point, 1.0}, {edge, 4.0}}) {
+    SCOPED_TRACE(where);
+    const std::string planes = where == point ? "[symmetry]\nx = 0\ny = 0\n" : "[symmetry]\nx = 0\n";
+    const std::string value = fmt::format("{}value = [0, 0, -0.01]", where),
+                      force = fmt::format("{}force = [0, 0, {}]", where, -0.01 * length);
+    const auto whole = pressed(solid, value, held), half = pressed(solid, value, held + planes),
+               total = pressed(solid, force, held + planes);
+    EXPECT_NEAR(whole.first, -0.01 * length, 1e-14);
+    EXPECT_NEAR(half.first, -0.01 * length, 1e-14);
+    EXPECT_NEAR(half.second / total.second, 1, 1e-9);
+    EXPECT_NEAR(half.second / whole.second, 1, 0.1);  // the meshes are not each other's images
+  }
+  const std::string sheet =
+      "shape = \"rectangle\"\nfrom = [-1, -1]\nto = [1, 1]\ncells = [8, 8]\n"
+      "equation = \"diffusion\"\n" +
+      table("fix", "on = \"boundary\"\nvalue = 0") + table("load", "at = [0, 0]\nvalue = 1") +
+      table("probe", "name = \"p\"\nat = [0.5, 0.5]");
+  const Report whole = solved(text_of(sheet, "")), quarter = solved(text_of(sheet, "[symmetry]\nx = 0\ny = 0\n"));
+  EXPECT_NEAR(quarter.last().probes[0].value[0] / whole.last().probes[0].value[0], 1, 0.02);
+  EXPECT_NEAR(quarter.last().applied[0].force[0], 1, 1e-14);
+}
+
+// Where half a body has an edge in the plane of symmetry, a force per length on it is that of both sides.
+TEST(Supports, share_an_edge_in_a_plane_of_symmetry_with_the_other_side) {
+  Mesh<3> mesh;
+  const std::array<Point<3>, 2> in{{{0, 0, 0}, {0, 1, 0}}}, out{{{0, 0, 0}, {1, 0, 0}}};
+  EXPECT_EQ(share_of_side<3>(mesh, in), 1);
+  mesh.mirrors = {{0, 0.0}, {1, 0.0}};
+  EXPECT_EQ(share_of_side<3>(mesh, in), 0.5);
+  EXPECT_EQ(share_of_side<3>(mesh, out), 0.5);
+  EXPECT_EQ(share_of_side<3>(mesh, {in.data(), 1}), 0.25);
+  EXPECT_EQ(share_of_side<3>(mesh, {out.data() + 1, 1}), 0.5);
+}
+
 TEST(Supports, of_bodies_that_touch_are_those_of_the_one_they_are_given_for) {
   const std::string material = "young = 2\npoisson = 0\n";
   const Report report = solved(
