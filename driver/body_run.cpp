@@ -259,7 +259,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   if (solution.slides_on) add_once(warning<"slides-on">(model_.origin), warnings);
   const double rounding = rounding_of_forces(solution.discretization.problem.A, results_.u);
   for (Warning& warning :
-       balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report, rounding))
+       balance_warnings<D, B>(scene_, body(), nodes(), solution.discretization.load, report, results_.u, rounding))
     add_once(std::move(warning), warnings);
   // Slender bodies: rounding may do more than products with the matrix show.
   const double lost = report.summary.outcome == Outcome::rounding ? imbalance(report, results_.u) : 0;

@@ -1,6 +1,7 @@
 #include "driver/warnings/balance_warnings.hpp"
 
 #include "tests/driver/warned.hpp"
+#include "tests/support/problems.hpp"
 
 // Loads that are lost are told, and loads that balance each other are not taken for lost.
 
@@ -73,6 +74,29 @@ TEST(BalanceWarnings, not_for_a_body_between_two_others) {
       "[[obstacle]]\ntype = 'elastic_coulomb'\nfriction = 0.3\nbody = 'b1'\non = 'top'\nother = 'b2'\n"
       "other_on = 'bottom'\n";
   EXPECT_THAT(told(stack), Not(Contains(HasSubstr("forces balance up to"))));
+}
+
+/// What is told of a body without loads on which a spring exerts this, and a fix that.
+Warnings told_of(const std::vector<double>& spring, const std::vector<double>& fix, double rounding) {
+  const Scene scene = scene_of(square + "[[spring]]\nbody = 'block'\non = 'top'\nstiffness = 1\n");
+  const Mesh<2> mesh = cube<2>(0, 1, 1);
+  const std::vector<double> none(2 * mesh.points.size());
+  StepReport report;
+  report.summary.outcome = Outcome::converged;
+  report.bodies.push_back({"block", report.summary});
+  report.springs.push_back({0, spring});
+  report.reactions.push_back({0, fix});
+  report.balance.push_back({"block", {0, 0}, {spring[0] + fix[0], spring[1] + fix[1]}, {0, 0}});
+  return balance_warnings<2, 2>(scene, scene.bodies[0], Nodes<2>(mesh), none, report, none, rounding);
+}
+
+// A spring whose force nothing counters has been forgotten somewhere, whether or not there are loads and contact.
+TEST(BalanceWarnings, for_forces_without_any_loads_and_contact) {
+  const auto warned = Contains(HasSubstr("body 'block': forces balance up to"));
+  EXPECT_THAT(told_of({-5, 0}, {0, 0}, 1e-12), warned);
+  EXPECT_THAT(told_of({-5, 0}, {4.9, 0}, 1e-12), warned);
+  EXPECT_THAT(told_of({-5, 0}, {5 - 1e-6, 0}, 1e-12), Not(warned));  // the tolerance
+  EXPECT_THAT(told_of({-5e-13, 0}, {0, 0}, 1e-12), Not(warned));     // rounding
 }
 
 }  // namespace
