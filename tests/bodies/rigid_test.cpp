@@ -279,5 +279,21 @@ TEST(RigidEnd, IsRefusedWhereSomethingElseHolds) {
   expect_error(bar + rigid("bar", "right", "force = [0.1, 0]\n"), Exit::no_solution, "translation along (1, 0)");
 }
 
+// What keeps a rigid end of a body of revolution on its circles is what a fix there would exert.
+TEST(RigidEnd, OfABodyOfRevolutionHoldsItAsAFixDoes) {
+  for (const int order : {1, 2}) {
+    const std::string ring =
+        block("b", "[1, 0]", "[2, 1]", "[4, 2]", material(1000, 0.3, order) + "plane = \"axisymmetric\"\n") +
+        fix("b", "bottom", "[0, 0]") + exactly;
+    const StepReport fixed = solved(ring + fix("b", "top", "[0, -0.01]")).last(),
+                     rigidly = solved(ring + rigid("b", "top", "displacement = [\"free\", -0.01]\n")).last();
+    EXPECT_LT(fixed.reactions[1].force[0], -1);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_NEAR(rigidly.rigid[0].force[i], fixed.reactions[1].force[i], 1e-8);
+      EXPECT_NEAR(rigidly.balance[0].sum()[i], fixed.balance[0].sum()[i], 1e-8);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

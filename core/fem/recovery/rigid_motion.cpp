@@ -17,6 +17,16 @@ std::optional<double> reaction(const Discretization<B>& discretization, Index p,
   return discretization.prescribed.force(discretization.prescribed.at(p), along, x);
 }
 
+/// Of a body of revolution: what holds the nodes of a part but the first carrier on their circles. They move with that
+/// one along the axis alone.
+template <int B>
+double radial_rest(const Discretization<B>& discretization, const RigidNodes<B>& part, const std::vector<double>& x) {
+  double sum = 0;
+  for (const Index p : part.nodes)
+    if (p != part.carriers[0]) sum += reaction(discretization, p, 0, x).value_or(0);
+  return sum;
+}
+
 }  // namespace
 
 template <int B>
@@ -36,6 +46,7 @@ std::vector<RigidMotion<B>> rigid_motions(const Model<B>& model, const Discretiz
         const std::optional<double> held = reaction(discretization, shift, i, x);
         (held ? motion.reaction : motion.applied)[i] = held ? *held : model.rigid[k].force[i](at);
       }
+      if (model.plane == Plane::axisymmetric) motion.reaction[0] += radial_rest(discretization, part, x);
       for (int i = 0; i < RigidPart<B>::rotations && turn >= 0; ++i) {
         motion.rotation[i] = x[Offset{turn} * B + i] / part.length;
         const std::optional<double> held = reaction(discretization, turn, i, x);

@@ -6,7 +6,7 @@
 namespace signorini {
 
 /// How a rigid part has moved, and what moves it: user's units, radians. Of an axisymmetric body forces are those on
-/// the whole.
+/// the whole, and the first entry is what holds its nodes on their circles, see Forces.
 template <int B>
 struct RigidMotion {
   std::array<double, B> point{};  ///< undeformed
