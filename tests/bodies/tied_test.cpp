@@ -375,5 +375,21 @@ TEST(TiedBodies, OfRubberAreOneBody) {
   expect_balance(two.last(), 1e-9);
 }
 
+// Fixes at the ends leave nodes out of the tie, and not what is glued there.
+TEST(TiedSide, IsAsLargeWhereFixesHoldItsEnds) {
+  for (const int order : {1, 2}) {
+    const auto sides = [](const char* body) {
+      return fix(body, "left", "[0, \"free\"]") + fix(body, "right", "[0, \"free\"]");
+    };
+    Driver driver(scene_of(block("lower", "[0, 0]", "[1, 1]", "[3, 2]", material(1000, 0.3, order)) +
+                           block("upper", "[0, 1]", "[1, 2]", "[4, 5]", material(1000, 0.3, order)) +
+                           glue("lower", "top", "upper", "bottom", "slave = \"body\"\n") + sides("lower") +
+                           sides("upper") + fix("lower", "bottom", "[\"free\", 0]") + load("upper", "[0, -7]", "top")));
+    const ContactReport tie = driver.solve().last().contact[0];
+    EXPECT_NEAR(tie.area, 1, 1e-12) << order;
+    EXPECT_NEAR(tie.force[1], -7, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test

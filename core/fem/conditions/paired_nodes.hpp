@@ -24,8 +24,9 @@ struct PairedNode {
 /// A node of a slave side that is tied to the master: its jump is prescribed to be zero where no fix holds it.
 struct TiedNode {
   Index node;
-  Index obstacle;      ///< number in Model::obstacles
-  double covered = 1;  ///< part of the node's area that the master is in front of
+  Index obstacle;  ///< number in Model::obstacles
+  double bears =
+      1;  ///< part of the node's area that the master is in front of, and what it takes over of nodes beside it
 };
 
 /// The nodes of a rigid part, see core/fem/pairs/rigid_parts.hpp.

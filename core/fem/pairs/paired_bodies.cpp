@@ -77,7 +77,7 @@ class Coupler {
       refuse_rigid(p, obstacle);
       if (jumps_.has(p) || jumps_.leads_to(seen, p)) continue;  // where ties meet the others hold it
       jumps_.add(p, seen);
-      out_.ties.push_back({p, obstacle, found.covered[k]});
+      out_.ties.push_back({p, obstacle, found.covered[k] + found.taken[k]});
     }
     if (out_.ties.size() == before) refuse_untied(term);
     std::vector<Index> tied;

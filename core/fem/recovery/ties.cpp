@@ -63,7 +63,7 @@ std::vector<TieForce<B>> tie_forces(const Nodes<D>& nodes, const Model<B>& model
       force.obstacle = tie.obstacle;
       force.on_slave = true;
       force.force = force.tangential = force_at(discretization, tie, x);
-      force.area = tie.covered * slave->areas[at];
+      force.area = tie.bears * slave->areas[at];
       const double normal = dot(force.force, slave->normals[at]);
       for (int i = 0; i < B; ++i) force.tangential[i] -= normal * slave->normals[at][i];
     }
