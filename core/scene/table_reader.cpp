@@ -226,6 +226,10 @@ Selection TableReader::parts(const std::string& key) const {
   if (names.empty() || names.size() > 2)
     input_error(origin(key),
                 fmt::format("expected one part, or two whose common edge is meant, found {}", names.size()));
+  if (names.size() == 2 && names[0] == names[1])
+    input_error(origin(key), fmt::format("'{}' stands twice, and two parts mean the edge that they have in common; "
+                                         "expected two parts, or \"{}\" for its faces",
+                                         names[0], names[0]));
   Selection selection{names[0], std::nullopt, origin(key)};
   if (names.size() == 2) selection.other = names[1];
   return selection;

@@ -170,12 +170,13 @@ class SymmetryCheck {
 
   void check_load(const Load<B>& given) const {
     const Load<B> load = distributed(Nodes<D>(mesh_), model_, given);
-    const std::string& origin = load.on ? load.on->origin : load.value[0].origin();
-    Comparison<D> comparison(mirror_, origin.empty() ? model_.origin + ", its load" : origin);
+    std::string origin = load.value[0].origin();  // of a constant there may be none
+    if (origin.empty()) origin = load.on ? load.on->origin : model_.origin + ", its load";
+    Comparison<D> comparison(mirror_, origin);
     for (const ComparedPlace<D>& p : load.on ? places_on(mesh_, *load.on, model_.t) : all_places(mesh_))
       for (int i = 0; i < B; ++i)
         comparison.add(p.x, load.value[i](site_of(p)), sign(i) * load.value[i](site_of(image(p))));
-    comparison.refuse("'value'");
+    comparison.refuse("the load");
   }
 
   void check_spring(const Spring<B>& spring) const {

@@ -391,5 +391,12 @@ TEST(TiedSide, IsAsLargeWhereFixesHoldItsEnds) {
   }
 }
 
+TEST(TiedSide, LeavesNothingToTouchOnItsFaces) {
+  expect_error(block("lower", "[0, 0]", "[1, 1]", "[3, 2]", material(1000)) +
+                   block("upper", "[0, 1]", "[1, 2]", "[4, 5]", material(1000)) + fix("lower", "bottom", "[0, 0]") +
+                   glue("lower", "top", "upper", "bottom") + pair("lower", "top", "upper", "bottom"),
+               Exit::input, "obstacle.1: all of the slave is tied to the other body by test.toml");
+}
+
 }  // namespace
 }  // namespace signorini::test

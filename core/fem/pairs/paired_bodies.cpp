@@ -102,7 +102,12 @@ class Coupler {
                        deepest_overlap<D>(nodes_.mesh(), term, faces, model_.t, pair.coupling().deepest));
     }
     share_slaves(pairs);
-    for (ContactPair<D>& pair : pairs) add(pair);
+    for (ContactPair<D>& pair : pairs) {
+      const std::size_t before = out_.nodes.size();
+      add(pair);
+      if (out_.nodes.size() == before)
+        refuse_tied(pair.term(), paired_faces(nodes_.mesh(), pair.term(), model_.t).slave);
+    }
   }
 
   std::shared_ptr<const PairedBodies<D>> take() {
@@ -131,6 +136,24 @@ class Coupler {
     input_error(term.origin,
                 "ties no node: no face of one body is in front of the other one's and turned towards it, or fixes "
                 "prescribe all that is; expected faces of the two bodies that lie on each other ('on', 'other_on')");
+  }
+
+  /// Of a slave without any node that may touch.
+  void refuse_tied(const ObstacleTerm<D>& term, const std::vector<Index>& slave) const {
+    std::map<Index, Index> tied;
+    for (const TiedNode& tie : out_.ties) tied[tie.node] = tie.obstacle;
+    Index by = -1;
+    for (const Index f : slave)
+      for (const Index v : nodes_.mesh().boundary[f].vertices) {
+        const auto tie = tied.find(nodes_.of_vertex(v));
+        if (tie == tied.end()) return;
+        by = tie->second;
+      }
+    if (by >= 0)
+      input_error(term.origin,
+                  fmt::format("all of the slave is tied to the other body by {}, so that these cannot touch "
+                              "each other there; expected faces apart from these",
+                              model_.obstacles[by].origin));
   }
 
   /// No other side has these nodes.
