@@ -8,6 +8,7 @@
 #include "apps/scenes/tables.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/components.hpp"
+#include "driver/driver.hpp"
 #include "driver/reports/contact_report.hpp"
 #include "driver/reports/error_estimate.hpp"
 #include "driver/reports/merge.hpp"
@@ -299,6 +300,22 @@ TEST(Merge, LeavesOneBodyAsItIs) {
   StepReport without = step("b", 1, 1);
   without.estimate.reset();
   EXPECT_FALSE(merged(Scene(), {step("a", 2, 0), without}).estimate);
+}
+
+// A disk under pressure shrinks evenly: a probe on the circle, between the nodes, reads the displacement there, and not
+// that of the chord, which is off by the height of the arc.
+TEST(Probes, on_a_curved_boundary_read_there) {
+  for (const int order : {1, 2}) {
+    Driver driver(scene_of(
+        fmt::format("[[body]]\nname = \"b\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.6\nyoung = 1000\n"
+                    "poisson = 0.3\norder = {}\n[[load]]\nbody = \"b\"\non = \"boundary\"\npressure = "
+                    "3\n[[spring]]\nbody = \"b\"\non = \"boundary\"\nstiffness = 1e-3\n"
+                    "[[probe]]\nname = \"p\"\nbody = \"b\"\nat = [{:.17g}, {:.17g}]\n[solver]\ntolerance = 1e-12\n",
+                    order, std::cos(0.7), std::sin(0.7))));
+    const std::vector<double> value = driver.solve().last().probes[0].value;
+    const double shrunk = 3 * 1.3 * 0.4 / 1000;  // p (1 + nu) (1 - 2 nu) / E
+    EXPECT_NEAR(std::hypot(value[0], value[1]) / shrunk, 1, order == 1 ? 1e-2 : 1e-3) << order;
+  }
 }
 
 }  // namespace

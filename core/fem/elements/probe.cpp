@@ -19,6 +19,7 @@ namespace signorini {
 namespace {
 
 constexpr double boundary_rounding = 1e-6;  // of the vertices of mesh files in single precision
+constexpr double beside_surface = 1e-3;     // of a face: a point written with few digits is on its curve
 
 template <int D>
 bool in_bounding_box(const Mesh<D>& mesh, const Simplex<D>& vertices, const Point<D>& x) {
@@ -74,6 +75,11 @@ double longest_edge_of(const std::array<Point<D>, D>& corner) {
   return longest;
 }
 
+template <int D>
+bool is_shape(const Mesh<D>& mesh, const Face<D>& face) {
+  return face.curve >= 0 && mesh.curves[face.curve].is_shape();
+}
+
 // The largest angle at which a flat face and one beside it meet, as long as they meet smoothly.
 template <int D>
 double smooth_turn(const Mesh<D>& mesh, const Face<D>& face) {
@@ -85,28 +91,30 @@ double smooth_turn(const Mesh<D>& mesh, const Face<D>& face) {
   const Point<D> n = unit_normal(face);
   double cosine = 1;
   for (const Face<D>& other : mesh.boundary) {
-    if (other.curve >= 0 && mesh.curves[other.curve].is_shape()) continue;
+    if (is_shape(mesh, other)) continue;
     if (std::ranges::find_first_of(face.vertices, other.vertices) == face.vertices.end()) continue;
     if (const double c = dot(n, unit_normal(other)); c > smooth_cosine) cosine = std::min(cosine, c);
   }
   return std::acos(cosine);
 }
 
-// How far outside a face the body may reach in truth.
+// How far outside a face the body may reach in truth where this point is. Of a shape no farther than that does.
 template <int D>
-double slack(const Mesh<D>& mesh, const Face<D>& face) {
+double slack(const Mesh<D>& mesh, const Face<D>& face, const Point<D>& point) {
   const double h = longest_edge_of<D>(corners_of(mesh, face));
-  const bool shape = face.curve >= 0 && mesh.curves[face.curve].is_shape();
-  const double turn =
-      shape ? h / least_radius<D>(mesh.curves[face.curve], mesh.points[face.vertices[0]]) : smooth_turn(mesh, face);
-  return h * (turn / 2 + boundary_rounding);
+  if (!is_shape(mesh, face)) return h * (smooth_turn(mesh, face) / 2 + boundary_rounding);
+  const Curve<D>& curve = mesh.curves[face.curve];
+  Point<D> outwards = area_normal(mesh, face);
+  normalise(outwards);
+  if (dot(difference<D>(point, project<D>(curve, point)), outwards) > beside_surface * h) return h * boundary_rounding;
+  return h * (h / least_radius<D>(curve, mesh.points[face.vertices[0]]) / 2 + boundary_rounding);
 }
 
 template <int D>
 struct Outside {
   Point<D> nearest{};
   double distance = infinity;
-  Index element = -1;
+  Index face = -1;
   double slack = 0;  // the largest of the faces that the nearest point lies on
 };
 
@@ -117,11 +125,12 @@ Outside<D> outside(const Mesh<D>& mesh, const Point<D>& point) {
   for (const Face<D>& face : mesh.boundary) {
     const Point<D> candidate = nearest_on_face(corners_of(mesh, face), point);
     distances.push_back(distance<D>(candidate, point));
-    if (distances.back() < out.distance) out = {candidate, distances.back(), face.element, 0};
+    if (distances.back() < out.distance)
+      out = {candidate, distances.back(), static_cast<Index>(distances.size()) - 1, 0};
   }
   for (std::size_t f = 0; f < distances.size(); ++f)
     if (distances[f] <= out.distance * (1 + boundary_rounding))
-      out.slack = std::max(out.slack, slack(mesh, mesh.boundary[f]));
+      out.slack = std::max(out.slack, slack<D>(mesh, mesh.boundary[f], point));
   return out;
 }
 
@@ -138,10 +147,12 @@ std::pair<Index, std::array<std::size_t, D + 1>> family_of(const Mesh<D>& mesh, 
   return {static_cast<Index>(found - mesh.families.begin()), at};
 }
 
-/// Newton's method for the point of a curved element: the start is that of the straight one.
+/// Newton's method for the point of a curved element: the start is that of the straight one, and stays where there is
+/// none.
 template <int D>
 void move_to(const Point<D>& x, const ElementMap<D, D, 2>& map, std::array<double, D + 1>& barycentric) {
   constexpr int enough = 20;
+  const std::array<double, D + 1> start = barycentric;
   for (int k = 0; k < enough && map.curved(); ++k) {
     const LinearElement<D> flat = linear_element(map.flat(barycentric));
     const Point<D> left = difference<D>(x, map(barycentric));
@@ -153,6 +164,7 @@ void move_to(const Point<D>& x, const ElementMap<D, D, 2>& map, std::array<doubl
     }
     if (moved <= rounding_of_differences) return;
   }
+  barycentric = start;
 }
 
 }  // namespace
@@ -180,10 +192,15 @@ template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin) {
   if (const auto place = containing<D>(mesh, point)) return *place;
   const Outside<D> found = outside<D>(mesh, point);
-  if (!(found.distance <= found.slack))
-    input_error(origin, fmt::format("point ({}) lies outside the body; the nearest point of the body is ({}), {} away",
-                                    fmt::join(point, ", "), fmt::join(found.nearest, ", "), found.distance));
-  return {found.element, barycentric<D>(mesh, mesh.elements[found.element], found.nearest)};
+  const Face<D>& face = mesh.boundary[found.face];
+  if (!(found.distance <= found.slack)) {
+    const Point<D> nearest = is_shape(mesh, face) ? project<D>(mesh.curves[face.curve], point) : found.nearest;
+    input_error(origin,
+                fmt::format("point ({}) lies outside the body; the nearest point of the body is ({}), {:.6g} away",
+                            fmt::join(point, ", "), fmt::join(nearest, ", "), distance<D>(nearest, point)));
+  }
+  const bool on_face = found.distance <= boundary_rounding * longest_edge_of<D>(corners_of(mesh, face));
+  return {face.element, barycentric<D>(mesh, mesh.elements[face.element], on_face ? found.nearest : point)};
 }
 
 template Place<2> locate<2>(const Mesh<2>&, const Point<2>&, std::string_view);

@@ -100,5 +100,21 @@ TEST(Probe, BetweenAFaceAndItsCurveIsFound) {
     }
 }
 
+// Values are those at the point itself, not at the nearest one of a flat face; beyond a shape the distance from it is
+// told.
+TEST(Probe, BetweenAFaceAndItsCurveReadsThere) {
+  const Mesh<2> mesh = polygon(6, true);
+  const auto linear = [](const Point<2>& x) { return 1 + 2 * x[0] - 3 * x[1]; };
+  std::vector<double> u;
+  for (const auto& x : mesh.points) u.push_back(linear(x));
+  const double angle = std::numbers::pi / 7;
+  for (const double r : {0.9, 1.0, 1 + 1e-4}) {
+    const Point<2> x{r * std::cos(angle), r * std::sin(angle)};
+    EXPECT_NEAR((evaluate<1, 2>(mesh, locate<2>(mesh, x, ""), u)[0]), linear(x), 1e-13) << r;
+  }
+  EXPECT_THAT(complaint<2>(mesh, {1.03 * std::cos(angle), 1.03 * std::sin(angle)}),
+              AllOf(HasSubstr("lies outside the body"), HasSubstr("0.03 away")));
+}
+
 }  // namespace
 }  // namespace signorini::testing
