@@ -63,16 +63,15 @@ void stay(DiscreteProblem<B>& problem, std::vector<double>& x, std::vector<doubl
   for (double& bound : problem.constraints.upper) bound = std::max(bound, 0.0);
 }
 
-/// The right-hand side of the loads and prescribed values of now.
+}  // namespace
+
 template <int B>
-void prescribe_anew(Discretization<B>& discretization) {
+void place_loads(Discretization<B>& discretization) {
   DiscreteProblem<B>& problem = discretization.problem;
   problem.b = local_forces(problem, discretization.load);
   discretization.prescribed.take_load(problem.b);
   prescribe(problem, discretization.prescribed);
 }
-
-}  // namespace
 
 template <int B>
 MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<double> way,
@@ -91,7 +90,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   problem.constraints.move(way_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = rest(x[i], way_[i]);
   for (std::size_t k = 0; k < of_springs.size(); ++k) discretization.load[k] += of_springs[k];
-  prescribe_anew(discretization);
+  place_loads(discretization);
   if (rests(problem, rest)) stay(problem, x, pressure);
   const std::vector<double> moved = to_global(problem, way_);
   problem.prescribed_work += (dot(moved, load_) + dot(moved, discretization.load)) / 2;  // springs are linear
@@ -111,7 +110,7 @@ double MovedProblem<B>::back() {
   std::swap(c.upper, upper_);
   std::swap(c.facet, facet_);
   discretization_.load = std::move(load_);
-  prescribe_anew(discretization_);
+  place_loads(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];
   for_each_prescribed(problem, [&](std::size_t i) { x_[i] = problem.start[i]; });
@@ -125,8 +124,11 @@ double MovedProblem<B>::back() {
   return acting > 0 ? forces(problem, x_).rounding / acting : 0;
 }
 
+template void place_loads(Discretization<1>&);
 template class MovedProblem<1>;
+template void place_loads(Discretization<2>&);
 template class MovedProblem<2>;
+template void place_loads(Discretization<3>&);
 template class MovedProblem<3>;
 
 }  // namespace signorini

@@ -5,6 +5,11 @@
 
 namespace signorini {
 
+/// The right-hand side of the loads and prescribed values of a discretization, without a load that follows the solution,
+/// and what is known of reactions.
+template <int B>
+void place_loads(Discretization<B>& discretization);
+
 /// A problem as seen by a body that has moved rigidly: what is sought is what is left of its displacement. A stiff body
 /// falls far and deforms little. Rounding of the whole way would hide the forces that deform it, and a residual of the
 /// size of that rounding would be all that iterations can reach; what is left has only its own.

@@ -8,16 +8,18 @@
 
 #include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
+#include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
 #include "core/base/release.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/assembly/admissible_sets.hpp"
 #include "core/fem/assembly/check_functionals.hpp"
-#include "core/fem/elements/nested.hpp"
 #include "core/fem/assembly/springs.hpp"
+#include "core/fem/elements/nested.hpp"
 #include "core/fem/incompressible/pressure_load.hpp"
 #include "core/mesh/families.hpp"
 #include "core/solver/admissible.hpp"
+#include "core/solver/convergence.hpp"
 #include "core/solver/interpolate.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "core/solver/sticking.hpp"
@@ -61,8 +63,6 @@ void add_force(const std::vector<double>& force, double sign, std::vector<double
   for (std::size_t k = 0; k < force.size(); ++k) load[k] += sign * force[k];
 }
 
-template <int D, int B>
-using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
 /// What springs exert on a body that has moved by `way`, local coordinates, in global ones.
 template <int D, int B>
 std::vector<double> spring_load(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem,
@@ -73,6 +73,8 @@ std::vector<double> spring_load(const Nodes<D>& nodes, const Model<B>& model, co
   return forces;
 }
 
+template <int D, int B>
+using LoadOf = std::conditional_t<D == B, PressureLoad<D>, NoPressure>;
 
 }  // namespace
 
@@ -157,11 +159,8 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   if (model.follows) here.before.numbers.hand_to(solution.discretization);
   problem.cheap_to_factorise = level < factorised_;
   if (!here.force.empty()) {
-    Discretization<B>& discretization = solution.discretization;
-    add_force(here.force, 1, discretization.load);
-    problem.b = local_forces(problem, discretization.load);
-    discretization.prescribed.take_load(problem.b);
-    prescribe(problem, discretization.prescribed);
+    add_force(here.force, 1, solution.discretization.load);
+    place_loads(solution.discretization);
   }
   solution.x = problem.start;
   if (!solution.discretization.functional.empty()) {
@@ -492,6 +491,25 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     throw Error(Exit::no_solution, fmt::format("{}: {}", model.origin, solution.summary.reason));
 }
 
+/// What soft springs alone hold has little energy, which cycles neither see nor take away: it is found by itself. Where
+/// that changes more than the tolerance cycles find what else depends on it.
+template <int D, int B>
+void NestedSolver<D, B>::rest_on_springs(const Model<B>& model, const SolverOptions& options,
+                                         const LooseBody<D, B>& body, Solution<B>& solution) {
+  constexpr int enough = 5;
+  for (int k = 0; k < enough && solution.summary.converged() && !progress_.is_ended(); ++k) {
+    const double moved = body.rest_on_springs(solution.x);
+    const DiscreteProblem<B>& problem = solution.discretization.problem;
+    std::vector<double> r(solution.x.size());
+    residual<B>(problem.A, solution.x.data(), problem.b.data(), r.data());
+    if (moved <= options.tolerance * std::sqrt(energy_norm_squared(problem, solution.x, r))) return;
+    std::vector<Stage> before = std::move(solution.summary.stages);
+    place_loads(solution.discretization);
+    solve_level(model, levels_.size() - 1, options, &body, solution);
+    solution.summary.put_in_front(std::move(before));
+  }
+}
+
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
@@ -509,6 +527,7 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
     solve_level(model, levels_.size() - 1, options, nullptr, solution);
     solution.summary.put_in_front(std::move(before));
   }
+  if (moves) rest_on_springs(model, options, body, solution);
   if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
   if (!moves && !body.held() && solution.summary.converged() && body.is_far_away(solution.x)) {
     solution.summary.outcome = Outcome::stuck;

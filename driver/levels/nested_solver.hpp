@@ -123,6 +123,8 @@ class NestedSolver {
   std::vector<double> refined_pressure(std::size_t level, const std::vector<double>& coarse) const;
   void continue_algebraically(DiscreteProblem<B>& coarsest);
   void choose_levels_below(const Model<B>& model);
+  void rest_on_springs(const Model<B>& model, const SolverOptions& options, const LooseBody<D, B>& body,
+                       Solution<B>& solution);
   void solve_finest(const Model<B>& model, Solution<B>& solution);
   void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>* body,
                    Solution<B>& solution);  // without a body it is not moved first

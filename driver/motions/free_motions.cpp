@@ -32,6 +32,12 @@ Eigen::MatrixXd not_in_springs(const Nodes<D>& nodes, const Model<B>& model, con
   return rows.complete() ? Eigen::MatrixXd(free.rows(), 0) : Eigen::MatrixXd(free * rows.null_space());
 }
 
+/// Those of the first space that are across the second one, which is a part of it.
+Eigen::MatrixXd across(const Eigen::MatrixXd& space, const Eigen::MatrixXd& part) {
+  if (part.cols() == 0 || space.cols() == part.cols()) return space.leftCols(space.cols() - part.cols());
+  return space * null_space(part.transpose() * space, rounding_of_bases);
+}
+
 }  // namespace
 
 template <int D, int B>
@@ -40,7 +46,9 @@ FreeMotions<D, B>::FreeMotions(const Nodes<D>& nodes, const Model<B>& model, con
       model(model),
       discretization(discretization),
       motions(nodes, model.plane, bodies_of(nodes, model)),
-      free(not_in_springs(nodes, model, motions, motions.free(discretization.problem))) {
+      unfixed(motions.free(discretization.problem)),
+      free(not_in_springs(nodes, model, motions, unfixed)),
+      sprung(across(unfixed, free)) {
   if (!none()) add_work();
 }
 
@@ -60,8 +68,8 @@ void FreeMotions<D, B>::add_work() {
 }
 
 template <int D, int B>
-auto FreeMotions<D, B>::rooms(const std::vector<double>& x) const -> std::vector<Room> {
-  std::vector<Room> out = gaps(x);
+auto FreeMotions<D, B>::rooms(const std::vector<double>& x, const Eigen::MatrixXd& of) const -> std::vector<Room> {
+  std::vector<Room> out = gaps(x, of);
   for (Room& room : out) {
     room.lower = std::min(room.lower, 0.0);
     room.upper = std::max(room.upper, 0.0);
@@ -70,7 +78,7 @@ auto FreeMotions<D, B>::rooms(const std::vector<double>& x) const -> std::vector
 }
 
 template <int D, int B>
-auto FreeMotions<D, B>::gaps(const std::vector<double>& x) const -> std::vector<Room> {
+auto FreeMotions<D, B>::gaps(const std::vector<double>& x, const Eigen::MatrixXd& of) const -> std::vector<Room> {
   std::vector<Room> out;
   const DiscreteProblem<B>& problem = discretization.problem;
   const auto add = [&](Index p, const Eigen::RowVectorXd& row, double lower, double upper, double normal) {
@@ -83,7 +91,7 @@ auto FreeMotions<D, B>::gaps(const std::vector<double>& x) const -> std::vector<
       if (lower == -infinity && upper == infinity) continue;
       const Index p = problem.constraints.vector[slot];
       const double value = x[Offset{p} * B + k];
-      add(p, motions.along(problem, p, k) * free, lower - value, upper - value, k == normal_component(slot) ? 1 : 0);
+      add(p, motions.along(problem, p, k) * of, lower - value, upper - value, k == normal_component(slot) ? 1 : 0);
     }
   each_polyhedron([&](Index slot) {
     const Constraints<B>& c = problem.constraints;
@@ -94,7 +102,7 @@ auto FreeMotions<D, B>::gaps(const std::vector<double>& x) const -> std::vector<
       block::product<B>(problem.frames.dual_at(p), face.normal, direction);
       for (int k = 0; k < B; ++k) value += face.normal[k] * x[Offset{p} * B + k];
       const int k = normal_component(slot);
-      add(p, motions.along(problem, p, direction) * free, face.lower - value, face.upper - value,
+      add(p, motions.along(problem, p, direction) * of, face.lower - value, face.upper - value,
           k < 0 ? 0 : face.normal[k]);
     }
   });

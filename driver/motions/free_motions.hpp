@@ -7,7 +7,7 @@
 namespace signorini {
 
 /// Motions without energy, in springs either, that the prescribed values of a body leave, what loads do along them, and
-/// what bounds leave of them. Motions are coefficients of the columns of `free`.
+/// what bounds leave of them. Motions are coefficients of the columns of `free`, or of `sprung` where that is said.
 template <int D, int B>
 struct FreeMotions {
   /// Parts of the most that is possible: work of loads, components of motions.
@@ -30,9 +30,11 @@ struct FreeMotions {
   bool none() const { return free.cols() == 0; }
 
   /// What the bounds leave to an iterate; those that are not part of the problem, too.
-  std::vector<Room> gaps(const std::vector<double>& x) const;
+  std::vector<Room> gaps(const std::vector<double>& x) const { return gaps(x, free); }
   /// The same to an admissible iterate.
-  std::vector<Room> rooms(const std::vector<double>& x) const;
+  std::vector<Room> rooms(const std::vector<double>& x) const { return rooms(x, free); }
+  /// @param of motions, one per column
+  std::vector<Room> rooms(const std::vector<double>& x, const Eigen::MatrixXd& of) const;
 
   /// Zero where there is none.
   double coefficient_of_friction(Index slot) const;
@@ -55,12 +57,15 @@ struct FreeMotions {
   const Model<B>& model;
   const Discretization<B>& discretization;
   const RigidMotions<D, B> motions;
-  const Eigen::MatrixXd free;  ///< columns: an orthonormal basis
-  Eigen::VectorXd work;        ///< of the loads along each of them
-  double most_work = 0;        ///< that loads of this size could do along a motion of length one
+  const Eigen::MatrixXd unfixed;  ///< columns: an orthonormal basis of what prescribed values leave
+  const Eigen::MatrixXd free;     ///< the same of those that have no energy in springs, either
+  const Eigen::MatrixXd sprung;   ///< the same of what is across these: springs alone hold it
+  Eigen::VectorXd work;           ///< of the loads along each of them
+  double most_work = 0;           ///< that loads of this size could do along a motion of length one
 
  private:
   void add_work();
+  std::vector<Room> gaps(const std::vector<double>& x, const Eigen::MatrixXd& of) const;
 };
 
 }  // namespace signorini

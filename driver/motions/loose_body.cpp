@@ -12,6 +12,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/fem/assembly/assemble.hpp"
+#include "core/fem/assembly/springs.hpp"
 #include "core/fem/elements/select.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/force_split.hpp"
@@ -333,6 +334,52 @@ void LooseBody<D, B>::move_and_stay(const Eigen::VectorXd& motion, std::vector<d
       const bool touches = before[at] <= c.lower[Offset{slot} * B + k] || before[at] >= c.upper[Offset{slot} * B + k];
       if (touches && std::abs(x[at] - before[at]) <= stays * motion.norm()) x[at] = before[at];
     }
+}
+
+// Global coordinates.
+template <int D, int B>
+std::vector<double> LooseBody<D, B>::displacements(const Eigen::VectorXd& motion) const {
+  std::vector<double> out;
+  for (Index p = 0; p < body_.nodes.size(); ++p)
+    for (int i = 0; i < B; ++i) {
+      double axis[B] = {};
+      axis[i] = 1;
+      out.push_back(body_.motions.along(p, axis) * motion);
+    }
+  return out;
+}
+
+// Of forces at nodes, global coordinates, along each column.
+template <int D, int B>
+Eigen::VectorXd LooseBody<D, B>::work_along(const std::vector<double>& forces, const Eigen::MatrixXd& of) const {
+  typename Motions::Row sum = Motions::Row::Zero(body_.motions.count());
+  for (Index p = 0; p < body_.nodes.size(); ++p) sum += body_.motions.along(p, forces.data() + Offset{p} * B);
+  return of.transpose() * sum.transpose();
+}
+
+// min 1/2 c'Hc - g'c as the bounds allow, in coordinates in which H is the identity.
+template <int D, int B>
+double LooseBody<D, B>::rest_on_springs(std::vector<double>& x) const {
+  const Eigen::MatrixXd& basis = body_.sprung;
+  if (basis.cols() == 0) return 0;
+  Eigen::MatrixXd H(basis.cols(), basis.cols());
+  for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+    std::vector<double> forces(x.size());
+    add_spring_forces(body_.nodes, body_.model, displacements(basis.col(k)), forces);
+    H.col(k) = -work_along(forces, basis);
+  }
+  std::vector<double> forces = body_.discretization.load;
+  add_spring_forces(body_.nodes, body_.model, to_global(body_.discretization.problem, x), forces);
+  const Eigen::MatrixXd factor = cholesky((H + H.transpose()) / 2);
+  const auto L = factor.triangularView<Eigen::Lower>();
+  const Eigen::VectorXd best = L.solve(work_along(forces, basis));
+  if (!best.allFinite()) return 0;  // stiffness of springs that is lost beside that of others
+  std::vector<Slab> slabs;
+  for (const Room& room : body_.rooms(x, basis))
+    slabs.push_back({L.solve(room.row.transpose()).transpose(), room.lower, room.upper});
+  const Eigen::VectorXd moved = exactly_within(best, slabs);
+  move_and_stay(basis * L.transpose().solve(moved), x);
+  return moved.norm();
 }
 
 template <int D, int B>

@@ -36,6 +36,12 @@ class LooseBody {
   /// the size of the body.
   bool is_far_away(const std::vector<double>& x) const;
 
+  /// Moves x (local coordinates) by the rigid motion of those that springs alone hold, beside obstacles, which lowers
+  /// the energy most. Only springs, loads and bounds see it: where springs are soft that is little beside the stiffness
+  /// of the body, and iterations hardly do.
+  /// @return the energy norm of the motion, user's unit
+  double rest_on_springs(std::vector<double>& x) const;
+
   /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
   /// least mean square. What the obstacles press on keeps its contact.
   /// @return names of motions that span those which nothing decides
@@ -61,6 +67,8 @@ class LooseBody {
   Eigen::MatrixXd undecided(const std::vector<Room>& rooms, const Eigen::MatrixXd& costless, double size) const;
   Eigen::VectorXd least_motion(const std::vector<double>& x, const std::vector<Room>& rooms,
                                const Eigen::MatrixXd& costless) const;
+  std::vector<double> displacements(const Eigen::VectorXd& motion) const;
+  Eigen::VectorXd work_along(const std::vector<double>& forces, const Eigen::MatrixXd& of) const;
   void move(const Eigen::VectorXd& motion, std::vector<double>& x) const;
   void move_and_stay(const Eigen::VectorXd& motion, std::vector<double>& x) const;
 
