@@ -14,11 +14,11 @@ struct Place {
   std::array<double, D + 1> barycentric;
 };
 
-/// The simplex of a mesh around a point. A point outside the mesh is one beyond the nearest face, outside its simplex, if
-/// it may lie between that and the curve that the face stands for: up to a shape, but for a thousandth of the face, and
-/// up to h^2 / (2 R), four times the height of an arc over its chord, with the face's longest edge h and the curve's
-/// radius R, or that of the faces around which it meets smoothly. Farther away it is an Error(Exit::input) that names
-/// `origin`, the position and the distance.
+/// The simplex of a mesh around a point. A point outside the mesh is one beyond the nearest face, outside its simplex,
+/// if it may lie between that and the curve that the face stands for: up to a shape, but for a thousandth of the face;
+/// and up to h^2 / (2 R), four times the height of an arc over its chord, with the face's longest edge h and the
+/// curve's radius R, or that of the faces around which it meets smoothly. Farther away it is an Error(Exit::input) that
+/// names `origin`, the position and the distance.
 template <int D>
 Place<D> locate(const Mesh<D>& mesh, const Point<D>& point, std::string_view origin);
 
