@@ -18,7 +18,7 @@ function(signorini_precompiled folder)
     get_target_property(type ${target} TYPE)
     get_target_property(libraries ${target} LINK_LIBRARIES)
     get_target_property(options ${target} COMPILE_OPTIONS)
-    list(REMOVE_ITEM libraries signorini_settings)
+    list(REMOVE_ITEM libraries signorini_settings signorini_sdk signorini::sdk)  # plugins read few of them, and no fmt
     if(type MATCHES "(MODULE|OBJECT|SHARED|STATIC)_LIBRARY" AND libraries MATCHES "signorini|fmt"
         AND NOT options MATCHES "ffp-contract")
       target_precompile_headers(${target} REUSE_FROM signorini_headers)
