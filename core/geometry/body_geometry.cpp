@@ -23,6 +23,7 @@ namespace {
 
 // Of the size of a piece: what digits in a file round away, what is flat, and what "fit" takes for a shape.
 constexpr double off_shape = 1e-6, flat = 1e-9, near = 1e-3;
+constexpr double least_common = 0.8;  // cosine: faces around the tip of a cone have no normal in common
 
 template <int D>
 Point<D> unit_normal(const std::array<Point<D>, D>& corner) {
@@ -423,7 +424,9 @@ class Chooser {
     for (const Index f : piece)
       for (const Index v : faces_[f]) {
         const Point<D> n = unit_normal(mesh_, mesh_.boundary[f]);
-        for (int k = 0; k < D; ++k) at[v][k] += n[k];
+        Point<D>& sum = at[v];
+        if (dot(sum, n) < least_common * length<D>(sum)) continue;
+        for (int k = 0; k < D; ++k) sum[k] += n[k];
       }
     for (auto& [v, n] : at) {
       const double size = length<D>(n);
@@ -478,8 +481,7 @@ class Chooser {
     return std::ranges::all_of(piece, [&](Index f) {
       for (int i = 0; i < D; ++i) {
         const Point<D>& p = mesh_.points[faces_[f][i]];
-        if (curve.kind == CurveKind::cone && least_radius<D>(curve, p) <= off_shape * size_of({f}))
-          continue;  // the tip
+        if (is_tip<D>(curve, p, size_of({f}))) continue;
         const auto off = height<D>(curve, p);
         if (!off) return false;
         const double along = dot(off->normal, corner_normal(mesh_, mesh_.boundary[f], i));

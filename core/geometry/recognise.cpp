@@ -79,21 +79,23 @@ VectorXd residual(const Curve<D>& curve, std::span<const Point<D>> points) {
 }
 
 /// By Gauss and Newton, steps halved where they do not pay. The points are about 1 in size.
+/// @param first of the numbers that may change
 template <int D>
-Curve<D> fitted(Curve<D> curve, std::span<const Point<D>> points) {
+Curve<D> fitted(Curve<D> curve, std::span<const Point<D>> points, int first = 0) {
   constexpr double step = 1e-6;
   const int n = numbers<D>(curve);
   VectorXd r = residual<D>(curve, points);
   for (int k = 0; k < most_steps; ++k) {
-    MatrixXd slope(r.size(), n);
-    for (int i = 0; i < n; ++i) {
+    MatrixXd slope(r.size(), n - first);
+    for (int i = first; i < n; ++i) {
       VectorXd by = VectorXd::Zero(n);
       by[i] = step;
-      slope.col(i) =
+      slope.col(i - first) =
           (residual<D>(changed<D>(curve, by), points) - residual<D>(changed<D>(curve, VectorXd(-by)), points)) /
           (2 * step);
     }
-    VectorXd by = -least_squares(slope, r).x;
+    VectorXd by = VectorXd::Zero(n);
+    by.tail(n - first) = -least_squares(slope, r).x;
     if (!by.allFinite()) return curve;
     bool better = false;
     for (int halving = 0; halving < 10 && !better; ++halving, by /= 2) {
@@ -107,6 +109,24 @@ Curve<D> fitted(Curve<D> curve, std::span<const Point<D>> points) {
     if (!better || by.norm() < 1e-15) break;
   }
   return curve;
+}
+
+double most(const VectorXd& residual) { return residual.cwiseAbs().maxCoeff(); }
+
+/// A point near a cone's tip is that if it may be, within `rounding`: beside the tip, on the cone's side, it is as
+/// near.
+template <int D>
+Curve<D> with_point_as_tip(const Curve<D>& curve, std::span<const Point<D>> points, double rounding) {
+  constexpr double near = 0.02;
+  if (curve.kind != CurveKind::cone) return curve;
+  const auto off = [&](const Point<D>& p) { return length<D>(difference<D>(p, curve.center)); };
+  const Point<D>& tip = *std::ranges::min_element(points, {}, off);
+  if (off(tip) > near) return curve;
+  Curve<D> moved = curve;
+  moved.center = tip;
+  moved = fitted<D>(moved, points, D);
+  const double now = most(residual<D>(moved, points));
+  return now <= rounding || now < most(residual<D>(curve, points)) ? moved : curve;
 }
 
 /// |p|^2 = 2 c.p + k, by linear least squares (Kasa, 1976).
@@ -249,8 +269,8 @@ std::optional<Recognised<D>> recognise(std::span<const Point<D>> points, std::sp
   const auto try_from = [&](const std::optional<Curve<D>>& start) {
     if (!start || (best && best->deviation <= rounding)) return;
     if (static_cast<int>(few.size()) <= numbers<D>(*start)) return;
-    Curve<D> curve = fitted<D>(*start, few);
-    const double deviation = own.unit * residual<D>(curve, own.points).cwiseAbs().maxCoeff();
+    const Curve<D> curve = with_point_as_tip<D>(fitted<D>(*start, few), few, rounding / own.unit);
+    const double deviation = own.unit * most(residual<D>(curve, own.points));
     const bool sound = curve.kind == Curve<D>::Kind::cone ? curve.second > 0 && curve.second < std::numbers::pi / 2
                                                           : curve.radius > 0 && curve.second >= 0;
     if (sound && deviation <= tolerance && (!best || deviation < best->deviation))

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/mesh/mesh.hpp"
+#include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
 
@@ -20,5 +21,13 @@ struct Recognised {
 template <int D>
 std::optional<Recognised<D>> recognise(std::span<const Point<D>> points, std::span<const Point<D>> normals,
                                        double rounding, double tolerance);
+
+/// Whether a corner of a face of a cone is its tip, where the cone has no normal.
+/// @param size the length of an edge that ends there
+template <int D>
+bool is_tip(const Curve<D>& curve, const Point<D>& p, double size) {
+  constexpr double near = 1e-3;  // of the edge
+  return curve.kind == CurveKind::cone && length<D>(difference<D>(p, curve.center)) <= near * size;
+}
 
 }  // namespace signorini::geometry

@@ -8,8 +8,11 @@
 #include "core/geometry/flat_parts.hpp"
 #include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
+#include "core/geometry/recognise.hpp"
+#include "core/geometry/shape_parts.hpp"
 #include "core/geometry/tips.hpp"
 #include "core/geometry/vector.hpp"
+#include "core/mesh/curve.hpp"
 #include "core/mesh/element_map.hpp"
 #include "core/mesh/simplex.hpp"
 
@@ -18,6 +21,7 @@ namespace {
 
 constexpr double same_plane = 1 - 2e-4;  // cosine, of a degree
 constexpr double least_rise = 0.25;      // cosine: how far a jet looks around the corner
+constexpr double same_normal = 1e-3;     // angle between shapes: more is an edge
 
 template <int D>
 void add(Point<D>& sum, double factor, const Point<D>& p) {
@@ -35,10 +39,13 @@ class Smoother {
 
   SmoothBoundary<D> run() {
     find_joints();
-    find_sides();
     flats_ = find_flat_parts<D>(points_, faces_, across_);
-    find_normals();
+    if (!joint_normal_) part_shapes();
+    find_tips();
+    find_sides();
     if constexpr (D == 3) find_crease_tangents();
+    find_normals();
+    if constexpr (D == 3) keep_in_planes();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       out_.patches.push_back(patch(f));
       auto& normals = out_.normals.emplace_back();
@@ -57,20 +64,90 @@ class Smoother {
 
   /// What faces have in common without an edge of the body.
   void find_joints() {
-    const Joints<D> joints = geometry::find_joints<D>(static_cast<Index>(points_.size()), faces_);
-    const Edges edges = find_edges<D>(points_, faces_, joints, crease_, joint_normal_);
-    joint_ = joints.number;
-    joints_ = joints.count;
-    across_ = joints.beyond;
-    is_tip_.assign(points_.size(), 0);
-    if constexpr (D == 3)
-      if (!joint_normal_) is_tip_ = find_tips(points_, faces_, joints, edges.sharp, crease_);
+    all_ = geometry::find_joints<D>(static_cast<Index>(points_.size()), faces_);
+    edges_ = find_edges<D>(points_, faces_, all_, crease_, joint_normal_);
+    if (!joint_normal_) join_planes();
+    find_across();
+  }
+
+  /// Within a plane there are no edges, whatever thin faces in it show once digits have been rounded away.
+  void join_planes() {
+    const FlatParts<D> planes = find_flat_parts<D>(points_, faces_, all_.beyond);
+    for (std::size_t i = 0; i < all_.beyond.size(); ++i)
+      if (const Index part = planes.part[i / D];
+          all_.beyond[i] >= 0 && part >= 0 && part == planes.part[all_.beyond[i] / D])
+        edges_.sharp[all_.number[i]] = 0;
+  }
+
+  void find_across() {
+    across_ = all_.beyond;
     out_.turn.assign(faces_.size(), 0);
     for (std::size_t i = 0; i < across_.size(); ++i)
-      if (edges.sharp[joint_[i]] != 0)
+      if (edges_.sharp[all_.number[i]] != 0)
         across_[i] = -1;
       else if (across_[i] >= 0)
-        out_.turn[i / D] = std::max(out_.turn[i / D], edges.angle[i]);
+        out_.turn[i / D] = std::max(out_.turn[i / D], edges_.angle[i]);
+  }
+
+  /// Shapes and planes that meet at an angle meet at an edge, whatever the faces beside it show.
+  void part_shapes() {
+    shapes_ = find_shape_parts<D>(points_, faces_, across_, flats_, crease_);
+    for (const Index i : shapes_.edges) edges_.sharp[all_.number[i]] = 1;
+    for (std::size_t i = 0; i < across_.size(); ++i) {
+      if (across_[i] < 0) continue;
+      const auto f = static_cast<Index>(i) / D, g = across_[i] / D;
+      if (shapes_.part[f] >= 0 && shapes_.part[f] == shapes_.part[g]) continue;
+      for (const Index v : joint_of<D>(faces_[f], static_cast<int>(i % D)))
+        if (const auto a = told_normal(f, v), b = told_normal(g, v);
+            a && b && length<D>(difference<D>(*a, *b)) > same_normal)
+          edges_.sharp[all_.number[i]] = 1;
+    }
+    find_across();
+  }
+
+  /// Of the plane or shape that a face is of, at a vertex; on the face's side.
+  std::optional<Point<D>> told_normal(Index f, Index v) const {
+    if (const Index part = flats_.part[f]; part >= 0) return flats_.normal[part];
+    const Index part = shapes_.part.empty() ? -1 : shapes_.part[f];
+    if (part < 0) return {};
+    const double size = length<D>(difference<D>(points_[faces_[f][1]], points_[faces_[f][0]]));
+    const auto off = height<D>(shapes_.shapes[part], points_[v]);
+    if (!off || geometry::is_tip<D>(shapes_.shapes[part], points_[v], size)) return {};
+    return scaled<D>(dot(off->normal, normal_[f]) < 0 ? -1 : 1, off->normal);
+  }
+
+  void find_tips() {
+    is_tip_.assign(points_.size(), 0);
+    if constexpr (D == 3) {
+      if (joint_normal_) return;
+      is_tip_ = geometry::find_tips(points_, faces_, all_, edges_.sharp, crease_);
+      find_fans();
+      for (std::size_t f = 0; f < faces_.size(); ++f) {
+        if (shapes_.part[f] < 0) continue;
+        const Curve<D>& shape = shapes_.shapes[shapes_.part[f]];
+        for (int i = 0; i < D; ++i) {
+          const Point<D>&p = points_[faces_[f][i]], &q = points_[faces_[f][(i + 1) % D]];
+          is_tip_[faces_[f][i]] = geometry::is_tip<D>(shape, p, length<D>(difference<D>(q, p)));
+        }
+      }
+    }
+  }
+
+  /// What all edges lead to an edge of the body from is the tip of a cone: they are straight.
+  void find_fans() {
+    std::vector<std::uint8_t> rim(points_.size(), 0), inner(points_.size(), 1);
+    for (std::size_t i = 0; i < across_.size(); ++i)
+      if (across_[i] < 0)
+        for (const Index v : joint_of<D>(faces_[i / D], static_cast<int>(i % D))) rim[v] = 1;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      for (int i = 0; i < D; ++i) {
+        const Index v = faces_[f][i];
+        if (rim[v] != 0 || flats_.part[f] >= 0 || rim[faces_[f][(i + 1) % D]] == 0 || rim[faces_[f][(i + 2) % D]] == 0)
+          inner[v] = 0;
+      }
+    for (const auto& face : faces_)
+      for (const Index v : face)
+        if (inner[v] != 0) is_tip_[v] = 1;
   }
 
   /// Corners of faces that belong together: at one vertex, and not across a crease. At tips each is one of its own.
@@ -100,18 +177,23 @@ class Smoother {
     const auto& corners = of_side_[s];
     if (is_tip_[vertex_of(s)] != 0) return normal_[corners[0] / D];
     Point<D> mean{};
-    Index plane = -1;
-    bool planes = false;
+    std::optional<Point<D>> told;
+    bool one = true;
     for (const Index i : corners) {
-      const Index f = i / D, part = flats_.part[f];
+      const Index f = i / D;
       add<D>(mean, angle_at(i), normal_[f]);
-      planes = planes || (plane >= 0 && part >= 0 && part != plane);
-      plane = std::max(plane, part);
+      const auto own = told_normal(f, vertex_of(s));
+      if (!own) continue;
+      if (told && length<D>(difference<D>(*own, *told)) > same_normal) one = false;
+      const bool flat = flats_.part[f] >= 0;
+      if (!told || (flat && side_flat_[s] == 0)) told = own;
+      if (flat) side_flat_[s] = 1;
     }
     mean = unit<D>(mean);
-    if (planes) return mean;
-    side_flat_[s] = plane >= 0;
-    if (plane >= 0) return flats_.normal[plane];
+    if (!one) side_flat_[s] = 0;
+    if (told) return one ? *told : mean;
+    if constexpr (D == 3)
+      if (const auto across = row_normal(corners, mean)) return *across;
     if constexpr (D == 2)
       if (const auto near_end = end_normal(corners)) return *near_end;
     const Point<D> first = jet_normal(s, mean);
@@ -202,18 +284,37 @@ class Smoother {
     return up;
   }
 
+  /// In a row of faces from edge to edge: across the edge's tangent and what leads straight to the other one. Where
+  /// several lead there, as between triangles, that which each of them turns about as much.
+  std::optional<Point<3>> row_normal(const std::vector<Index>& corners, const Point<3>& up) const {
+    const Index v = faces_[corners[0] / 3][corners[0] % 3];
+    if (!on_crease_[v] || crease_tangent_[v] == Point<3>{}) return {};
+    Point<3> ruling{};
+    for (const Index i : corners)
+      for (const Index k : {1, 2}) {
+        const Index at = i / 3 * 3 + (i % 3 + k) % 3, far = faces_[i / 3][(i % 3 + 3 - k) % 3];
+        if (across_[at] < 0) continue;
+        if (!on_crease_[far] && is_tip_[far] == 0) return {};
+        add<3>(ruling, edges_.angle[at], unit<3>(difference<3>(points_[far], points_[v])));
+      }
+    const Point<3> n = cross(crease_tangent_[v], unit<3>(ruling));
+    if (!(length<3>(n) > least_rise)) return {};
+    return unit<3>(dot(n, up) < 0 ? scaled<3>(-1, n) : n);
+  }
+
   /// Along creases and borders: the tangent of the circle through three vertices that follow each other; within the
   /// planes of flat parts.
   void find_crease_tangents() {
     std::vector<std::vector<std::pair<Index, Index>>> ends(points_.size());  // joint and other end
-    is_crease_.assign(static_cast<std::size_t>(joints_), 0);
+    is_crease_.assign(static_cast<std::size_t>(all_.count), 0);
     for (Index i = 0; i < static_cast<Index>(across_.size()); ++i) {
-      if (across_[i] >= 0 || is_crease_[joint_[i]]++) continue;
+      if (across_[i] >= 0 || is_crease_[all_.number[i]]++) continue;
       const auto [a, b] = joint_of<D>(faces_[i / D], i % D);
-      ends[a].push_back({joint_[i], b});
-      ends[b].push_back({joint_[i], a});
+      ends[a].push_back({all_.number[i], b});
+      ends[b].push_back({all_.number[i], a});
     }
     crease_tangent_.assign(points_.size(), {});
+    for (const auto& at : ends) on_crease_.push_back(at.empty() ? 0 : 1);
     for (std::size_t v = 0; v < ends.size(); ++v) {
       if (ends[v].size() != 2) continue;
       const Point<D> in = difference<D>(points_[v], points_[ends[v][0].second]),
@@ -224,6 +325,9 @@ class Smoother {
       add<D>(t, a / b, on);
       crease_tangent_[v] = unit<D>(t);
     }
+  }
+
+  void keep_in_planes() {
     for (std::size_t i = 0; i < side_.size(); ++i) {
       const std::size_t f = i / D;
       Point<D>& t = crease_tangent_[faces_[f][i % D]];
@@ -237,7 +341,7 @@ class Smoother {
   Point<D> direction(std::size_t f, int a, int b, const Point<D>& chord) const {
     if constexpr (D == 3) {
       const int tip = 3 - a - b;
-      if (is_crease_[joint_[f * D + tip]]) {
+      if (is_crease_[all_.number[f * D + tip]]) {
         const auto turned = [&](Point<D> t) { return dot(t, chord) < 0 ? scaled<D>(-1, t) : t; };
         if (const Point<D> t = crease_tangent_[faces_[f][a]]; t != Point<D>{}) return turned(t);
         Point<D> t = crease_tangent_[faces_[f][b]];
@@ -266,7 +370,27 @@ class Smoother {
         // So long that arcs of circles come out best: 4 tan(angle / 4) radii, the angle that of the arc.
         tangent[a][b] = scaled<D>(2 * size / (1 + std::max(0.0, dot(t, chord))), t);
       }
-    return patch_with_tangents<D>(corner, tangent);
+    CubicPatch<D> out = patch_with_tangents<D>(corner, tangent);
+    if constexpr (D == 3) put_middle(f, out);
+    return out;
+  }
+
+  /// Moves the middle of a patch onto the shape, or to where a line from a tip to its other side has it.
+  void put_middle(std::size_t f, CubicPatch<3>& patch) const {
+    constexpr double share = 2.0 / 9;  // of the middle control point there
+    constexpr double third = 1.0 / 3;
+    const Point<3> middle = patch.at({third, third, third});
+    Point<3> target = middle;
+    const Index part = shapes_.part.empty() ? -1 : shapes_.part[f];
+    if (part >= 0) target = project<3>(shapes_.shapes[part], middle);
+    for (int i = 0; i < 3 && part < 0; ++i) {
+      if (is_tip_[faces_[f][i]] == 0) continue;
+      std::array<double, 3> across{0.5, 0.5, 0.5};
+      across[i] = 0;
+      target = scaled<3>(third, points_[faces_[f][i]]);
+      add<3>(target, 2 * third, patch.at(across));
+    }
+    add<3>(patch.control.back(), 1 / share, difference<3>(target, middle));
   }
 
   std::span<const Point<D>> points_;
@@ -274,14 +398,16 @@ class Smoother {
   double crease_, cosine_;
   const JointNormal<D>& joint_normal_;
   std::vector<Point<D>> normal_;  // of the flat faces
-  std::vector<Index> joint_;      // per face and tip
-  Index joints_ = 0, count_ = 0;
+  Joints<D> all_;
+  Edges edges_;
+  Index count_ = 0;
   std::vector<Index> across_;  // per face and tip, the face and tip beyond; -1 at creases and borders
   std::vector<Index> side_;    // per face and corner
   std::vector<std::vector<Index>> of_side_;
   FlatParts<D> flats_;
+  ShapeParts<D> shapes_;
   double digits_ = rounded_away<D>(points_);  // length
-  std::vector<std::uint8_t> is_crease_, side_flat_;
+  std::vector<std::uint8_t> is_crease_, on_crease_, side_flat_;
   std::vector<std::uint8_t> is_tip_;  // per vertex
   std::vector<Point<D>> side_normal_, crease_tangent_;
   SmoothBoundary<D> out_;

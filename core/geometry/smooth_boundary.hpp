@@ -15,11 +15,14 @@ inline constexpr double default_crease = 35 * std::numbers::pi / 180;
 /// A smooth surface (2D: a curve) through the vertices of flat faces that keeps creases, see find_edges(): cubic
 /// patches, one per face, that have edges in common where faces have, and vertex normals in common but across creases.
 ///
-/// Normals are those of local polynomials through the vertex (jets: Cazals and Pouget, Estimating differential
-/// quantities using polynomial fitting of osculating jets, 2005), fitted to the vertices around it on its side of
-/// creases; flat parts of more than a row of faces stay flat. An edge is the cubic curve that leaves its ends in the
-/// tangent planes, on a sphere with exact normals up to the sixth power of its length. Between patches normals differ
-/// by the third power.
+/// What is on a cylinder, cone, sphere or torus, see find_shape_parts(), has the shape's normals; where shapes and
+/// planes meet at an angle there is an edge. Rows of faces from edge to edge are straight across.
+///
+/// Elsewhere normals are those of local polynomials through the vertex (jets: Cazals and Pouget, Estimating
+/// differential quantities using polynomial fitting of osculating jets, 2005), fitted to the vertices around it on its
+/// side of creases; flat parts of more than a row of faces stay flat. An edge is the cubic curve that leaves its ends
+/// in the tangent planes, on a sphere with exact normals up to the sixth power of its length. Between patches normals
+/// differ by the third power.
 template <int D>
 struct SmoothBoundary {
   std::vector<CubicPatch<D>> patches;  ///< per face
