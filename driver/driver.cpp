@@ -89,7 +89,8 @@ void Driver::check_adaptive() const {
   const auto fail = [&](const std::string& what) { input_error(scene_.refine.source.of("adaptive"), what); };
   if (bodies() > 1 || !solved_.bodies[0].parts.empty())
     fail(fmt::format("there are {} bodies, expected one", scene_.bodies.size()));
-  if (solved_.bodies[0].order > 1) fail("elements are quadratic (order = 2), expected linear ones, which can be cut in part");
+  if (solved_.bodies[0].order > 1)
+    fail("elements are quadratic (order = 2), expected linear ones, which can be cut in part");
   if (scene_.steps.count() > 1) fail(fmt::format("there are {} steps, expected one", scene_.steps.count()));
 }
 

@@ -5,8 +5,8 @@
 
 namespace signorini {
 
-/// The right-hand side of the loads and prescribed values of a discretization, without a load that follows the solution,
-/// and what is known of reactions.
+/// The right-hand side of the loads and prescribed values of a discretization, without a load that follows the
+/// solution, and what is known of reactions.
 template <int B>
 void place_loads(Discretization<B>& discretization);
 
