@@ -287,12 +287,13 @@ TEST(PairBodies, RefusesBodiesDeepInEachOther) {
   EXPECT_NO_THROW(pair_bodies(deep.nodes, deep.model, {}));
 }
 
-TEST(PairBodies, RefusesANodeOnSeveralSides) {
+TEST(PairBodies, RefuseWhatTwoObstaclesWithTheSameFacesLose) {
   Pair<2> pair(0);
   pair.model.obstacles.push_back(touching<2>());
   pair.model.obstacles[1].origin = "obstacle.1";
-  EXPECT_THAT(complaint<2>([&] { pair_bodies(pair.nodes, pair.model, {}); }),
-              AllOf(HasSubstr("obstacle.1"), HasSubstr("obstacle.0")));
+  const auto pairs = pair_bodies(pair.nodes, pair.model, {});
+  EXPECT_THAT(complaint<2>([&] { refuse_lost<2>(pair.nodes, pair.model, *pairs); }),
+              AllOf(HasSubstr("obstacle.1"), HasSubstr("expected one obstacle with the faces of both")));
 }
 
 template <int D>
