@@ -7,6 +7,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/elements/element.hpp"
 #include "core/mesh/mirror.hpp"
 
 namespace signorini {
