@@ -133,7 +133,8 @@ TEST_F(ResultFiles, PicturesDoNotTakeThePlaceOfResults) {
   fs::create_directory(folder_ / "disk");
   fs::create_directory(folder_ / "copy");
   const std::string program = SIGNORINI_BINARY_DIR "/bin/signorini";
-  for (const long more : {1L, 2L, pictures - pages("result.png") / 2, pictures - 1}) {
+  // Times and warnings make one run's report longer or shorter than another's: by a page where it is near its end.
+  for (const long more : {2L, 3L, pictures - pages("result.png") / 2, pictures - 2}) {
     const std::string size = std::to_string(4 * (results + more)) + "k";
     const std::string inside = "mount -t tmpfs -o size=" + size + " tmpfs disk && " + program +
                                " solve membrane.toml --out disk/p 2> .err && cp -r disk/p copy/" + std::to_string(more);
