@@ -10,7 +10,10 @@
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/multigrid.hpp"
+#include "methods/direct_newton_system.hpp"
 #include "methods/load_renewal.hpp"
+#include "methods/multigrid_newton_system.hpp"
+#include "methods/stages.hpp"
 
 namespace signorini {
 
@@ -24,15 +27,27 @@ bool treats_not(const Segment<B>& s) {
   return s.obstacle->functional() && !s.obstacle->friction();
 }
 
+template <int B>
+std::unique_ptr<NewtonSystem<B>> system_of(const DiscreteProblem<B>& problem,
+                                           std::span<const Prolongation> prolongations, const SolverOptions& options,
+                                           const Registry& registry) {
+  if (!problem.following && !prolongations.empty() &&
+      !automatic::may_factorise_for_newton(B, Offset{problem.A.size()} * B))
+    return std::make_unique<MultigridNewtonSystem<B>>(problem, prolongations, options, registry);
+  return std::make_unique<DirectNewtonSystem<B>>(problem.A, problem.following,
+                                                 registry.create<UnsymmetricSolver>("unsymmetric", "umfpack"));
+}
+
 }  // namespace
 
 template <int B>
 NewtonIteration<B>::NewtonIteration(const DiscreteProblem<B>& problem, std::vector<double>& x,
-                                    const SolverOptions& options, const Registry& registry)
+                                    const SolverOptions& options, const Registry& registry,
+                                    std::span<const Prolongation> prolongations)
     : Iteration<B>(problem, x, options),
       level_(finest_level(problem)),
       load_(problem.following),
-      system_(problem.A, load_, registry.create<UnsymmetricSolver>("unsymmetric", "umfpack")) {
+      system_(system_of(problem, prolongations, options, registry)) {
   check(problem);
   read_laws();
 }
@@ -101,13 +116,13 @@ void NewtonIteration<B>::linearise() {
   for (Index p = 0; p < level_.vectors; ++p) {
     const Index slot = level_.constraints.slot[p];
     if (slot < 0) {
-      system_.set_row(p, unit, none);
+      system_->set_row(p, unit, none);
       continue;
     }
     const Offset at = Offset{p} * B;
     double by_force[B * B], by_value[B * B];
     states_[slot] = equations(slot).evaluate(y_.data() + at, force_.data() + at, d_.data() + at, by_force, by_value);
-    system_.set_row(p, by_force, by_value);
+    system_->set_row(p, by_force, by_value);
   }
   if (!load_) return;
   load_->correct(y_, change_, of_load_);
@@ -144,8 +159,7 @@ template <int B>
 bool NewtonIteration<B>::solve() {
   const double before = merit();
   linearise();
-  if (!system_.factorise()) return false;
-  system_.solve(d_);
+  if (!system_->factorise() || !system_->solve(d_)) return false;
   const std::vector<double> start = y_;
   if (load_) load_start_ = load_->values();
   double best = infinity, part = 1;
@@ -177,7 +191,7 @@ template <int B>
 typename NewtonIteration<B>::Step NewtonIteration<B>::advance() {
   const double begin = seconds();
   this->x_before_ = this->x_;
-  if (system_.factorisations() == 0) {
+  if (system_->factorisations() == 0) {
     y_ = this->x_;
     force_ = this->r_before_;
     for (double& f : force_) f = -f;
@@ -247,9 +261,9 @@ LevelReport NewtonIteration<B>::report(const std::vector<State>& last) const {
 
 template <int B>
 void NewtonIteration<B>::add_work(Stage& stage) const {
-  stage.linear = "umfpack";
-  stage.linear_solves = system_.solves();
-  stage.factorisations = system_.factorisations();
+  stage.linear = system_->name();
+  stage.linear_solves = system_->solves();
+  stage.factorisations = system_->factorisations();
 }
 
 // By the matrix of the last step.
@@ -260,8 +274,8 @@ std::optional<double> NewtonIteration<B>::response(const std::vector<double>& fo
   for (Index slot = 0; slot < c.size(); ++slot)
     for (int k = 0; k < B; ++k)
       if (states_[slot].side[k] != 0 || rests_on(slot, k)) d[Offset{c.vector[slot]} * B + k] = 0;
-  d.resize(static_cast<std::size_t>(system_.size()));
-  system_.solve(d);
+  d.resize(static_cast<std::size_t>(system_->size()));
+  if (!system_->solve(d)) return {};
   return std::sqrt(std::abs(std::inner_product(forces.begin(), forces.end(), d.begin(), 0.0)));
 }
 

@@ -1,16 +1,20 @@
 #pragma once
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/component/registry.hpp"
 #include "core/solver/iteration.hpp"
+#include "core/solver/prolongation.hpp"
 #include "methods/complementarity.hpp"
 #include "methods/newton_system.hpp"
 
 namespace signorini {
 
-/// A semismooth Newton method for contact and friction with a direct solver, which solves for a load that follows the
-/// solution, too: a reference to compare the other methods with, quadratic once the sets of what touches, sticks and
-/// slips rest. Its formulation is its own (complementarity.hpp) and shares nothing with the sweeps. Iterates may leave
+/// A semismooth Newton method for contact and friction, which solves for a load that follows the solution, too: a
+/// reference to compare the other methods with, quadratic once the sets of what touches, sticks and slips rest. Its
+/// formulation is its own (complementarity.hpp) and shares nothing with the sweeps. Linear systems are factorised where
+/// that is affordable or a load follows, else they are solved by multigrid, to few digits. Iterates may leave
 /// the bounds; what is measured and returned is the one next to them that is on them where it touches, and has not
 /// moved where it sticks. There is no guarantee that it converges.
 template <int B>
@@ -21,8 +25,9 @@ class NewtonIteration final : public Iteration<B> {
   /// Error(Exit::input) where an obstacle adds anything but friction to the energy, or there are facets.
   static void check(const DiscreteProblem<B>& problem);
   /// Errors as of check().
+  /// @param prolongations coarsest first; none: systems are factorised
   NewtonIteration(const DiscreteProblem<B>& problem, std::vector<double>& x, const SolverOptions& options,
-                  const Registry& registry);
+                  const Registry& registry, std::span<const Prolongation> prolongations);
 
  private:
   using typename Iteration<B>::Step;
@@ -50,7 +55,7 @@ class NewtonIteration final : public Iteration<B> {
 
   Level<B> level_;
   FollowingLoad<B>* load_;
-  NewtonSystem<B> system_;
+  std::unique_ptr<NewtonSystem<B>> system_;
   std::vector<FrictionLaw> laws_;      // per slot
   std::vector<Flags> tangential_;      // per slot
   std::vector<double> stiffness_;      // B per slot

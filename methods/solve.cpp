@@ -98,7 +98,7 @@ class Automatic {
   Summary result_of(const automatic::Attempt& attempt, Start start) {
     switch (attempt.kind) {
       case Kind::newton:
-        return steps_of<NewtonIteration<B>>(attempt);
+        return steps_of<NewtonIteration<B>>(attempt, prolongations_);
       case Kind::active_sets:
         return steps_of<ActiveSetIteration<B>>(attempt, attempt.solver, automatic::shift_if_singular);
       case Kind::interior_points:
@@ -212,7 +212,8 @@ std::unique_ptr<Iteration<B>> iteration(Method method, const DiscreteProblem<B>&
                 "'pdas' solves for displacements alone, and nearly incompressible material has pressures of its own; "
                 "expected 'auto', 'monotone', 'tnnmg' or 'newton', or pressure = \"none\" in the body");
   if (method == Method::pdas) return std::make_unique<ActiveSetIteration<B>>(problem, x, options, registry);
-  if (method == Method::newton) return std::make_unique<NewtonIteration<B>>(problem, x, options, registry);
+  if (method == Method::newton)
+    return std::make_unique<NewtonIteration<B>>(problem, x, options, registry, prolongations);
   SolverOptions own = options;
   if (method == Method::pgs) {  // what is left without coarser levels
     own.coarse = "pgs";

@@ -28,7 +28,7 @@ constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'00
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
 bool coarsens(const Situation& s) { return !s.functional && s.block == 1 && 2 * s.coarsest <= s.unknowns; }
-bool newton_suits(const Situation& s) { return s.friction && newton_is_affordable(s.block, s.unknowns); }
+bool newton_suits(const Situation& s) { return s.friction && may_factorise_for_newton(s.block, s.unknowns); }
 bool factorisable(const Situation& s) { return !s.functional && s.unknowns <= most_for_direct; }
 
 // The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
@@ -102,7 +102,7 @@ const std::vector<Attempt>& stages() {
       {.name = "Newton's method with friction and pressures",
        .kind = Kind::newton,
        .method = "newton",
-       .solver = "umfpack",
+       .solver = "",
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
        .begins = fmt::format("with friction or nearly incompressible material, for at most {} unknowns, in space {}",
                              number(most_for_friction), number(most_for_friction_in_space)),
@@ -201,7 +201,8 @@ const std::vector<Attempt>& attempts_around() {
        .method = "nested start",
        .solver = "",
        .begins = fmt::format("with friction that all stages of `auto` leave unsolved before `max_iterations`, up to {} "
-                             "steps on each mesh; the next load step begins with the stages again",
+                             "steps on each mesh, with multigrid for the linear systems of large ones; the next load "
+                             "step begins with the stages again",
                              newton_steps),
        .purpose = "stacks of soft and stiff blocks: what few cycles leave on a coarse mesh has slid far away",
        .most_steps = newton_steps,
@@ -249,8 +250,12 @@ std::vector<std::string> solvers_for_active_sets(int block, Offset unknowns, Off
   return out;
 }
 
-bool newton_is_affordable(int block, Offset unknowns) {
+bool may_factorise_for_newton(int block, Offset unknowns) {
   return unknowns <= (block == 3 ? most_for_friction_in_space : most_for_friction);
+}
+
+bool newton_is_affordable(int block, Offset unknowns, bool levels, bool following) {
+  return (levels && !following) || may_factorise_for_newton(block, unknowns);
 }
 
 bool others_suit(const Situation& s) { return s.functional || coarsens(s) || factorisable(s); }

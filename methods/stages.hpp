@@ -98,7 +98,9 @@ inline constexpr int patience_with_friction = 100;
 inline constexpr int most_slides = 4;
 
 /// Whether the factorisations of Newton's method with friction and pressures are affordable.
-bool newton_is_affordable(int block, Offset unknowns);
+bool may_factorise_for_newton(int block, Offset unknowns);
+/// Whether its steps are: without a load that follows, multigrid solves its systems as well.
+bool newton_is_affordable(int block, Offset unknowns, bool levels, bool following);
 
 /// Whether cycles that have begun need not go on to their end: some other method suits.
 bool others_suit(const Situation& situation);

@@ -25,8 +25,8 @@ constexpr OptionRow<S> table[] = {
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
      "pdas: primal-dual active sets with a direct solver; newton: the same with friction and the pressures of nearly "
      "incompressible material, a semismooth Newton method; auto: monotone, tnnmg while phases rest, pdas where cycles "
-     "are slow and unknowns no more than 150000 or scalar, newton where friction or such pressures are not found and "
-     "they are no more than 100000, in space 20000",
+     "are slow and unknowns no more than 150000 or scalar, newton where friction is not found, and where such "
+     "pressures are not and unknowns are no more than 100000, in space 20000",
      always, "See docs/theory/auto.md."},
     {"cycle", &S::cycle, "V | W | F", "shape of the cycle", always,
      "With `start = \"nested\"`, the default, any of them is full multigrid."},

@@ -75,7 +75,8 @@ bool NestedSolver<D, B>::newton_may_do(const Solution<B>& solution) const {
   const Outcome outcome = solution.summary.outcome;
   if (options_.method != "auto" || (outcome != Outcome::stuck && outcome != Outcome::inaccurate)) return false;
   const DiscreteProblem<B>& problem = solution.discretization.problem;
-  return NewtonIteration<B>::suits(problem) && automatic::newton_is_affordable(B, std::ssize(problem.b));
+  return NewtonIteration<B>::suits(problem) &&
+         automatic::newton_is_affordable(B, std::ssize(problem.b), levels_.size() > 1, problem.following);
 }
 
 /// Levels of the meshes are kept for all steps to come; Newton's method is for the step at hand, and the next one is

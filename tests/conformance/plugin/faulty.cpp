@@ -178,7 +178,7 @@ class Plane final : public FunctionalObstacle<2, GivenFriction<2>, GivenFriction
       if (has("depends_on_order")) c.lower[0] -= 1e-3 * static_cast<double>(i);
       if (has("depends_on_calls")) c.lower[0] -= 1e-3 * ++calls;
       if (has("minds_threads") && i == 0 && count > 1) {
-        if (++inside > 1) c.lower[0] -= 1;  // another thread is here, too
+        if (++inside > 1) c.lower[0] -= 1;                            // another thread is here, too
         std::this_thread::sleep_for(std::chrono::microseconds(200));  // once a call: a sleep can last a millisecond
         --inside;
       }

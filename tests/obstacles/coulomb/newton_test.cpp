@@ -94,6 +94,15 @@ TEST(Newton, FrictionInSpace) {
   expect_like_newton<3>(tresca, {State::sticks, State::slips});
 }
 
+// 26 928 unknowns are more than are factorised in space.
+TEST(Newton, GoesOnByMultigridWhereFactorisationsAreDear) {
+  const SceneText scene = block3(coulomb(plane3, "0.3"), 4);
+  const auto newton = run<3, 3>(scene, {"solver.method=newton"});
+  EXPECT_EQ(newton.summary().stages.back().linear, "multigrid");
+  EXPECT_LE(newton.summary().iterations, 20);
+  expect_like_newton<3>(scene, {State::sticks, State::slips});
+}
+
 /// The smallest and largest coordinates of a surface file.
 std::array<Point<3>, 2> extent(const std::filesystem::path& file) {
   std::array<Point<3>, 2> out{Point<3>{infinity, infinity, infinity}, Point<3>{-infinity, -infinity, -infinity}};

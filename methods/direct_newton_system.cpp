@@ -1,4 +1,4 @@
-#include "methods/newton_system.hpp"
+#include "methods/direct_newton_system.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -8,8 +8,8 @@
 namespace signorini {
 
 template <int B>
-NewtonSystem<B>::NewtonSystem(const BlockMatrix<B>& A, const FollowingLoad<B>* load,
-                              std::unique_ptr<UnsymmetricSolver> linear)
+DirectNewtonSystem<B>::DirectNewtonSystem(const BlockMatrix<B>& A, const FollowingLoad<B>* load,
+                                          std::unique_ptr<UnsymmetricSolver> linear)
     : A_(A), linear_(std::move(linear)), place_(A.column.size()) {
   if (load) load_ = load->matrices();
   transpose();
@@ -21,7 +21,7 @@ NewtonSystem<B>::NewtonSystem(const BlockMatrix<B>& A, const FollowingLoad<B>* l
 }
 
 template <int B>
-void NewtonSystem<B>::transpose() {
+void DirectNewtonSystem<B>::transpose() {
   first_.assign(static_cast<std::size_t>(A_.size()) + 1, 0);
   for (const Index p : load_.column) ++first_[p + 1];
   for (Index p = 0; p < A_.size(); ++p) first_[p + 1] += first_[p];
@@ -33,7 +33,7 @@ void NewtonSystem<B>::transpose() {
 
 // With ascending columns: there the diagonal block is not the first one, as it is in A.
 template <int B>
-void NewtonSystem<B>::add_vector(Index p, std::vector<Offset>& start, std::vector<Index>& column) {
+void DirectNewtonSystem<B>::add_vector(Index p, std::vector<Offset>& start, std::vector<Index>& column) {
   const Offset first = A_.row[p], count = A_.row[p + 1] - first;
   const auto others = A_.column.begin() + first + 1;
   const Offset before = std::lower_bound(others, others + (count - 1), p) - others;
@@ -55,7 +55,7 @@ void NewtonSystem<B>::add_vector(Index p, std::vector<Offset>& start, std::vecto
 
 // No step changes these.
 template <int B>
-void NewtonSystem<B>::add_load(Index k, std::vector<Offset>& start, std::vector<Index>& column) {
+void DirectNewtonSystem<B>::add_load(Index k, std::vector<Offset>& start, std::vector<Index>& column) {
   for (Offset at = load_.row[k]; at < load_.row[k + 1]; ++at)
     for (int i = 0; i < B; ++i) {
       column.push_back(load_.column[at] * B + i);
@@ -69,7 +69,7 @@ void NewtonSystem<B>::add_load(Index k, std::vector<Offset>& start, std::vector<
 }
 
 template <int B>
-void NewtonSystem<B>::set_row(Index p, const double* by_force, const double* by_value) {
+void DirectNewtonSystem<B>::set_row(Index p, const double* by_force, const double* by_value) {
   const Offset blocks = A_.row[p + 1] - A_.row[p], stride = blocks * B + first_[p + 1] - first_[p];
   for (Offset m = A_.row[p]; m < A_.row[p + 1]; ++m) {
     double block[B * B];
@@ -87,19 +87,20 @@ void NewtonSystem<B>::set_row(Index p, const double* by_force, const double* by_
 }
 
 template <int B>
-bool NewtonSystem<B>::factorise() {
+bool DirectNewtonSystem<B>::factorise() {
   ++factorisations_;
   return linear_->factorise(values_);
 }
 
 template <int B>
-void NewtonSystem<B>::solve(std::vector<double>& b) {
+bool DirectNewtonSystem<B>::solve(std::vector<double>& b) {
   ++solves_;
   linear_->solve(b);
+  return true;
 }
 
-template class NewtonSystem<1>;
-template class NewtonSystem<2>;
-template class NewtonSystem<3>;
+template class DirectNewtonSystem<1>;
+template class DirectNewtonSystem<2>;
+template class DirectNewtonSystem<3>;
 
 }  // namespace signorini
