@@ -37,7 +37,8 @@ class ShapeFinder {
     }
   }
 
-  ShapeParts<D> run() {
+  /// @param beyond see find_shape_parts()
+  ShapeParts<D> run(const std::vector<Index>& beyond) {
     std::vector<std::uint8_t> done(faces_.size(), 0);
     for (Index f = 0; f < static_cast<Index>(faces_.size()); ++f) {
       if (done[f] != 0) continue;
@@ -45,6 +46,7 @@ class ShapeFinder {
       for (const Index g : piece) done[g] = 1;
       look_at(piece);
     }
+    take_in(beyond);
     return std::move(out_);
   }
 
@@ -55,6 +57,7 @@ class ShapeFinder {
   static constexpr double spread = 4;                      // or times what digits round away
   static constexpr double coplanar = 1e-6;                 // angle
   static constexpr double least_common = 0.8;              // cosine: faces around a tip have no normal in common
+  static constexpr double alike = 1.5;                     // turns of faces on one shape
   static constexpr int most_attempts = 100;                // from which faces of a piece
   static constexpr std::size_t few = D == 2 ? 6 : 16;      // vertices that tell a shape, beside each other,
   static constexpr std::size_t of_plates = 9, of_row = 8;  // or of three plates; or that a row may be on
@@ -167,6 +170,44 @@ class ShapeFinder {
       if (is_tip<D>(curve, points_[v], longest_[f])) return true;
       return side * dot(off->normal, normal_[f]) >= cosine;
     });
+  }
+
+  /// The angle between a face and a shape that its corners are on, at most.
+  double turn_of(const Curve<D>& curve, Index f, double side) const {
+    double least = 1;
+    for (const Index v : faces_[f])
+      if (const auto off = height<D>(curve, points_[v]); off && !is_tip<D>(curve, points_[v], longest_[f]))
+        least = std::min(least, side * dot(off->normal, normal_[f]));
+    return std::acos(least);
+  }
+
+  /// Faces beside those on a shape, which edges have cut off: alone, or as a flat part.
+  void take_in(const std::vector<Index>& beyond) {
+    std::vector<Faces> of_shape(out_.shapes.size()), of_flat(flats_.normal.size());
+    for (Index f = 0; f < static_cast<Index>(faces_.size()); ++f) {
+      if (out_.part[f] >= 0) of_shape[out_.part[f]].push_back(f);
+      if (flats_.part[f] >= 0) of_flat[flats_.part[f]].push_back(f);
+    }
+    for (std::size_t k = 0; k < of_shape.size(); ++k) {
+      Faces& faces = of_shape[k];
+      const Curve<D>& shape = out_.shapes[k];
+      const double side = side_of(shape, faces[0]), reach = reach_of(faces);
+      double most = 0;
+      for (const Index f : faces) most = std::max(most, alike * turn_of(shape, f, side));
+      const auto fits = [&](Index f) { return is_on(shape, f, side, reach) && turn_of(shape, f, side) <= most; };
+      for (std::size_t at = 0; at < faces.size(); ++at)
+        for (int tip = 0; tip < D; ++tip) {
+          const Index there = beyond[faces[at] * D + tip], g = there < 0 ? -1 : there / D;
+          if (g < 0 || out_.part[g] >= 0 || dot(normal_[g], normal_[faces[at]]) < std::cos(crease_)) continue;
+          const Faces alone{g}, &group = flats_.part[g] < 0 ? alone : of_flat[flats_.part[g]];
+          if (!std::ranges::all_of(group, fits)) continue;
+          for (const Index f : group) {
+            flats_.part[f] = -1;
+            out_.part[f] = static_cast<Index>(k);
+          }
+          faces.insert(faces.end(), group.begin(), group.end());
+        }
+    }
   }
 
   bool put(const Faces& group) {
@@ -338,13 +379,14 @@ class ShapeFinder {
 
 template <int D>
 ShapeParts<D> find_shape_parts(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                               const std::vector<Index>& across, FlatParts<D>& flats, double crease) {
-  return ShapeFinder<D>(points, faces, across, flats, crease).run();
+                               const std::vector<Index>& across, const std::vector<Index>& beyond, FlatParts<D>& flats,
+                               double crease) {
+  return ShapeFinder<D>(points, faces, across, flats, crease).run(beyond);
 }
 
 template ShapeParts<2> find_shape_parts<2>(std::span<const Point<2>>, const std::vector<std::array<Index, 2>>&,
-                                           const std::vector<Index>&, FlatParts<2>&, double);
+                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<2>&, double);
 template ShapeParts<3> find_shape_parts<3>(std::span<const Point<3>>, const std::vector<std::array<Index, 3>>&,
-                                           const std::vector<Index>&, FlatParts<3>&, double);
+                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<3>&, double);
 
 }  // namespace signorini::geometry

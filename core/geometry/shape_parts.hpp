@@ -19,12 +19,15 @@ struct ShapeParts {
 /// Faces that belong together, by `across`, are looked at as a whole, then without flat parts, then by what some of
 /// them are on: a few beside each other, or three plates whose lines have three vertices or more. Rows of plates with
 /// two vertices across tell nothing by themselves, for every surface of revolution has cones in it: their profile does,
-/// see find_profile_edges(). What others leave over is looked at again, and may be flat as well.
+/// see find_profile_edges(). What others leave over is looked at again, and may be flat as well. In the end, faces
+/// beside a shape that are exactly on it, and turn no farther than its own, belong to it, whatever edges say.
 /// @param across per face and tip the face and tip beyond, D times its number and the tip; -1 at edges and borders
-/// @param flats gets what is left over between others and flat
+/// @param beyond the same for all joints; -1 at borders
+/// @param flats gets what is left over between others and flat, and loses what belongs to shapes
 /// @param crease angle in radians: faces at as much to a shape do not stand for it
 template <int D>
 ShapeParts<D> find_shape_parts(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                               const std::vector<Index>& across, FlatParts<D>& flats, double crease);
+                               const std::vector<Index>& across, const std::vector<Index>& beyond, FlatParts<D>& flats,
+                               double crease);
 
 }  // namespace signorini::geometry

@@ -66,16 +66,14 @@ class Smoother {
   void find_joints() {
     all_ = geometry::find_joints<D>(static_cast<Index>(points_.size()), faces_);
     edges_ = find_edges<D>(points_, faces_, all_, crease_, joint_normal_);
-    if (!joint_normal_) join_planes();
+    if (!joint_normal_) join_parts(find_flat_parts<D>(points_, faces_, all_.beyond).part);
     find_across();
   }
 
-  /// Within a plane there are no edges, whatever thin faces in it show once digits have been rounded away.
-  void join_planes() {
-    const FlatParts<D> planes = find_flat_parts<D>(points_, faces_, all_.beyond);
+  /// Within a plane or a shape there are no edges, whatever thin faces in it show once digits have been rounded away.
+  void join_parts(const std::vector<Index>& parts) {
     for (std::size_t i = 0; i < all_.beyond.size(); ++i)
-      if (const Index part = planes.part[i / D];
-          all_.beyond[i] >= 0 && part >= 0 && part == planes.part[all_.beyond[i] / D])
+      if (const Index part = parts[i / D]; all_.beyond[i] >= 0 && part >= 0 && part == parts[all_.beyond[i] / D])
         edges_.sharp[all_.number[i]] = 0;
   }
 
@@ -91,7 +89,9 @@ class Smoother {
 
   /// Shapes and planes that meet at an angle meet at an edge, whatever the faces beside it show.
   void part_shapes() {
-    shapes_ = find_shape_parts<D>(points_, faces_, across_, flats_, crease_);
+    shapes_ = find_shape_parts<D>(points_, faces_, across_, all_.beyond, flats_, crease_);
+    join_parts(shapes_.part);
+    find_across();
     for (const Index i : shapes_.edges) edges_.sharp[all_.number[i]] = 1;
     for (std::size_t i = 0; i < across_.size(); ++i) {
       if (across_[i] < 0) continue;
