@@ -23,6 +23,8 @@ constexpr double far_stiffer = 100;
 /// Contact is where bodies are closest: up to this part of a face's length farther apart. Bodies dent each other less
 /// than that on meshes that show it.
 constexpr double depth = 0.1;
+/// Prescribed nodes count where contact may come to: up to this part of a face's length farther apart.
+constexpr double within_reach = 1;
 /// Faces that differ by less are of the same size.
 constexpr double as_fine = 1.01;
 /// Up to this factor moduli and faces are one: what the choice is by must not depend on rounding.
@@ -39,9 +41,10 @@ struct SideFacts {
   bool may_be_slave() const { return !prescribed() && taken.empty(); }
 };
 
-/// Of a side the faces that are closest to the other body.
+/// Of a side the faces that are closest to the other body, or up to a part of their length farther apart.
 template <int D>
-std::vector<Index> closest(const Mesh<D>& mesh, const std::vector<Index>& faces, const MortarCoupling<D>& coupling) {
+std::vector<Index> closest(const Mesh<D>& mesh, const std::vector<Index>& faces, const MortarCoupling<D>& coupling,
+                           double part) {
   if (coupling.nodes() == 0) return faces;
   const double least = *std::ranges::min_element(coupling.gap);
   const auto gap = [&](Index v) {
@@ -52,7 +55,7 @@ std::vector<Index> closest(const Mesh<D>& mesh, const std::vector<Index>& faces,
   std::vector<Index> out;
   for (const Index f : faces) {
     const auto& corners = mesh.boundary[f].vertices;
-    const double limit = least + depth * longest_edge(mesh, mesh.boundary[f]);
+    const double limit = least + part * longest_edge(mesh, mesh.boundary[f]);
     if (std::ranges::any_of(corners, [&](Index v) { return gap(v) <= limit; })) out.push_back(f);
   }
   return out;
@@ -108,13 +111,11 @@ class Chooser {
   }
 
   void look_at_pair(Index k) {
-    const Mesh<D>& mesh = nodes_.mesh();
     const ObstacleTerm<D>& term = model_.obstacles[k];
-    const PairedFaces faces = paired_faces(mesh, term, model_.t);
+    const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
     const auto there = couple_sides(nodes_, model_, term, faces.slave, faces.master);
     const auto back = couple_sides(nodes_, model_, term, faces.master, faces.slave);
-    facts_[k] = {facts(k, closest(mesh, faces.slave, there), there, back.column),
-                 facts(k, closest(mesh, faces.master, back), back, there.column)};
+    facts_[k] = {facts(k, faces.slave, there, back.column), facts(k, faces.master, back, there.column)};
   }
 
   /// No slave may be where a rigid obstacle acts.
@@ -126,7 +127,7 @@ class Chooser {
 
   /// @param own the coupling with this side as the slave
   /// @param seen vertices of it in the other one
-  SideFacts facts(Index k, const std::vector<Index>& near, const MortarCoupling<D>& own,
+  SideFacts facts(Index k, const std::vector<Index>& faces, const MortarCoupling<D>& own,
                   const std::vector<Index>& seen) {
     SideFacts out;
     for (const std::vector<Index>* vertices : {&own.node, &seen})
@@ -134,7 +135,9 @@ class Chooser {
     std::ranges::sort(out.nodes);
     out.nodes.erase(std::unique(out.nodes.begin(), out.nodes.end()), out.nodes.end());
     mark(k, out.nodes);
-    out.fixed = prescribed_nodes(nodes_, fixes_, own);
+    const std::vector<Index> reached = vertices_of(closest(nodes_.mesh(), faces, own, within_reach));
+    out.fixed = prescribed_nodes(nodes_, fixes_, own, &reached);
+    const std::vector<Index> near = closest(nodes_.mesh(), faces, own, depth);
     double area = 0;
     for (const Index f : near) {
       const Face<D>& face = nodes_.mesh().boundary[f];
@@ -145,6 +148,14 @@ class Chooser {
     }
     out.modulus /= area;
     out.size = std::pow(area / static_cast<double>(near.size()), 1.0 / (D - 1));
+    return out;
+  }
+
+  std::vector<Index> vertices_of(const std::vector<Index>& faces) const {
+    std::vector<Index> out;
+    for (const Index f : faces)
+      for (const Index v : nodes_.mesh().boundary[f].vertices) out.push_back(v);
+    std::ranges::sort(out);
     return out;
   }
 
@@ -189,10 +200,11 @@ class Chooser {
 
 template <int D>
 PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
-                                 const MortarCoupling<D>& coupling) {
+                                 const MortarCoupling<D>& coupling, const std::vector<Index>* only) {
   PrescribedNodes out;
-  out.all = coupling.nodes();
   for (Index n = 0; n < coupling.nodes(); ++n) {
+    if (only && !std::ranges::binary_search(*only, coupling.node[n])) continue;
+    ++out.all;
     const Index p = nodes.of_vertex(coupling.node[n]);
     const auto at = std::ranges::lower_bound(fixes, p, {}, &FixedDirections<D>::vertex);
     if (at == fixes.end() || at->vertex != p) continue;
@@ -223,9 +235,9 @@ void exchange_sides(const std::vector<SlaveChoice>& choices, Model<D>& model) {
 }
 
 template PrescribedNodes prescribed_nodes(const Nodes<2>&, const std::vector<FixedDirections<2>>&,
-                                          const MortarCoupling<2>&);
+                                          const MortarCoupling<2>&, const std::vector<Index>*);
 template PrescribedNodes prescribed_nodes(const Nodes<3>&, const std::vector<FixedDirections<3>>&,
-                                          const MortarCoupling<3>&);
+                                          const MortarCoupling<3>&, const std::vector<Index>*);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<2>&, const Model<2>&);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<3>&, const Model<3>&);
 template void exchange_sides(const std::vector<SlaveChoice>&, Model<2>&);

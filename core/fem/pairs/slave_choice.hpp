@@ -24,9 +24,10 @@ struct PrescribedNodes {
   /// Friction is lost at most nodes.
   bool without_friction() const { return 2 * some > all; }
 };
+/// @param only of these vertices, ascending; null: of all
 template <int D>
 PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
-                                 const MortarCoupling<D>& coupling);
+                                 const MortarCoupling<D>& coupling, const std::vector<Index>* only = nullptr);
 
 /// One per obstacle of the model; of those that act on one body the reason is empty. Where the model leaves it open the
 /// slave is the softer body, by the moduli next to the faces that are closest to the other body; where they differ by

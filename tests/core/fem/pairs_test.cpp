@@ -408,6 +408,17 @@ TEST(SlaveChoice, IsNoBodyThatIsPrescribedOrTaken) {
   EXPECT_THAT(c.choose().reason, HasSubstr("obstacle.1"));
 }
 
+// A wedge whose side is in front of the other body up to its upper end, which is held.
+TEST(SlaveChoice, DoesNotMindWhatIsPrescribedFarFromContact) {
+  for (const double slope : {0.0, 2.0}) {
+    Choice c(8, 2);
+    for (Index v = unit_mesh<2>(2).vertices(); v < c.mesh.vertices(); ++v)
+      c.mesh.points[v][1] += slope * (1 - c.mesh.points[v][0]);
+    c.model.fixes = {fix<2>("up/left", {0.0, 0.0})};
+    EXPECT_EQ(c.choose().exchanged, slope == 0) << slope;
+  }
+}
+
 TEST(SlaveChoice, IsWhatTheSceneSaysAndExchangesSides) {
   Choice c;
   c.set_moduli(10, 1);
