@@ -7,8 +7,9 @@
 
 namespace signorini {
 
-double relative_change(const std::vector<double>& change, const std::vector<double>& values) {
-  const double moved = max_norm(change), size = max_norm(values);
+template <int B>
+double relative_change(const std::vector<double>& change, const FollowingLoad<B>& load) {
+  const double moved = max_norm(change), size = std::max(max_norm(load.values()), load.size());
   return size > 0 ? moved / size : moved > 0 ? infinity : 0;
 }
 
@@ -27,7 +28,7 @@ typename LoadRenewal<B>::Renewed LoadRenewal<B>::renew(const std::vector<double>
   if (out.combined) load_.correct(x, change_, S_change_);  // what is left now
   out.squared = squared_ = dot(change_, S_change_);
   if (squared_ > 0) least_ = std::min(least_, squared_);
-  out.change = relative_change(change_, load_.values());
+  out.change = relative_change(change_, load_);
   return out;
 }
 
@@ -40,6 +41,9 @@ bool LoadRenewal<B>::combine(std::vector<double>& x) {
   return true;
 }
 
+template double relative_change(const std::vector<double>&, const FollowingLoad<1>&);
+template double relative_change(const std::vector<double>&, const FollowingLoad<2>&);
+template double relative_change(const std::vector<double>&, const FollowingLoad<3>&);
 template class LoadRenewal<1>;
 template class LoadRenewal<2>;
 template class LoadRenewal<3>;

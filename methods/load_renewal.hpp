@@ -6,8 +6,9 @@
 
 namespace signorini {
 
-/// The largest change over the largest of what changes.
-double relative_change(const std::vector<double>& change, const std::vector<double>& values);
+/// The largest change over the largest of what changes, or FollowingLoad::size().
+template <int B>
+double relative_change(const std::vector<double>& change, const FollowingLoad<B>& load);
 
 /// Renews a load that follows the solution (core/solver/following_load.hpp) after each cycle, and accelerates the
 /// iteration of both while most phases rest.

@@ -217,7 +217,7 @@ template <int B>
 void NewtonIteration<B>::measure_load() {
   load_->correct(this->x_, change_, of_load_);
   this->sums_.correction += dot(change_, of_load_);
-  this->residual_of_load_ = relative_change(change_, load_->values());
+  this->residual_of_load_ = relative_change(change_, *load_);
 }
 
 /// What touches is on its bound, and what sticks where it was.

@@ -40,7 +40,19 @@ void check_coefficients(const Scene& scene) {
     expect_finite(body.young, body.source.of("young"));
     expect_finite(body.poisson, body.source.of("poisson"));
     expect_finite(body.diffusion, body.source.of("diffusion"));
+    expect_finite(body.expansion, body.source.of("expansion"));
+    expect_finite(body.temperature, body.source.of("temperature"));
   }
+}
+
+/// A body's temperature acts in all of it: what a part of another material does then is not left to a default.
+void check_expansion(const Scene& scene, const Scene::Material& m) {
+  const bool wanted = scene.body(m.body).source.given("expansion");
+  if (m.expansion && !wanted)
+    input_error(m.source.of("expansion"), fmt::format("'expansion' has no meaning where body '{}' has none", m.body));
+  if (!m.expansion && wanted)
+    input_error(m.source.table, fmt::format("missing key 'expansion', required where body '{}' has it", m.body));
+  if (m.expansion) expect_finite(*m.expansion, m.source.of("expansion"));
 }
 
 // What the equation takes, and nothing else.
@@ -59,6 +71,7 @@ void check_materials(const Scene& scene) {
     check("young", m.young, !diffusion);
     check("poisson", m.poisson, !diffusion);
     check("diffusion", m.diffusion, diffusion);
+    check_expansion(scene, m);
     if (!std::holds_alternative<Scene::MeshFile>(scene.body(m.body).shape))
       input_error(
           m.source.of("volume"),

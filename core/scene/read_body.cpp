@@ -77,7 +77,7 @@ void cut_at_axis(Scene::Body& body) {
 void read_material(const TableReader& reader, Scene::Body& body) {
   const std::string where = fmt::format("for equation = '{}'", reader.text("equation"));
   if (body.equation == Scene::Equation::diffusion) {
-    for (const char* key : {"young", "poisson"}) reader.forbid(key, where);
+    for (const char* key : {"young", "poisson", "expansion", "temperature"}) reader.forbid(key, where);
     if (body.plane != Plane::axisymmetric) reader.forbid("plane", where + ", unless it is 'axisymmetric'");
     body.diffusion = reader.field("diffusion");
     return;
@@ -86,6 +86,9 @@ void read_material(const TableReader& reader, Scene::Body& body) {
   for (const char* key : {"young", "poisson"}) reader.require(key, where);
   body.young = reader.field("young");
   body.poisson = reader.field("poisson");
+  if (reader.given("temperature")) reader.require("expansion", "by 'temperature'");
+  if (reader.given("expansion")) body.expansion = reader.field("expansion");
+  body.temperature = reader.field("temperature");
 }
 
 // What is left to "auto" is decided when all materials are known.

@@ -34,8 +34,8 @@ Scene::Material read_material(const RawTable& table, const std::filesystem::path
   const auto field = [&](const char* key) {
     return reader.given(key) ? std::optional<Field>(reader.field(key)) : std::nullopt;
   };
-  return {reader.text("body"), reader.text("volume"), field("young"),
-          field("poisson"),    field("diffusion"),    reader.source()};
+  return {reader.text("body"), reader.text("volume"), field("young"), field("poisson"),
+          field("diffusion"),  field("expansion"),    reader.source()};
 }
 
 Scene::Fix read_fix(const RawTable& table, const std::filesystem::path& folder) {

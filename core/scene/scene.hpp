@@ -55,12 +55,13 @@ struct Scene {
     BodyShape shape;
     std::optional<Field> size;  ///< target edge length; for the shapes that are meshed freely
     Equation equation = Equation::elasticity;
-    Field young = 1, poisson = 0;      ///< elasticity
-    Field diffusion = 1;               ///< diffusion
-    Plane plane = Plane::strain;       ///< 2D
-    int order = 0;                     ///< of the elements, 1 or 2; 0: what choose_elements() takes
-    bool order_chosen = false;         ///< by it, and not by the scene
-    std::optional<Pressure> pressure;  ///< where material is nearly incompressible; the reader leaves none empty
+    Field young = 1, poisson = 0;          ///< elasticity
+    Field expansion = 0, temperature = 0;  ///< elasticity
+    Field diffusion = 1;                   ///< diffusion
+    Plane plane = Plane::strain;           ///< 2D
+    int order = 0;                         ///< of the elements, 1 or 2; 0: what choose_elements() takes
+    bool order_chosen = false;             ///< by it, and not by the scene
+    std::optional<Pressure> pressure;      ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
     std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/scene/touching_bodies.hpp
 
@@ -73,7 +74,7 @@ struct Scene {
   /// Of a physical group of elements, in place of the body's own. What the body's equation has no use for is empty.
   struct Material {
     std::string body, volume;
-    std::optional<Field> young, poisson, diffusion;
+    std::optional<Field> young, poisson, diffusion, expansion;
     Source source;
   };
 

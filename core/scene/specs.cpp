@@ -19,6 +19,9 @@ constexpr KeySpec body[] = {
     {"equation", text, "elasticity", "elasticity | diffusion", "", "diffusion: one scalar unknown"},
     {"young", field, "", "(0, inf)", "", "Young's modulus; required for elasticity"},
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio; required for elasticity"},
+    {"temperature", field, "0", "", "",
+     "change of temperature from where the body fits without stress; with `expansion`. See docs/thermal.md"},
+    {"expansion", field, "", "", "", "coefficient of thermal expansion: strain per change of temperature"},
     {"plane", text, "strain", "strain | stress | axisymmetric", "",
      "what holds across the plane, 2D only; axisymmetric: x is the radius and y the axis, scalar bodies too"},
     {"diffusion", field, "1", "(0, inf)", "", "coefficient of a diffusion equation"},
@@ -75,6 +78,7 @@ constexpr KeySpec material[] = {
     {"volume", text, nullptr, "", "", "a physical group of its tetrahedra (2D: triangles)"},
     {"young", field, "", "(0, inf)", "", "Young's modulus there; required for elasticity"},
     {"poisson", field, "", "(-1, 0.5)", "", "Poisson's ratio there; required for elasticity"},
+    {"expansion", field, "", "", "", "coefficient of thermal expansion there; required where the body has one"},
     {"diffusion", field, "", "(0, inf)", "", "coefficient there; required for diffusion equations"},
 };
 

@@ -38,9 +38,11 @@ bool any(const RawValue& raw) {
   }
 }
 
-bool any(const Scene::Body& body) { return any(body.young) || any(body.poisson) || any(body.diffusion); }
+bool any(const Scene::Body& body) {
+  return any(body.young) || any(body.poisson) || any(body.diffusion) || any(body.expansion) || any(body.temperature);
+}
 bool any(const Scene::Material& material) {
-  return any(material.young) || any(material.poisson) || any(material.diffusion);
+  return any(material.young) || any(material.poisson) || any(material.diffusion) || any(material.expansion);
 }
 bool any(const Scene::Fix& fix) { return any(fix.on.where) || any(fix.value); }
 bool any(const Scene::Load& load) {

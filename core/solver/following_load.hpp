@@ -8,9 +8,9 @@ namespace signorini {
 /// A load -C'p by unknowns p beside those of the problem, which follow the solution from cycle to cycle, such as the
 /// pressure of nearly incompressible material. What is sought is the saddle point of
 ///
-///     1/2 x'Ax - b'x + p'Cx - 1/2 p'Mp    over all admissible x, for the p that makes it largest:
+///     1/2 x'Ax - b'x + p'(Cx - g) - 1/2 p'Mp    over all admissible x, for the p that makes it largest:
 ///
-/// a cycle lowers it with p frozen, then p is corrected by S^-1 (C x - M p) with an approximation S of
+/// a cycle lowers it with p frozen, then p is corrected by S^-1 (C x - g - M p) with an approximation S of
 /// C A^-1 C' + M (the method of Uzawa; Benzi, Golub and Liesen, Acta Numerica 2005, section 8.1).
 template <int B>
 class FollowingLoad {
@@ -39,6 +39,8 @@ class FollowingLoad {
     std::vector<double> mass;  ///< of M
   };
   virtual Matrices matrices() const = 0;
+  /// What values are compared with beside themselves, where what is given may be answered by none: as g alone asks for.
+  virtual double size() const { return 0; }
   /// p'Mp: what is left of the energy.
   virtual double squared() const = 0;
 };

@@ -450,7 +450,8 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
   std::optional<LoadOf<D, B>> pressure;
   if constexpr (D == B) {
     if (here.pressure_space) {
-      pressure.emplace(*here.pressure_space, solution.discretization, std::move(solution.pressure));
+      pressure.emplace(*here.pressure_space, solution.discretization, std::move(solution.pressure),
+                       thermal_volume(here.nodes, model, *here.pressure_space));
       solution.discretization.problem.following = &*pressure;
     }
   }

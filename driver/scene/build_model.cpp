@@ -229,6 +229,11 @@ Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& giv
   return result;
 }
 
+/// Or one of its parts.
+bool is_heated(const Scene::Body& body) {
+  return body.temperature.constant() != 0.0 || std::ranges::any_of(body.parts, is_heated);
+}
+
 template <int B>
 Spring<B> spring(const Scene::Body& body, const Scene::Spring& given) {
   Spring<B> result{on_mesh_of(body, given.body, given.on), {}, given.total, frame<B>(given.frame, given.axis)};
@@ -246,6 +251,10 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   model.diffusion = coefficient(scene, body, &Scene::Body::diffusion, &Scene::Material::diffusion);
   model.young = coefficient(scene, body, &Scene::Body::young, &Scene::Material::young);
   model.poisson = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
+  if (is_heated(body)) {
+    model.expansion = coefficient(scene, body, &Scene::Body::expansion, &Scene::Material::expansion);
+    model.temperature = coefficient(scene, body, &Scene::Body::temperature);
+  }
   model.plane = body.plane;
   model.pressure = body.pressure.value_or(Pressure::none);
   model.t = step.to;

@@ -57,7 +57,7 @@ Field coefficient(const Scene& scene, const Scene::Body& body, Field Scene::Body
   for (const Scene::Body& part : bodies) {
     add(part.*own, part.name);
     for (const int k : numbers_of(scene.materials, part))
-      add((scene.materials[k].*others).value_or(part.*own), scene.materials[k].volume);
+      add(others ? (scene.materials[k].*others).value_or(part.*own) : part.*own, scene.materials[k].volume);
   }
   if (of_region.size() == 1) return of_region.front();
   const int first = body.parts.empty() ? -1 : 0;  // the region of a body's own material

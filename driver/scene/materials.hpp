@@ -15,8 +15,8 @@ std::vector<Index> regions(const Scene& scene, const Scene::Body& body, const Me
 
 /// A coefficient of a body, or of its parts, with that of its materials, told apart by Site::region.
 /// @param own where bodies have it
-/// @param others where materials have it
+/// @param others where materials have it; null: they have the body's own
 Field coefficient(const Scene& scene, const Scene::Body& body, Field Scene::Body::*own,
-                  std::optional<Field> Scene::Material::*others);
+                  std::optional<Field> Scene::Material::*others = nullptr);
 
 }  // namespace signorini

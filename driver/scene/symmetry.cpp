@@ -147,6 +147,8 @@ class SymmetryCheck {
     if (B == 1) return compare(model_.diffusion, "'diffusion'");
     compare(model_.young, "'young'");
     compare(model_.poisson, "'poisson'");
+    compare(model_.expansion, "'expansion'");
+    compare(model_.temperature, "'temperature'");
   }
 
   void check_fix(const Fix<B>& fix) const {

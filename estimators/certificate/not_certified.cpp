@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/fem/model/material.hpp"
 #include "estimators/certificate/certificate.hpp"
 
 namespace signorini {
@@ -8,6 +9,7 @@ template <int D, int B>
 std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& model) {
   std::vector<std::string> reasons;
   if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
+  if (B > 1 && !ThermalStrain<B>(model).none()) reasons.emplace_back("thermal strains are not covered");
   if (!model.rigid.empty()) reasons.emplace_back("rigid parts are not covered");
   if (model.plane == Plane::axisymmetric) reasons.emplace_back("bodies of revolution are not covered");
   const auto fix_on_faces = [](const Fix<B>& fix) { return fix.on.picks_faces(); };

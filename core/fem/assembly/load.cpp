@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/fem/assembly/assemble.hpp"
+#include "core/fem/assembly/element_points.hpp"
 #include "core/fem/assembly/resultant.hpp"
 
 namespace signorini {
@@ -35,6 +36,21 @@ void add(const Nodes<D>& nodes, const Model<B>& model, const Load<B>& load, Load
   });
 }
 
+/// What thermal strains do, which need no force in total.
+template <int D>
+void add_thermal_load(const Nodes<D>& nodes, const Model<D>& model, std::vector<double>& b) {
+  if (ThermalStrain<D>(model).none()) return;
+  with_order(nodes, [&](auto order) {
+    const auto& elements = nodes.template elements<order>();
+    ElementPoints<D, order> element(nodes, model);
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      element.move_to(e, true);
+      const auto node = nodes.of(elements[e]);
+      for (std::size_t a = 0; a < node.size(); ++a) element.add_thermal_load(a, b.data() + Offset{node[a]} * D);
+    }
+  });
+}
+
 template <int B>
 bool is_zero(const Load<B>& load) {
   return std::all_of(load.value.begin(), load.value.end(), [](const Field& f) { return f.constant() == 0.0; });
@@ -53,6 +69,7 @@ std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
     if (load.on || !is_zero(load)) add(nodes, model, load, out);
     if (totals) totals->push_back(out.total);
   }
+  if constexpr (D == B) add_thermal_load(nodes, model, out.b);
   return std::move(out.b);
 }
 

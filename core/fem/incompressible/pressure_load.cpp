@@ -27,11 +27,44 @@ double product(const PressureSpace<D>& space, const std::vector<double>& entries
   return sum;
 }
 
+/// M^-1 g, by conjugate gradients with the diagonal. Its eigenvalues are within a factor of ten or so, see solve().
+template <int D>
+std::vector<double> solve_mass(const PressureSpace<D>& space, const std::vector<double>& g) {
+  constexpr int most_steps = 200;
+  std::vector<double> diagonal(g.size()), x(g.size()), r = g, z(g.size()), Md(g.size());
+  for (Index k = 0; k < space.size; ++k)
+    for (Offset at = space.mass_row[k]; at < space.mass_row[k + 1]; ++at)
+      if (space.mass_column[at] == k) diagonal[k] = space.compliance[at];
+  const auto precondition = [&] {
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = r[k] / diagonal[k];
+    return dot(r, z);
+  };
+  double rho = precondition();
+  const double enough = nothing * nothing * rho;
+  std::vector<double> d = z;
+  for (int step = 0; step < most_steps && rho > enough; ++step) {
+    for (Index k = 0; k < space.size; ++k) Md[k] = product(space, space.compliance, k, d);
+    const double length = rho / dot(d, Md), before = rho;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] += length * d[k];
+      r[k] -= length * Md[k];
+    }
+    rho = precondition();
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = z[k] + rho / before * d[k];
+  }
+  return x;
+}
+
 }  // namespace
 
 template <int D>
-PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p)
-    : space_(space), discretization_(discretization), p_(std::move(p)), value_(space.value) {
+PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p,
+                              std::vector<double> thermal_volume)
+    : space_(space),
+      discretization_(discretization),
+      p_(std::move(p)),
+      thermal_volume_(std::move(thermal_volume)),
+      value_(space.value) {
   p_.resize(static_cast<std::size_t>(space.size));
   for (std::size_t at = 0; !problem().jumps && at < space.column.size(); ++at)
     if (const double* Q = problem().frames.at(space.column[at])) {
@@ -41,6 +74,16 @@ PressureLoad<D>::PressureLoad(const PressureSpace<D>& space, Discretization<D>& 
     }
   find_schur();
   find_shut_in();
+  if (!thermal_volume_.empty()) find_thermal_sizes();
+}
+
+template <int D>
+void PressureLoad<D>::find_thermal_sizes() {
+  std::vector<double> held(p_.size());
+  step_.resize(p_.size());
+  solve(thermal_volume_, held);
+  thermal_size_ = max_norm(held);
+  thermal_energy_ = 0.5 * dot(thermal_volume_, solve_mass(space_, thermal_volume_));
 }
 
 // Near prescribed components less of the displacements responds: in the corners of a body that is held all around next
@@ -115,13 +158,14 @@ const std::vector<double>& PressureLoad<D>::displacements(const std::vector<doub
   return displacements_;
 }
 
-/// b and the work from what they are without it: what large p were in between leaves no rounding. Where components are
-/// prescribed what they lose in work counts.
+/// b and the work, that along thermal strains too (where all is held it is zero), from what they are without it: what
+/// large p were in between leaves no rounding. Where components are prescribed what they lose in work counts.
 template <int D>
 void PressureLoad<D>::renew_load() {
   DiscreteProblem<D>& to = problem();
   const std::vector<double>& load = load_of(p_);
-  to.prescribed_work = own_work_;
+  to.prescribed_work = own_work_ + thermal_energy_;
+  for (std::size_t k = 0; k < thermal_volume_.size(); ++k) to.prescribed_work += p_[k] * thermal_volume_[k];
   for (std::size_t p = 0; p < to.fixed.size(); ++p)
     for (std::size_t k = 0; k < D; ++k) {
       const std::size_t at = p * D + k;
@@ -162,6 +206,7 @@ void PressureLoad<D>::correct(const std::vector<double>& x, std::vector<double>&
   const std::vector<double>& u = displacements(x);
   for (Index k = 0; k < space_.size; ++k) {
     double sum = -product(space_, space_.compliance, k, p_);
+    if (!thermal_volume_.empty()) sum -= thermal_volume_[k];
     for (Offset at = space_.row[k]; at < space_.row[k + 1]; ++at)
       for (int i = 0; i < D; ++i) sum += value_[at * D + i] * u[Offset{space_.column[at]} * D + i];
     residual[k] = sum;

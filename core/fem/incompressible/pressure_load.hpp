@@ -11,8 +11,11 @@ namespace signorini {
 template <int D>
 class PressureLoad final : public FollowingLoad<D> {
  public:
-  /// Keeps references to all but p, its start.
-  PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p);
+  /// Keeps references to the space and the discretization.
+  /// @param p its start
+  /// @param thermal_volume see there
+  PressureLoad(const PressureSpace<D>& space, Discretization<D>& discretization, std::vector<double> p,
+               std::vector<double> thermal_volume = {});
 
   const std::vector<double>& values() const override { return p_; }
   void apply() override;
@@ -21,6 +24,7 @@ class PressureLoad final : public FollowingLoad<D> {
   void correct(const std::vector<double>& x, std::vector<double>& change, std::vector<double>& residual) override;
   void add(const std::vector<double>& change, std::vector<double>& r) override;
   typename FollowingLoad<D>::Matrices matrices() const override;
+  double size() const override { return thermal_size_; }
   double squared() const override;
   /// The rows that tell reactions know the load, too: once, at the end.
   void press_on_prescribed();
@@ -29,6 +33,7 @@ class PressureLoad final : public FollowingLoad<D> {
   DiscreteProblem<D>& problem() const { return discretization_.problem; }
   void find_schur();
   void find_shut_in();
+  void find_thermal_sizes();
   std::vector<double> constant_in(Index material) const;
   void solve(const std::vector<double>& residual, std::vector<double>& change);
   const std::vector<double>& displacements(const std::vector<double>& x);
@@ -37,7 +42,8 @@ class PressureLoad final : public FollowingLoad<D> {
 
   const PressureSpace<D>& space_;
   Discretization<D>& discretization_;
-  std::vector<double> p_;
+  std::vector<double> p_, thermal_volume_;
+  double thermal_size_ = 0, thermal_energy_ = 0;  // of what is held: a pressure; half the work that p does then
   bool applied_ = false;
   std::vector<double> own_;  // b without the load, while it is applied, and the work likewise
   double own_work_ = 0;

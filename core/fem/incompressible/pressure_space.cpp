@@ -66,7 +66,7 @@ template <int D, int P>
 class SpaceBuilder {
  public:
   SpaceBuilder(const Nodes<D>& nodes, const Model<D>& model)
-      : nodes_(nodes), mesh_(nodes.mesh()), model_(model), law_(model), regions_(mesh_) {}
+      : nodes_(nodes), mesh_(nodes.mesh()), model_(model), law_(model), thermal_(model), regions_(mesh_) {}
 
   PressureSpace<D> build() {
     out_.kind = model_.pressure;
@@ -80,8 +80,23 @@ class SpaceBuilder {
     out_.compliance.assign(out_.mass_column.size(), 0);
     out_.response.assign(out_.mass_column.size(), 0);
     for (std::size_t f = 0; f < mesh_.families.size(); ++f)
-      if (out_.unknown[f][0] >= 0) add(f);
+      if (out_.unknown[f][0] >= 0)
+        each_point(f, law_.constant(), [&](const auto&... point) { add_point(f, point...); });
     return std::move(out_);
+  }
+
+  std::vector<double> thermal_volume(const PressureSpace<D>& space) const {
+    std::vector<double> out;
+    if (thermal_.none()) return out;
+    out.resize(static_cast<std::size_t>(space.size));
+    for (std::size_t f = 0; f < mesh_.families.size(); ++f) {
+      if (space.unknown[f][0] < 0) continue;
+      each_point(f, thermal_.constant(), [&](const Barycentric& at, double measure, const Point<D>& x, const auto&) {
+        const double volume = measure * 3 * thermal_.at(site_of(f, x));
+        for (int a = 0; a <= D; ++a) out[space.unknown[f][a]] += volume * at[a];
+      });
+    }
+    return out;
   }
 
  private:
@@ -130,25 +145,28 @@ class SpaceBuilder {
     return out;
   }
 
-  void add(std::size_t f) {
+  /// Calls use(barycentric, measure, x, divergence of each basis function times each unit vector).
+  template <class Use>
+  void each_point(std::size_t f, bool constant, const Use& use) const {
     if constexpr (P == 2) {
       const ElementMap<D, D, 2> map(mesh_, mesh_.families[f]);
-      const bool simple = law_.constant() && !map.curved() && model_.plane != Plane::axisymmetric;
+      const bool simple = constant && !map.curved() && model_.plane != Plane::axisymmetric;
       for (const auto& [barycentric, weight] : stiffness_rule<D, 2>(simple)) {
         const LinearElement<D> flat = checked_element(map, barycentric, model_.origin);
         const Point<D> x = map(barycentric);
         Gradients divergence = basis_gradients<2>(flat.gradient, barycentric);
         const auto hoop = hoop_values<2, D>(model_.plane, x, barycentric);
         for (std::size_t b = 0; b < family_nodes; ++b) divergence[b][0] += hoop[b];
-        add_point(f, barycentric, weight * flat.measure, x, divergence);
+        use(barycentric, weight * flat.measure * circumference<D>(model_.plane, x), x, divergence);
       }
     } else {
-      for (const auto& child : RedRefinement<D>::children) add_child(f, child);
+      for (const auto& child : RedRefinement<D>::children) each_point_of_child(f, child, use);
     }
   }
 
   /// Where displacements are linear on the children.
-  void add_child(std::size_t f, const std::array<int, D + 1>& child) {
+  template <class Use>
+  void each_point_of_child(std::size_t f, const std::array<int, D + 1>& child, const Use& use) const {
     Simplex<D> corner;
     for (int k = 0; k <= D; ++k) corner[k] = mesh_.families[f][child[k]];
     const LinearElement<D> flat = checked_element(mesh_, corner, model_.origin);
@@ -164,14 +182,13 @@ class SpaceBuilder {
         const Barycentric place = node_place<D>(child[k]);
         for (int a = 0; a <= D; ++a) barycentric[a] += within[k] * place[a];
       }
-      add_point(f, barycentric, weight * flat.measure, combine<D>(mesh_, corner, within), divergence);
+      const Point<D> x = combine<D>(mesh_, corner, within);
+      use(barycentric, weight * flat.measure * circumference<D>(model_.plane, x), x, divergence);
     }
   }
 
-  /// @param divergence that of each basis function times each unit vector
   void add_point(std::size_t f, const Barycentric& barycentric, double measure, const Point<D>& x,
                  const Gradients& divergence) {
-    measure *= circumference<D>(model_.plane, x);
     const Material<D> material = law_.at(site_of(f, x));
     const double own = std::max(lambda_of_pressure(material), material.mu * least);
     const double with = of_displacements(material).lambda + resistance * material.mu;
@@ -201,6 +218,7 @@ class SpaceBuilder {
   const Mesh<D>& mesh_;
   const Model<D>& model_;
   const MaterialLaw<D> law_;
+  const ThermalStrain<D> thermal_;
   const Regions<D> regions_;
   std::vector<Index> material_;  // per region + 1
   PressureSpace<D> out_;
@@ -211,6 +229,11 @@ class SpaceBuilder {
 template <int D>
 PressureSpace<D> pressure_space(const Nodes<D>& nodes, const Model<D>& model) {
   return with_order(nodes, [&](auto order) { return SpaceBuilder<D, order>(nodes, model).build(); });
+}
+
+template <int D>
+std::vector<double> thermal_volume(const Nodes<D>& nodes, const Model<D>& model, const PressureSpace<D>& space) {
+  return with_order(nodes, [&](auto order) { return SpaceBuilder<D, order>(nodes, model).thermal_volume(space); });
 }
 
 template <int D>
@@ -246,6 +269,8 @@ std::vector<double> prolongate(const PressureSpace<D>& coarse, const Mesh<D>& co
 
 template PressureSpace<2> pressure_space(const Nodes<2>&, const Model<2>&);
 template PressureSpace<3> pressure_space(const Nodes<3>&, const Model<3>&);
+template std::vector<double> thermal_volume(const Nodes<2>&, const Model<2>&, const PressureSpace<2>&);
+template std::vector<double> thermal_volume(const Nodes<3>&, const Model<3>&, const PressureSpace<3>&);
 template std::vector<double> prolongate(const PressureSpace<2>&, const Mesh<2>&, const std::vector<double>&,
                                         const Refinement&, const PressureSpace<2>&, const Mesh<2>&);
 template std::vector<double> prolongate(const PressureSpace<3>&, const Mesh<3>&, const std::vector<double>&,

@@ -11,8 +11,9 @@ namespace signorini {
 ///
 ///     stress = lambda0 tr(strain) I + 2 mu strain + p I,    p = (lambda - lambda0) tr(strain) in the mean,
 ///
-/// tested with the functions that p is made of. lambda0 is moderate (lambda_of_displacements), so that the matrix of
-/// the displacements is no worse than that of any material. p is positive where the material is stretched.
+/// without thermal strains, tested with the functions that p is made of. lambda0 is moderate (lambda_of_displacements),
+/// so that the matrix of the displacements is no worse than that of any material. p is positive where the material is
+/// stretched.
 ///
 /// Elements are the families of a mesh. On each p is linear (continuous within a material) or constant, and the
 /// displacements are quadratic (Taylor and Hood's element), or linear on the children of the family. Elements without a
@@ -47,6 +48,12 @@ struct PressureSpace {
 /// @param nodes on a mesh with families
 template <int D>
 PressureSpace<D> pressure_space(const Nodes<D>& nodes, const Model<D>& model);
+
+/// Per unknown the integral of its function times the thermal part of tr(strain), to which p does not respond. Empty
+/// where the model has none.
+/// @param space pressure_space() of both
+template <int D>
+std::vector<double> thermal_volume(const Nodes<D>& nodes, const Model<D>& model, const PressureSpace<D>& space);
 
 /// The pressure of a coarser mesh on the next finer one, both refined ones.
 /// @param refinement from the coarse mesh to the fine one

@@ -44,8 +44,7 @@ Material<B> MaterialLaw<B>::evaluate(const Site& site) const {
     return {positive(model_.diffusion, "diffusion", site)};
   } else {
     const double young = positive(model_.young, "young", site), poisson = poisson_ratio(model_.poisson, site);
-    const bool plane_stress = B == 2 && model_.plane == Plane::stress;
-    return {young * poisson / ((1 + poisson) * (plane_stress ? 1 - poisson : 1 - 2 * poisson)),
+    return {young * poisson / ((1 + poisson) * (has_plane_stress(model_) ? 1 - poisson : 1 - 2 * poisson)),
             young / (2 * (1 + poisson))};
   }
 }

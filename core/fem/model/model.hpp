@@ -126,6 +126,8 @@ template <int B>
 struct Model {
   Field diffusion = 1;                 ///< B = 1
   Field young = 1, poisson = 0;        ///< B > 1
+  Field expansion = 0;                 ///< B > 1: strain per change of temperature, in all directions
+  Field temperature = 0;               ///< B > 1: its change, from where the body has no stress
   Plane plane = Plane::strain;         ///< D = 2; of B = 1 only whether it is axisymmetric
   Pressure pressure = Pressure::none;  ///< B > 1
   std::vector<Fix<B>> fixes;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/fem/model/material.hpp"
+
 namespace signorini {
 namespace {
 
@@ -50,21 +52,34 @@ bool same(const RigidPart<B>& a, double ta, const RigidPart<B>& b, double tb) {
          std::ranges::equal(a.torque, b.torque, alike);
 }
 
+template <int B>
+bool same_material(const Model<B>& a, const Model<B>& b) {
+  const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
+  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
+         a.pressure == b.pressure;
+}
+
+/// Thermal stress is a load, and depends on the material.
+template <int B>
+bool same_thermal_stress(const Model<B>& a, const Model<B>& b) {
+  if (B == 1 || (ThermalStrain<B>(a).none() && ThermalStrain<B>(b).none())) return true;
+  return same_material(a, b) && a.expansion.same(a.t, b.expansion, b.t) && a.temperature.same(a.t, b.temperature, b.t);
+}
+
 }  // namespace
 
 template <int B>
 bool same_stiffness(const Model<B>& a, const Model<B>& b) {
   if (!same_springs(a, b)) return false;
-  const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
   const auto of_revolution = [](const Model<B>& model) { return model.plane == Plane::axisymmetric; };
-  if (B == 1) return same(&Model<B>::diffusion) && of_revolution(a) == of_revolution(b);
-  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
-         a.pressure == b.pressure;
+  if (B == 1) return a.diffusion.same(a.t, b.diffusion, b.t) && of_revolution(a) == of_revolution(b);
+  return same_material(a, b);
 }
 
 template <int B>
 bool same_loads(const Model<B>& a, const Model<B>& b) {
-  return std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
+  return same_thermal_stress(a, b) &&
+         std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
                     [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); }) &&
          std::equal(a.rigid.begin(), a.rigid.end(), b.rigid.begin(), b.rigid.end(),
                     [&](const RigidPart<B>& x, const RigidPart<B>& y) { return same(x, a.t, y, b.t); });

@@ -40,7 +40,7 @@ class StressReader {
 
   StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
                const OwnPressure<D>& pressure)
-      : nodes_(nodes), model_(model), law_(model), u_(u), pressure_(pressure) {
+      : nodes_(nodes), model_(model), law_(model), thermal_(model), u_(u), pressure_(pressure) {
     assert(P == 2 || !pressure.space);
   }
 
@@ -58,7 +58,10 @@ class StressReader {
     const bool own = pressure_.space && pressure_.space->unknown[e][0] >= 0;
     Material<D> material = law_.at(where);
     if (own) material = of_displacements(material);
-    Read out{stress<D>(material, g, hoop, model_.plane == Plane::stress), flat.measure};
+    const bool plane_stress = has_plane_stress(model_);
+    Read out{stress<D>(material, g, hoop, plane_stress), flat.measure};
+    const double held = thermal_stress(material, thermal_.at(where), plane_stress);
+    for (int i = 0; i < (plane_stress ? 2 : 3); ++i) out.stress[i] -= held;
     if (own)
       for (int i = 0; i < 3; ++i) out.stress[i] += pressure_.space->at(*pressure_.values, e, barycentric);
     return out;
@@ -76,6 +79,7 @@ class StressReader {
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const MaterialLaw<D> law_;
+  const ThermalStrain<D> thermal_;
   const std::vector<double>& u_;
   const OwnPressure<D>& pressure_;
 };

@@ -195,6 +195,30 @@ TEST(SameLoads, AreThoseOfTheSameValuesOnTheSameFaces) {
   expect_same_loads<3>();
 }
 
+// Thermal stress is a load, which the material and the change of temperature make.
+TEST(SameLoads, AreThoseOfTheSameThermalStress) {
+  Model<2> cold, a;
+  cold.young = 2;
+  EXPECT_TRUE(same_loads(a, cold)) << "without heat the material is none of a load";
+  a.expansion = 1e-3, a.temperature = of_x();
+  Model<2> b = a;
+  EXPECT_TRUE(same_loads(a, b));
+  EXPECT_TRUE(same_stiffness(a, b));
+  EXPECT_FALSE(same_loads(a, Model<2>()));
+  b.t = 2;
+  EXPECT_TRUE(same_loads(a, b));
+  const auto differs = [&](auto change) {
+    Model<2> c = b;
+    change(c);
+    EXPECT_FALSE(same_loads(a, c));
+  };
+  differs([](Model<2>& c) { c.temperature = of_t(); });
+  differs([](Model<2>& c) { c.expansion = 2e-3; });
+  differs([](Model<2>& c) { c.young = 3; });
+  differs([](Model<2>& c) { c.poisson = 0.1; });
+  differs([](Model<2>& c) { c.plane = Plane::stress; });
+}
+
 /// An obstacle that is where it was put.
 class Placed final : public DistanceFunction {
  public:
