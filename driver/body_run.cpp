@@ -11,9 +11,11 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/base/heap.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/io/warning_kinds.hpp"
+#include "core/mesh/families.hpp"
 #include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "driver/levels/turned_friction.hpp"
@@ -244,7 +246,13 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   check_symmetry(hierarchy_, model_);
   Solution<B> solution = solve(model_, step);
   const Stopwatch watch;
-  results_ = signorini::results<D, B>(nodes(), model_, solution, slaves_, solver_.shift());
+  // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
+  const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();
+  if (long_list) give_freed_memory_back();
+  results_ = signorini::results<D, B>(nodes(), model_, solution.discretization, std::move(solution.x),
+                                      solution.pressure, slaves_, solver_.shift());
+  if (long_list) give_freed_memory_back();
+  restore_elements(hierarchy_);
   if constexpr (D == B)
     if (solution.summary.converged()) {
       refuse_pulling(nodes(), model_, results_.contact);

@@ -126,21 +126,36 @@ bool halves_edges(const Mesh<D>& coarse, const Refinement& refinement, const Mes
   return true;
 }
 
+template <int D>
+void restore_points(MeshHierarchy<D>& meshes) {
+  for (std::size_t k = 1; k < meshes.levels.size(); ++k) {
+    if (!meshes.levels[k].points.empty()) continue;
+    std::vector<Point<D>> points;
+    points.reserve(meshes.refinements[k - 1].parents.size());
+    for (const auto& parents : meshes.refinements[k - 1].parents)
+      points.push_back(halfway(meshes.levels[k - 1], parents));
+    meshes.levels[k].points = std::move(points);
+  }
+}
+
+template <int D>
+void restore(Mesh<D>& mesh) {
+  if (mesh.elements.empty()) mesh.elements = elements_of_families(mesh);
+}
+
 }  // namespace
 
 template <int D>
 void restore_elements(MeshHierarchy<D>& meshes) {
-  for (std::size_t k = 0; k < meshes.levels.size(); ++k) {
-    Mesh<D>& mesh = meshes.levels[k];
-    if (mesh.points.empty() && k > 0) {
-      std::vector<Point<D>> points;
-      points.reserve(meshes.refinements[k - 1].parents.size());
-      for (const auto& parents : meshes.refinements[k - 1].parents)
-        points.push_back(halfway(meshes.levels[k - 1], parents));
-      mesh.points = std::move(points);
-    }
-    if (mesh.elements.empty()) mesh.elements = elements_of_families(mesh);
-  }
+  restore_points(meshes);
+  for (Mesh<D>& mesh : meshes.levels) restore(mesh);
+}
+
+template <int D>
+void restore_ends(MeshHierarchy<D>& meshes) {
+  restore_points(meshes);
+  restore(meshes.levels.back());
+  restore(meshes.levels.front());
 }
 
 template <int D>
@@ -155,7 +170,7 @@ ElementsAside<D>::ElementsAside(MeshHierarchy<D>& meshes) : meshes_(meshes) {
 template <int D>
 ElementsAside<D>::~ElementsAside() {
   try {
-    restore_elements(meshes_);
+    restore_ends(meshes_);
   } catch (const std::bad_alloc&) {
   }
 }
@@ -163,6 +178,7 @@ ElementsAside<D>::~ElementsAside() {
 #define SIGNORINI_INSTANTIATE(D)                                         \
   template Index straighten_families(Mesh<D>&);                          \
   template void restore_elements(MeshHierarchy<D>&);                     \
+  template void restore_ends(MeshHierarchy<D>&);                         \
   template std::vector<Simplex<D>> elements_of_families(const Mesh<D>&); \
   template class ElementsAside<D>
 SIGNORINI_INSTANTIATE(2);

@@ -18,10 +18,14 @@ std::vector<Simplex<D>> elements_of_families(const Mesh<D>& mesh);
 /// Gives refined meshes that are without elements or points theirs back.
 template <int D>
 void restore_elements(MeshHierarchy<D>& meshes);
+/// The same, without the elements between the coarsest and the finest mesh.
+template <int D>
+void restore_ends(MeshHierarchy<D>& meshes);
 
 /// Refined meshes know their elements twice, and where no curved surface has moved a vertex the coarser mesh knows all
-/// points. While this lives they are known once, for whoever needs the memory and neither elements nor points. Where
-/// there is no memory for them at the end of it they are left out: restore_elements() tries again.
+/// points. While this lives they are known once, for whoever needs the memory and neither elements nor points.
+/// Afterwards they are there again but for elements of meshes between the coarsest and the finest one, see
+/// restore_ends(). Where there is no memory for them they are left out: the same tries again.
 template <int D>
 class ElementsAside {
  public:

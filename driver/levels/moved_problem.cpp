@@ -83,7 +83,7 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   for_each_prescribed(problem, [&](std::size_t i) { prescribed_.push_back(problem.start[i]); });
   lower_ = problem.constraints.lower;
   upper_ = problem.constraints.upper;
-  load_ = discretization.load;
+  if (!of_springs.empty()) load_ = discretization.load;
   const Rest rest(way_);
   for_each_prescribed(problem, [&](std::size_t i) { problem.start[i] = rest(problem.start[i], way_[i]); });
   facet_ = problem.constraints.facet;
@@ -93,7 +93,8 @@ MovedProblem<B>::MovedProblem(Discretization<B>& discretization, std::vector<dou
   place_loads(discretization);
   if (rests(problem, rest)) stay(problem, x, pressure);
   const std::vector<double> moved = to_global(problem, way_);
-  problem.prescribed_work += (dot(moved, load_) + dot(moved, discretization.load)) / 2;  // springs are linear
+  const std::vector<double>& before = of_springs.empty() ? discretization.load : load_;
+  problem.prescribed_work += (dot(moved, before) + dot(moved, discretization.load)) / 2;  // springs are linear
 }
 
 template <int B>
@@ -109,7 +110,7 @@ double MovedProblem<B>::back() {
   std::swap(c.lower, lower_);
   std::swap(c.upper, upper_);
   std::swap(c.facet, facet_);
-  discretization_.load = std::move(load_);
+  if (!load_.empty()) discretization_.load = std::move(load_);
   place_loads(discretization_);
   const std::vector<double> left = x_;
   for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += way_[i];

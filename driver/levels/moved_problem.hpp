@@ -33,7 +33,7 @@ class MovedProblem {
  private:
   Discretization<B>& discretization_;
   std::vector<double> way_;
-  std::vector<double> load_;  // of the problem as it was
+  std::vector<double> load_;  // of the problem as it was; empty: the same
   std::vector<double>& x_;
   std::vector<double> prescribed_, lower_, upper_;  // of the problem as it was
   std::vector<Facet<B>> facet_;

@@ -310,7 +310,11 @@ template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse) {
   if (coarse.x.empty()) return;
   DiscreteProblem<B>& problem = coarse.discretization.problem;
-  for (auto* values : {&problem.b, &problem.start}) release(*values);  // which are new in every solve
+  // What is new in every solve.
+  for (auto* values : {&problem.b, &problem.start}) release(*values);
+  for (auto* obstacles : {&coarse.discretization.lower_obstacle, &coarse.discretization.upper_obstacle})
+    release(*obstacles);
+  release(coarse.discretization.tied);
   problem.constraints = {};
   level.kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(coarse.discretization)});
 }
@@ -471,7 +475,7 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
     }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
-  if (spared_) restore_elements(*spared_);
+  if (spared_) restore_ends(*spared_);
   check_functionals(here.nodes, model, solution.discretization, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
@@ -570,7 +574,7 @@ template <int D, int B>
 Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   const std::size_t finest = levels_.size() - 1;
   dropped_.clear();
-  if (spared_) restore_elements(*spared_);  // memory may have run out in the last solve
+  if (spared_) restore_elements(*spared_);  // the last solve may have left some without them
   for (MeshLevel<D, B>& level : levels_) level.now = {};
   pair_levels(model);
   std::optional<Solution<B>> begun;

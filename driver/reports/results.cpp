@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/rounding.hpp"
 #include "core/fem/assembly/springs.hpp"
@@ -25,27 +26,25 @@
 namespace signorini {
 
 template <int D, int B>
-Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
-                      std::vector<SlaveChoice> slaves, std::vector<Point<B>> shift) {
-  Results<D, B> out{to_global(solution.discretization.problem, solution.x),
-                    contact_state(nodes, model, solution.discretization, solution.x),
-                    {},
-                    {},
-                    {},
-                    solution.pressure,
-                    rigid_motions(model, solution.discretization, solution.x),
-                    {},
-                    {},
-                    {},
-                    std::move(slaves),
-                    std::move(shift),
-                    conditions_across(nodes, model)};
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
+                      std::vector<double> x, std::vector<double> pressure, std::vector<SlaveChoice> slaves,
+                      std::vector<Point<B>> shift) {
+  const bool global = discretization.problem.frames.slot.empty() && !discretization.problem.jumps;
+  Results<D, B> out;
+  out.u = to_global(discretization.problem, global ? std::exchange(x, {}) : x);
+  const std::vector<double>& local = global ? out.u : x;
+  out.contact = contact_state(nodes, model, discretization, local);
+  out.pressure = std::move(pressure);
+  out.rigid = rigid_motions(model, discretization, local);
+  out.slaves = std::move(slaves);
+  out.shift = std::move(shift);
+  out.across = conditions_across(nodes, model);
   out.slaves.resize(model.obstacles.size());
-  out.ties = tie_forces(nodes, model, solution.discretization, solution.x);
-  out.counterforces = counterforces(nodes, model, solution.discretization.problem, out.contact, out.ties);
+  out.ties = tie_forces(nodes, model, discretization, local);
+  out.counterforces = counterforces(nodes, model, discretization.problem, out.contact, out.ties);
   MasterSide<B> masters = master_side(nodes, model, out.counterforces, out.u);
   if constexpr (D == B)
-    if (solution.discretization.pairs) take_better_side(model, *solution.discretization.pairs, masters, out.contact);
+    if (discretization.pairs) take_better_side(model, *discretization.pairs, masters, out.contact);
   out.masters = std::move(masters.nodes);
   sum_up(out.ties, out.contact.obstacles);
   const auto back = totals(out.counterforces, model.obstacles.size(), true);
@@ -55,7 +54,7 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Soluti
       out.contact.obstacles[k].force[i] += back[k][i];
       out.contact.obstacles[k].tangential_force[i] += along[k][i];
     }
-  out.forces = forces(model, solution.discretization, out.contact, solution.x);
+  out.forces = forces(model, discretization, out.contact, local);
   out.forces.springs = spring_forces(nodes, model, out.u);
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     if (model.obstacles[k].tied) {
@@ -323,11 +322,12 @@ Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B
   return warnings;
 }
 
-#define SIGNORINI_RESULTS(D, B)                                                                                        \
-  template Results<D, B> results<D, B>(const Nodes<D>&, const Model<B>&, const Solution<B>&, std::vector<SlaveChoice>, \
-                                       std::vector<Point<B>>);                                                         \
-  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double,       \
-                                  const Summary&, std::size_t);                                                        \
+#define SIGNORINI_RESULTS(D, B)                                                                                  \
+  template Results<D, B> results<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&,               \
+                                       std::vector<double>, std::vector<double>, std::vector<SlaveChoice>,       \
+                                       std::vector<Point<B>>);                                                   \
+  template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double, \
+                                  const Summary&, std::size_t);                                                  \
   template Warnings model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);
 SIGNORINI_RESULTS(2, 1)
 SIGNORINI_RESULTS(3, 1)

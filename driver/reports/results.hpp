@@ -35,10 +35,17 @@ struct Results {
   ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
 };
 
+/// @param x the solution in local coordinates
+/// @param pressure of NestedSolver::pressure_space()
 /// @param slaves choose_slaves() of the model; none: of each obstacle the first body is
 template <int D, int B>
-Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution,
-                      std::vector<SlaveChoice> slaves = {}, std::vector<Point<B>> shift = {});
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
+                      std::vector<double> x, std::vector<double> pressure, std::vector<SlaveChoice> slaves,
+                      std::vector<Point<B>> shift);
+template <int D, int B>
+Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution) {
+  return results<D, B>(nodes, model, solution.discretization, solution.x, solution.pressure, {}, {});
+}
 
 /// Probes with the places where they lie.
 template <int D>

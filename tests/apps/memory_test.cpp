@@ -24,6 +24,11 @@ TEST_F(Memory, OfAMembraneIsFewTimesItsMatrix) {
   EXPECT_LT(bytes_per_unknown("obstacle_radial_2d.toml", {"refine.uniform=6"}), 610);
 }
 
+// Most of it is the mesh, and the contact at each of its nodes.
+TEST_F(Memory, OfAMembraneInSpaceFitsBesideItsResults) {
+  EXPECT_LT(bytes_per_unknown("obstacle_cube_3d.toml", {"refine.uniform=4"}), 550);
+}
+
 TEST_F(Memory, OfAnElasticBodyIsMostlyThatOfItsMatrix) {
   EXPECT_LT(bytes_per_unknown("cube_on_bump.toml", {"body.0.order=1", "refine.uniform=3"}), 800);
 }

@@ -404,6 +404,9 @@ TEST(Refine, RefinedMeshesGetElementsBackThatWereSetAside) {
     EXPECT_EQ(meshes.levels[0].elements, before[0].elements) << "which nothing else knows";
     for (int k : {1, 2}) EXPECT_EQ(meshes.levels[k].elements.capacity(), 0u);
   }
+  for (int k : {0, 2}) EXPECT_EQ(meshes.levels[k].elements, before[k].elements);
+  EXPECT_EQ(meshes.levels[1].elements.capacity(), 0u) << "which nobody needs yet";
+  restore_elements(meshes);
   for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].elements, before[k].elements);
   for (int k : {0, 1, 2}) EXPECT_EQ(meshes.levels[k].points, before[k].points);
 }
