@@ -247,12 +247,9 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   Solution<B> solution = solve(model_, step);
   const Stopwatch watch;
   // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
-  const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();
-  if (long_list) give_freed_memory_back();
+  if (2 * solution.discretization.problem.constraints.size() > nodes().size()) give_freed_memory_back();
   results_ = signorini::results<D, B>(nodes(), model_, solution.discretization, std::move(solution.x),
                                       solution.pressure, slaves_, solver_.shift());
-  if (long_list) give_freed_memory_back();
-  restore_elements(hierarchy_);
   if constexpr (D == B)
     if (solution.summary.converged()) {
       refuse_pulling(nodes(), model_, results_.contact);
@@ -280,6 +277,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   rest_ = rest_of_friction(solution.discretization.problem);
   add_estimate(report);
   solver_.take_back(model_, std::move(solution.discretization));
+  restore_elements(hierarchy_);
   return report;
 }
 

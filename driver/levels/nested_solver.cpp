@@ -306,21 +306,30 @@ std::vector<double> NestedSolver<D, B>::refined_pressure(std::size_t level, cons
   return {};
 }
 
+namespace {
+
+/// What is new in every solve.
+template <int B>
+void release_constraints(Discretization<B>& discretization) {
+  DiscreteProblem<B>& problem = discretization.problem;
+  for (auto* values : {&problem.b, &problem.start}) release(*values);
+  for (auto* obstacles : {&discretization.lower_obstacle, &discretization.upper_obstacle}) release(*obstacles);
+  release(discretization.tied);
+  problem.constraints = {};
+}
+
+}  // namespace
+
 template <int D, int B>
 void NestedSolver<D, B>::keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse) {
   if (coarse.x.empty()) return;
-  DiscreteProblem<B>& problem = coarse.discretization.problem;
-  // What is new in every solve.
-  for (auto* values : {&problem.b, &problem.start}) release(*values);
-  for (auto* obstacles : {&coarse.discretization.lower_obstacle, &coarse.discretization.upper_obstacle})
-    release(*obstacles);
-  release(coarse.discretization.tied);
-  problem.constraints = {};
+  release_constraints(coarse.discretization);
   level.kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(coarse.discretization)});
 }
 
 template <int D, int B>
 void NestedSolver<D, B>::take_back(const Model<B>& model, Discretization<B> last) {
+  release_constraints(last);
   levels_.finest().kept.emplace(typename MeshLevel<D, B>::Kept{model, std::move(last)});
 }
 
