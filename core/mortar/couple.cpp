@@ -279,6 +279,7 @@ template <int D, int P>
 std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Creases<D>& creases,
                                                    const CoupleOptions& options, bool one_numbering, Crew* crew) {
   const Boxes<D> boxes(creases.side());
+  const mortar::Planes<D> own(mortar::Creases<D>(slave, P)), planes(creases);
   std::vector<Index> all(creases.side().faces.size());
   std::iota(all.begin(), all.end(), Index{0});
   const PointTree<D> tree(boxes.middle, boxes.half, std::move(all));
@@ -287,7 +288,7 @@ std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave,
                                                  faces_at_a_time);
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
-    mortar::FaceIntegrator<D, P> integrator(slave, creases, tree, options, one_numbering);
+    mortar::FaceIntegrator<D, P> integrator(slave, creases, own, planes, tree, options, one_numbering);
     for (std::size_t i; (i = next++) < parts.size();) {
       const auto first = static_cast<Index>(i) * faces_at_a_time;
       for (Index f = first; f < std::min(faces, first + faces_at_a_time); ++f)

@@ -146,6 +146,7 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
   const Index other_child = segment.master - other.part(0);
   const ElementMap<D, K, P> master = other.map(master_);
   const Index part = face.part(child);
+  const bool along_own = along_normals_ && !finder_.along_plane();
   const bool on_surface = slave_.stands_for_surface(part), to_surface = master_.stands_for_surface(segment.master);
   each_simplex(segment.piece, [&](const std::array<Point<K>, D>& simplex) {
     const double measure = scale * signed_measure<K>(simplex);
@@ -165,10 +166,10 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
       if (on_surface) {
         const SurfacePoint<D> at = slave_.surface(part, here, frame.direction);
         seen.gap -= at.height;
-        if (along_normals_) seen.normal = at.normal;
+        if (along_own) seen.normal = at.normal;
       } else if (slave.curved()) {
         seen.gap -= dot(frame.direction, bulge<D>(slave(point.at), slave_.corner[part], here));
-        if (along_normals_) seen.normal = unit_normal<D>(slave.flat(point.at));
+        if (along_own) seen.normal = unit_normal<D>(slave.flat(point.at));
       }
       Point<D> facing = master_.normal[segment.master];
       if (to_surface) {

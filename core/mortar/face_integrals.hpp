@@ -47,14 +47,14 @@ class FaceIntegrator {
  public:
   /// Parameters as of SegmentFinder.
   /// @param creases of the master
-  FaceIntegrator(const Side<D>& slave, const Creases<D>& creases, const PointTree<D>& tree,
-                 const CoupleOptions& options, bool one_numbering)
+  FaceIntegrator(const Side<D>& slave, const Creases<D>& creases, const Planes<D>& own, const Planes<D>& planes,
+                 const PointTree<D>& tree, const CoupleOptions& options, bool one_numbering)
       : slave_(slave),
         master_(creases.side()),
         along_normals_(options.pairing == Pairing::normal),
         axisymmetric_(options.axisymmetric),
         added_gap_(options.added_gap),
-        finder_(slave, master_, tree, options, one_numbering),
+        finder_(slave, master_, own, planes, tree, options, one_numbering),
         place_(master_.node.size(), std::size_t{0}),
         sheet_(creases) {}
 

@@ -31,18 +31,46 @@ std::array<double, 2> range(const Affine<K>& f, const Piece<K>& piece) {
 
 template <int D>
 bool SegmentFinder<D>::find(Index face) {
-  layered_ = false;
+  layered_ = along_plane_ = false;
   look(face, slave_.normal[face]);
-  if (options_.pairing == Pairing::closest)
+  if (options_.pairing == Pairing::normal) {
+    look_along_plane(face);
+  } else {
     for (int step = 0; step < most_steps && !segments_.empty(); ++step) {
       const Point<D> next = mean_direction();
       if (length<D>(difference<D>(next, frame_.direction)) < settled) break;
       look(face, next);
     }
+  }
   drop_hidden();
   if (segments_.empty() || !in_reach()) return false;
   part_layers();
   return true;
+}
+
+template <int D>
+void SegmentFinder<D>::look_along_plane(Index face) {
+  if (own_planes_.of(face) >= 0) return;
+  const Index plane = plane_in_front();
+  if (plane < 0) return;
+  Point<D> direction = master_.normal[segments_.front().master];
+  for (double& c : direction) c = -c;
+  look(face, direction);
+  along_plane_ = plane_in_front() == plane;
+  if (!along_plane_) look(face, slave_.normal[face]);
+}
+
+/// That which all of the face sees; -1: there is none.
+template <int D>
+Index SegmentFinder<D>::plane_in_front() const {
+  if (segments_.empty()) return -1;
+  const Index plane = planes_.of(segments_.front().master);
+  double covered = 0;
+  for (const Segment<D>& s : segments_) {
+    if (planes_.of(s.master) != plane) return -1;
+    covered += measure(s.piece);
+  }
+  return covered >= (1 - whole) * frame_.area ? plane : -1;
 }
 
 template <int D>

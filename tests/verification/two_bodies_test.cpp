@@ -205,20 +205,21 @@ TEST(TwoBodies, PressAlikeWhicheverIsTheSlave) {
 }
 
 TEST(TwoBodies, AStiffOneIsARigidObstacle) {
-  const Pressed rigid = pressed(disk_on_block(  // the normal is that of the slave in both cases
+  const Pressed rigid = pressed(disk_on_block(  // the normal is that of the plane in both cases
       3,
       "[[obstacle]]\ntype = \"contact\"\nbody = \"disk\"\non = \"curved\"\nshape = \"expression\"\n"
-      "distance = \"y\"\nnormal = \"body\"\n"));
+      "distance = \"y\"\n"));
+  constexpr double of_means = 5e-4;  // the mortar's mean distances are not the distances of nodes
   double last = infinity;
   for (const double ratio : {1e2, 1e4, 1e6, 1e8}) {
     const Pressed found = pressed(disk_on_block(3, pair("disk", "curved", "block", "top"), ratio));
     const double off = std::abs(found.force - rigid.force) / rigid.force;
     show("{:g}: force off by {:.2e}, {} iterations\n", ratio, off, found.iterations);
-    EXPECT_LT(off, last);
+    EXPECT_LT(off, std::max(last, of_means));
     EXPECT_LE(found.iterations, 2 * rigid.iterations);
     last = off;
   }
-  EXPECT_LT(last, 2e-3);  // the mortar's mean distances are not the distances of nodes
+  EXPECT_LT(last, of_means);
 }
 
 /// Three blocks, the middle one held by contact along y alone.

@@ -47,7 +47,7 @@ void try_pair(Random& random, int trial) {
   Grid<K> on_slave = grid<K>(0, 1, 1), on_master = on_slave;
   for (int k = 0; k < K; ++k) {
     on_slave.cells[k] = 1 + random.below(4);
-    on_master.cells[k] = 1 + random.below(6);
+    on_master.cells[k] = 2 + random.below(5);  // no plane, of which slaves take the normal
     on_master.from[k] = random.between(-0.5, 0.7);
     on_master.to[k] = on_master.from[k] + random.between(0.2, 1);
   }
@@ -61,8 +61,8 @@ void try_pair(Random& random, int trial) {
   else
     on_slave.jitter = on_master.jitter = 0.2;
   if (trial % 4 == 2) on_master.from[0] = 1 - std::pow(10, random.between(-12, -2)), on_master.to[0] = 1.5;
-  double roughness = random.between(0, 0.15);  // of the least cell: no face hides another one
-  constexpr double without_edges = 0.02;       // of that, the master's: its faces turn by less than edges do
+  double roughness = random.between(0.01, 0.15);  // of the least cell: no face hides another one, and none is a plane
+  constexpr double without_edges = 0.02;          // of that, the master's: its faces turn by less than edges do
   for (int k = 0; k < K; ++k)
     for (const Grid<K>& g : {on_slave, on_master})
       if (const double cell = (g.to[k] - g.from[k]) / g.cells[k]; cell < 1) roughness *= cell;
