@@ -59,7 +59,10 @@ TEST(FourBlocks, PassThePatchTestWhoeverIsTheSlave) {
       for (int k = 0; k < 4; ++k)
         for (int i = 0; i < 2; ++i)
           EXPECT_NEAR(report.last().contact[k].force[i], expected[k][i], 1e-6) << "obstacle " << k;
-      for (const ContactReport& contact : report.last().contact) EXPECT_NEAR(contact.max_pressure, 10, 1e-6);
+      for (const ContactReport& contact : report.last().contact) {
+        EXPECT_NEAR(contact.max_pressure, 10, 1e-6);
+        EXPECT_FALSE(contact.peaks_at_edge);
+      }
       for (const double u : report.last().probes[0].value) EXPECT_NEAR(u, -0.1, 1e-8);
     }
 }

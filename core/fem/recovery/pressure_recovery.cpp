@@ -74,7 +74,7 @@ class Recovery {
   bool peaks_at_edge() const {
     const Index k = top();
     if (k == unreachable) return false;
-    if (!inside_[k] || bears_more_at_end(faces_.node(k).recovered)) return true;
+    if (faces_.node(k).recovered > steep * largest_inside() || bears_more_at_end(faces_.node(k).recovered)) return true;
     bool near_end = faces_.at_end(k) || faces_.at_rim(k) || faces_.at_kink(k), drops = false;
     for (const Index other : faces_.around(k)) {
       if (!faces_.pressed(other)) continue;
@@ -82,6 +82,14 @@ class Recovery {
       drops = drops || faces_.node(k).recovered > steep * faces_.node(other).recovered;
     }
     return near_end && drops;
+  }
+
+  /// As a uniform pressure has it, but for rounding, of which the largest may be anywhere.
+  double largest_inside() const {
+    double largest = 0;
+    for (Index k = 0; k < faces_.size(); ++k)
+      if (inside_[k]) largest = std::max(largest, faces_.node(k).recovered);
+    return largest;
   }
 
   /// Whether a node that is hardly covered has a force that would be a larger pressure over half of its area.
