@@ -542,7 +542,7 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& soluti
     solution.summary.put_in_front(std::move(before));
   }
   if (moves) rest_on_springs(model, options, body, solution);
-  if (moves && solution.summary.converged()) solution.undetermined = body.settle(solution.x);
+  if (solution.summary.converged()) solution.undetermined = body.settle(solution.x);
   if (!moves && !body.held() && solution.summary.converged() && body.is_far_away(solution.x)) {
     solution.summary.outcome = Outcome::stuck;
     solution.summary.reason =

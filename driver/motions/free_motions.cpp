@@ -110,11 +110,21 @@ auto FreeMotions<D, B>::gaps(const std::vector<double>& x, const Eigen::MatrixXd
 }
 
 template <int D, int B>
-double FreeMotions<D, B>::coefficient_of_friction(Index slot) const {
-  if (discretization.functional.empty() || discretization.functional[slot] < 0) return 0;
+FrictionLaw FreeMotions<D, B>::friction(Index slot) const {
+  if (discretization.functional.empty() || discretization.functional[slot] < 0) return {};
   const Constraints<B>& c = discretization.problem.constraints;
   const Friction* friction = model.obstacles[discretization.functional[slot]].obstacle->friction();
-  return friction ? friction->law(c.data.data() + Offset{slot} * c.width).coefficient : 0;
+  return friction ? friction->law(c.data.data() + Offset{slot} * c.width) : FrictionLaw{};
+}
+
+template <int D, int B>
+bool FreeMotions<D, B>::only_pressed_friction() const {
+  const std::vector<Index>& functional = discretization.functional;
+  for (std::size_t slot = 0; slot < functional.size(); ++slot)
+    if (functional[slot] >= 0 &&
+        (!model.obstacles[functional[slot]].obstacle->friction() || friction(static_cast<Index>(slot)).bound != 0))
+      return false;
+  return true;
 }
 
 template <int D, int B>

@@ -3,6 +3,7 @@
 
 #include "core/fem/assembly/discretize.hpp"
 #include "core/fem/motions/rigid_motions.hpp"
+#include "core/sdk/friction.hpp"
 
 namespace signorini {
 
@@ -37,9 +38,12 @@ struct FreeMotions {
   std::vector<Room> rooms(const std::vector<double>& x, const Eigen::MatrixXd& of) const;
 
   /// Zero where there is none.
-  double coefficient_of_friction(Index slot) const;
+  double coefficient_of_friction(Index slot) const { return friction(slot).coefficient; }
   /// The component across the obstacle at a slot with friction, -1 elsewhere.
   int normal_component(Index slot) const;
+
+  /// Whether obstacles have no energy but that of friction which what presses causes.
+  bool only_pressed_friction() const;
 
   /// Moves x (local coordinates) but for prescribed components.
   /// @param motion of all modes: free times the coefficients
@@ -64,6 +68,7 @@ struct FreeMotions {
   double most_work = 0;           ///< that loads of this size could do along a motion of length one
 
  private:
+  FrictionLaw friction(Index slot) const;
   void add_work();
   std::vector<Room> gaps(const std::vector<double>& x, const Eigen::MatrixXd& of) const;
 };

@@ -79,7 +79,7 @@ void LooseBody<D, B>::add_pressed(Index slot, const std::vector<double>& x, std:
   }
 }
 
-// Rows of what obstacles press on, which stays in contact.
+// Rows of what obstacles press on, which stays in contact, and with friction where it is.
 template <int D, int B>
 Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
   const DiscreteProblem<B>& problem = body_.discretization.problem;
@@ -100,6 +100,11 @@ Eigen::MatrixXd LooseBody<D, B>::pressed(const std::vector<double>& x) const {
       if (!c.has_facets(slot)) {
         forces.push_back(below && above ? std::abs(force) : below ? force : -force);
         rows.push_back(body_.motions.along(problem, p, k) * body_.free);
+        for (int along = 0; along < B && body_.normal_component(slot) == k; ++along) {
+          if (along == k) continue;
+          forces.push_back(forces.back());
+          rows.push_back(body_.motions.along(problem, p, along) * body_.free);
+        }
       }
       terms = std::max(terms, std::abs(b) + problem.A.diagonal(p)[k * (B + 1)] * size);
     }
@@ -384,7 +389,7 @@ double LooseBody<D, B>::rest_on_springs(std::vector<double>& x) const {
 
 template <int D, int B>
 std::vector<std::string> LooseBody<D, B>::settle(std::vector<double>& x) const {
-  if (body_.none()) return {};
+  if (body_.none() || !body_.only_pressed_friction()) return {};
   const Eigen::MatrixXd costless = null_space(pressed(x), Free::decided);
   if (costless.cols() == 0) return {};
   const std::vector<Room> room = body_.rooms(x);

@@ -43,7 +43,8 @@ class LooseBody {
   double rest_on_springs(std::vector<double>& x) const;
 
   /// Of all solutions that differ by motions which cost nothing, moves x (local coordinates), one of them, to that of
-  /// least mean square. What the obstacles press on keeps its contact.
+  /// least mean square. What the obstacles press on keeps its contact, and its place along them where there is
+  /// friction. Nothing is moved where obstacles have other energies.
   /// @return names of motions that span those which nothing decides
   std::vector<std::string> settle(std::vector<double>& x) const;
 
