@@ -64,11 +64,13 @@ struct DeepestOverlap {
 /// of all of them: no mean any more. So it is with nodes that are left out, of elements of any order.
 template <int D>
 struct MortarCoupling {
-  std::vector<Index> node;       ///< slave nodes with a partner, ascending; what follows is per entry of it
-  std::vector<double> weight;    ///< D_p = ∫ ψ_p = ∫ φ_p over what is covered; positive
-  std::vector<double> covered;   ///< D_p over the node's area in faces within 60 degrees of its normal
-  std::vector<double> taken;     ///< the same of what it takes over of nodes that are left out
-  std::vector<Point<D>> normal;  ///< outer one of the slave, the mean over the node's faces as covered; of length 1
+  std::vector<Index> node;      ///< slave nodes with a partner, ascending; what follows is per entry of it
+  std::vector<double> weight;   ///< D_p = ∫ ψ_p = ∫ φ_p over what is covered; positive
+  std::vector<double> covered;  ///< D_p over the node's area in faces within 60 degrees of its normal
+  std::vector<double> taken;    ///< the same of what it takes over of nodes that are left out
+  /// Outer one of the slave, or against that of a plane before what is bent, see Planes: the mean over the node's faces
+  /// as covered; of length 1.
+  std::vector<Point<D>> normal;
   std::vector<double> gap;       ///< weak distance to the master along the normal; negative: overlap
   std::vector<double> nearest;   ///< least distance that faces of the node see, along its normal
   std::vector<double> farthest;  ///< and the largest: gap may be beyond both where the master covers less than a face

@@ -4,7 +4,7 @@ namespace signorini {
 
 /// Along what the distance from the slave to the master is measured.
 enum class Pairing {
-  normal,   ///< the slave face's normal
+  normal,   ///< the slave face's normal; that of a plane where the face is bent and sees nothing else
   closest,  ///< the mean normal of the master where a slave face sees it: towards its closest point
 };
 
