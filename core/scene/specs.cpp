@@ -158,13 +158,13 @@ constexpr KeySpec rigid[] = {
     {"torque", values, "", "", "", "about the point, likewise, as many as rotations"},
 };
 
-constexpr KeySpec pairing_key = {
-    "pairing",
-    text,
-    "normal",
-    "normal | closest",
-    "",
-    "how distances between two bodies are measured: along the slave's normal, or to the master's closest point"};
+constexpr KeySpec pairing_key = {"pairing",
+                                 text,
+                                 "normal",
+                                 "normal | closest",
+                                 "",
+                                 "how distances between two bodies are measured: along the slave's normal (where that "
+                                 "is bent and the master flat, along the master's), or to the master's closest point"};
 constexpr KeySpec resolve_key = {
     "resolve", boolean, "false",
     "",        "",      "two bodies may overlap at the start by more than an element, and are pressed apart"};
