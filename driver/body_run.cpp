@@ -247,7 +247,8 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   Solution<B> solution = solve(model_, step);
   const Stopwatch watch;
   // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
-  if (2 * solution.discretization.problem.constraints.size() > nodes().size()) give_freed_memory_back();
+  const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();
+  if (long_list) give_freed_memory_back();
   results_ = signorini::results<D, B>(nodes(), model_, solution.discretization, std::move(solution.x),
                                       solution.pressure, slaves_, solver_.shift());
   if constexpr (D == B)
@@ -277,6 +278,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   rest_ = rest_of_friction(solution.discretization.problem);
   add_estimate(report);
   solver_.take_back(model_, std::move(solution.discretization));
+  if (long_list) give_freed_memory_back();
   restore_elements(hierarchy_);
   return report;
 }
