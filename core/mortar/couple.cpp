@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "core/mortar/face_integrals.hpp"
@@ -29,6 +30,10 @@ constexpr double left_of_parts = 0.01;
 constexpr double least_quadratic_cover = 0.1;
 // Nodes with less of the area of a face stand for nothing but rounding: corners of quadratic elements on the axis.
 constexpr double least_node = 1e-12;
+// Of the extent of what a node sees: by so much what is round misses the normal at most. What edges do is more.
+constexpr double round_miss = 0.1;
+// Of the same: less is rounding.
+constexpr double no_miss = 1e-12;
 // Entries of a row of less than this part of its largest one are rounding.
 constexpr double no_entry = 1e-14;
 
@@ -76,7 +81,9 @@ class Gathering {
         one_numbering_(one_numbering),
         axisymmetric_(axisymmetric),
         seats_(slave.node.size(), creases, seen),
-        place_(master_.node.size(), -1) {
+        place_(master_.node.size(), -1),
+        at_(places(slave)),
+        master_at_(places(master_)) {
     whole_.assign(slave.node.size(), 0);
     around_.assign(slave.node.size(), 0);
     each_share([&](Face, Index p, double share, double of_face) {
@@ -117,6 +124,31 @@ class Gathering {
   };
 
   Index size() const { return static_cast<Index>(slave_.node.size()); }
+
+  static Point<D> plus(Point<D> a, double factor, const Point<D>& b) {
+    for (int k = 0; k < D; ++k) a[k] += factor * b[k];
+    return a;
+  }
+
+  /// Per node of a side its place; of midpoints its coefficient.
+  static std::vector<Point<D>> places(const mortar::Side<D>& side) {
+    std::vector<Point<D>> out(side.node.size());
+    for (Index f = 0; f < static_cast<Index>(side.faces.size()) / Face::parts; ++f) {
+      std::array<Point<D>, Face::nodes> at;
+      for (Index child = 0; child < Face::parts; ++child)
+        for (int i = 0; i < D; ++i) at[Face::node(child, i)] = side.corner[Face(f).part(child)][i];
+      if constexpr (P > 1) {
+        constexpr auto ends = simplex_edges<D - 1>();
+        for (std::size_t k = 0; k < ends.size(); ++k) {
+          const Point<D> middle = midpoint<D>(at[ends[k][0]], at[ends[k][1]]);
+          at[D + k] = plus(middle, 1 / midpoint_weight, difference<D>(at[D + k], middle));
+        }
+      }
+      const auto point = Face(f).points(side);
+      for (std::size_t a = 0; a < point.size(); ++a) out[side.number[point[a]]] = at[a];
+    }
+    return out;
+  }
 
   /// Calls visit(face, node, area of the node in it, area of the face) for all nodes of slave faces.
   template <class Visit>
@@ -178,8 +210,10 @@ class Gathering {
     const Node& node = nodes_[p];
     row_.clear();
     own_.clear();
+    bool of_surface = true;
     double gap = 0, taken = 0, nearest = infinity, farthest = -infinity, kink = 0;
     for (const Seat& s : seats(p)) {
+      of_surface = of_surface && s.record->of_surface;
       kink = std::max(kink, s.record->kink);
       nearest = std::min(nearest, s.record->nearest);
       farthest = std::max(farthest, s.record->farthest);
@@ -197,6 +231,47 @@ class Gathering {
     out.farthest.push_back(farthest * node.weight / common);
     out.kink.push_back(kink);
     take_row(node.weight, out);
+    if (of_surface && !axisymmetric_ && own_.empty()) keep_rotations(p, out);
+  }
+
+  /// Both bodies turned as one make no jump along the normal: the mean of the master's places is on the normal through
+  /// the slave's. Flat faces of what is round miss it by a part of their sagitta, and what contact alone keeps from
+  /// turning, as a shaft in a bore, would turn by that. The smallest change of the weights that mends it.
+  void keep_rotations(Index p, MortarCoupling<D>& out) const {
+    const std::span<const Index> column(out.column.data() + out.row.end()[-2], out.column.data() + out.row.back());
+    double* weight = out.value.data() + out.row.end()[-2];
+    const Point<D>& n = out.normal.back();
+    const auto across = [&](const Point<D>& x) { return plus(x, -dot(x, n), n); };
+    std::vector<Point<D>> place;
+    Point<D> miss{}, middle{};
+    double all = 0;
+    for (std::size_t m = 0; m < column.size(); ++m) {
+      place.push_back(across(difference<D>(master_at_[master_.number[column[m]]], at_[p])));
+      miss = plus(miss, weight[m], place[m]);
+      middle = plus(middle, std::abs(weight[m]), place[m]);
+      all += std::abs(weight[m]);
+    }
+    const double off = length<D>(miss);
+    Point<D> along{}, aside{};  // in the tangent plane
+    for (int k = 0; k < D; ++k) along[k] = off > 0 ? miss[k] / off : 0;
+    if constexpr (D == 3) aside = cross(n, along);
+    double moment = 0, mixed = 0, other = 0;
+    for (std::size_t m = 0; m < column.size(); ++m) {
+      place[m] = plus(place[m], -1 / all, middle);
+      const double x = dot(place[m], along), y = dot(place[m], aside);
+      moment += std::abs(weight[m]) * x * x;
+      mixed += std::abs(weight[m]) * x * y;
+      other += std::abs(weight[m]) * y * y;
+    }
+    const double extent = std::sqrt((moment + other) / all);
+    if (off <= no_miss * extent || off > round_miss * extent) return;
+    const double turn = D == 3 ? mixed / other : 0, step = off / (moment - turn * mixed);
+    const auto by = [&](std::size_t m) {
+      return -std::abs(weight[m]) * step * (dot(place[m], along) - turn * dot(place[m], aside));
+    };
+    for (std::size_t m = 0; m < column.size(); ++m)
+      if (!(std::abs(by(m)) <= round_miss)) return;
+    for (std::size_t m = 0; m < column.size(); ++m) weight[m] += by(m);
   }
 
   /// Of what the face's nodes without a place of their own are a part of.
@@ -271,6 +346,7 @@ class Gathering {
   std::vector<Node> nodes_;
   bool orphans_ = false;  // there are some
   std::vector<Index> place_;
+  std::vector<Point<D>> at_, master_at_;  // per node of a side
   std::vector<Weight> row_, own_;
 };
 

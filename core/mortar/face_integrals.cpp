@@ -38,8 +38,10 @@ Point<D> bulge(const Point<D>& at, const std::array<Point<D>, D>& corner, const 
 template <int D, int P>
 void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) {
   covered_.clear(), seen_.clear(), runs_.clear();
+  surface_points_ = 0;
   for (Index child = 0; child < ElementFace<D, P>::parts; ++child) look(face, child, to);
   if (covered_.empty()) return;
+  const bool of_surface = surface_points_ == covered_.size();
   const double size = P * finder_.frame().size;
   keep_nearest_sheet(slave_.normal[face.part(0)], size);
   const DualBasis<K, P> dual(covered_);
@@ -76,6 +78,8 @@ void FaceIntegrator<D, P>::add(ElementFace<D, P> face, FaceIntegrals<D, P>& to) 
     }
   }
   record.last = to.entries.size();
+  record.of_surface = of_surface;
+  if (of_surface) record.normal = normals_at_nodes(face);
   const auto [least, most] = std::ranges::minmax(record.gap);
   record.kink = least < all.nearest || most > all.farthest ? kink(face, size) : 0;
 }
@@ -137,6 +141,26 @@ void FaceIntegrator<D, P>::look(ElementFace<D, P> face, Index child, FaceIntegra
   }
 }
 
+/// Of the surface that the face stands for, at the nodes themselves. Means over a face are inclined to that, and
+/// what is round and turns would come nearer by it.
+template <int D, int P>
+auto FaceIntegrator<D, P>::normals_at_nodes(ElementFace<D, P> face) const -> NodeNormals {
+  NodeNormals out{};
+  for (Index child = 0; child < ElementFace<D, P>::parts; ++child)
+    for (int i = 0; i < D; ++i) {
+      Barycentric corner{};
+      corner[i] = 1;
+      const Index part = face.part(child);
+      const Point<D> n = outer_normal<D, P>(slave_, part, corner, slave_.normal[part]);
+      for (int k = 0; k < D; ++k) out[ElementFace<D, P>::node(child, i)][k] += n[k];
+    }
+  for (Point<D>& n : out) {
+    const double size = length<D>(n);
+    for (double& c : n) c /= size;
+  }
+  return out;
+}
+
 /// Seen from flat parts of faces, distances are those of the surfaces that these stand for, else of curved elements.
 template <int D, int P>
 void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child,
@@ -166,7 +190,7 @@ void FaceIntegrator<D, P>::add_points(const Segment<D>& segment, ElementFace<D, 
       if (on_surface) {
         const SurfacePoint<D> at = slave_.surface(part, here, frame.direction);
         seen.gap -= at.height;
-        if (along_own) seen.normal = at.normal;
+        if (along_own) seen.normal = at.normal, ++surface_points_;
       } else if (slave.curved()) {
         seen.gap -= dot(frame.direction, bulge<D>(slave(point.at), slave_.corner[part], here));
         if (along_own) seen.normal = unit_normal<D>(slave.flat(point.at));

@@ -19,7 +19,8 @@ struct FaceRecord {
   double nearest, farthest;                   ///< of the distances themselves
   double size;                                ///< of the face
   double kink;                                ///< see MortarCoupling; zero where `gap` is not beyond them
-  std::array<Point<D>, nodes> normal;         ///< as gap, of what the distance is measured along
+  bool of_surface;                            ///< distances are along the normals of what the face stands for
+  std::array<Point<D>, nodes> normal;         ///< as gap, of what the distance is measured along; then those at nodes
   std::size_t first = 0, last = 0;            ///< its entries
   std::size_t first_part = 0, last_part = 0;  ///< of the master in front of it, partners or not
 };
@@ -63,6 +64,7 @@ class FaceIntegrator {
  private:
   static constexpr int K = D - 1;
   using Barycentric = std::array<double, D>;
+  using NodeNormals = std::array<Point<D>, ElementFace<D, P>::nodes>;
 
   /// A point of the slave, as CoveredPoint, and what is in front of it.
   struct Seen {
@@ -81,6 +83,7 @@ class FaceIntegrator {
   void look(ElementFace<D, P> face, Index child, FaceIntegrals<D, P>& to);
   void add_points(const Segment<D>& segment, ElementFace<D, P> face, Index child, const ElementMap<D, K, P>& slave,
                   double scale);
+  NodeNormals normals_at_nodes(ElementFace<D, P> face) const;
   double added(Index part, const Point<K>& y) const;
   double distance(const Segment<D>& segment, Index part, const Point<K>& y) const;
   Distances note_overlap(const Segment<D>& segment, Index part, DeepestOverlap<D>& deepest) const;
@@ -95,7 +98,8 @@ class FaceIntegrator {
   SegmentFinder<D> finder_;
   std::vector<std::size_t> place_;  // per node of the master that of its entry; of no meaning outside the record's
   std::vector<CoveredPoint<K>> covered_;
-  std::vector<Seen> seen_;  // per point
+  std::size_t surface_points_ = 0;  // of these, see FaceRecord::of_surface
+  std::vector<Seen> seen_;          // per point
   std::vector<Run> runs_;
   std::vector<SeenPart> parts_;  // of the master, ascending
   NearestSheet<D> sheet_;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/fem/assembly/assemble.hpp"
+#include "core/fem/assembly/element_points.hpp"
 #include "core/mesh/refine.hpp"
 #include "tests/core/fem/support.hpp"
 
@@ -21,6 +22,37 @@ Mesh<D> reference_element() {
   for (int i = 0; i < D; ++i) mesh.points[i + 1][i] = 1;
   for (int i = 0; i <= D; ++i) mesh.elements.resize(1), mesh.elements[0][i] = i;
   return mesh;
+}
+
+// The thermal load is what the element's stiffness makes of a displacement that expands it.
+template <int D>
+void expect_free_expansion() {
+  const Mesh<D> mesh = reference_element<D>();
+  const Nodes<D> nodes(mesh);
+  Model<D> model;
+  model.temperature = 3;
+  model.expansion = 0.1;
+  ElementPoints<D, 1> points(nodes, model);
+  points.move_to(0, true);
+  constexpr std::size_t count = D + 1;
+  for (std::size_t a = 0; a < count; ++a) {
+    Point<D> left{};
+    double load[D] = {};
+    points.add_thermal_load(a, load);
+    for (std::size_t b = 0; b < count; ++b) {
+      double entry[D * D] = {};
+      points.add_block(a, b, entry);
+      const auto place = node_place<D>(b);  // barycentric coordinates: the first one belongs to the origin
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < D; ++j) left[i] += entry[i * D + j] * 0.3 * place[static_cast<std::size_t>(j) + 1];
+    }
+    for (int i = 0; i < D; ++i) EXPECT_NEAR(left[i], load[i], 1e-14);
+  }
+}
+
+TEST(ElementPoints, WhatIsFreeToExpandHasNoStress) {
+  expect_free_expansion<2>();
+  expect_free_expansion<3>();
 }
 
 TEST(Stiffness, DiffusionOnTheReferenceTriangle) {

@@ -84,6 +84,33 @@ void expect_distance_of_shapes(int inner_cells, int outer_cells, bool inner_is_s
   EXPECT_EQ(found.deepest.depth, 0);
 }
 
+/// What turns about the axis makes no jump along the normal, neither of both sides nor of one.
+template <int D>
+void expect_free_turning(int inner_cells, int outer_cells, bool inner_is_slave) {
+  SCOPED_TRACE(fmt::format("{}:{} {}", inner_cells, outer_cells, inner_is_slave));
+  Random random(11);
+  const Mesh<D> inner = arc<D>(2, inner_cells, true, random), outer = arc<D>(2, outer_cells, false, random);
+  const Faces<D> in(inner), out(outer);
+  const auto found = inner_is_slave ? couple<D>(in.side(inner), out.side(outer), within(0.5))
+                                    : couple<D>(out.side(outer), in.side(inner), within(0.5));
+  const auto& own = (inner_is_slave ? in : out).points;
+  const auto& other = (inner_is_slave ? out : in).points;
+  for (Index k = 0; k < found.nodes(); ++k) {
+    const Point<D>& n = found.normal[k];
+    Point<D> mean{};
+    double sum = 0;
+    for (Offset e = found.row[k]; e < found.row[k + 1]; ++e) {
+      sum += found.value[e];
+      for (int i = 0; i < D; ++i) mean[i] += found.value[e] * other[found.column[e]][i];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    for (const Point<D>& x : {own[found.node[k]], mean}) EXPECT_NEAR(n[1] * x[0] - n[0] * x[1], 0, 1e-12);
+    if constexpr (D == 3) {
+      EXPECT_NEAR(mean[2], own[found.node[k]][2], 1e-12);
+    }
+  }
+}
+
 template <class N>
 class TrueSurface : public testing::Test {};
 TYPED_TEST_SUITE(TrueSurface, Dimensions);
@@ -92,6 +119,13 @@ TYPED_TEST(TrueSurface, DistancesAreThoseOfShapes) {
   for (const bool inner_is_slave : {false, true}) {
     expect_distance_of_shapes<TypeParam::value>(10, 37, inner_is_slave, Pairing::normal);
     expect_distance_of_shapes<TypeParam::value>(23, 9, inner_is_slave, Pairing::normal);
+  }
+}
+
+TYPED_TEST(TrueSurface, WhatIsRoundIsFreeToTurn) {
+  for (const bool inner_is_slave : {false, true}) {
+    expect_free_turning<TypeParam::value>(10, 23, inner_is_slave);
+    expect_free_turning<TypeParam::value>(14, 14, inner_is_slave);
   }
 }
 
