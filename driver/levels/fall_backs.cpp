@@ -141,7 +141,9 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   pairs_.begin_step(model, levels_.finest().before.u);
-  auto [solution, otherwise] = solve_safely(model);
+  Found first = solve_safely(model);
+  Solution<B>& solution = first.solution;
+  bool& otherwise = first.otherwise;
   Attempts attempts(std::move(solution.summary));
   const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
   const auto may_slide = [&] { return !otherwise && attempts.done().converged(); };
