@@ -18,7 +18,8 @@ using automatic::Start;
 /// Options for a while, or from now on.
 class OtherOptions {
  public:
-  OtherOptions(Scene::Solver& options, Scene::Solver other) : options_(options), own_(std::exchange(options, other)) {}
+  OtherOptions(Scene::Solver& options, Scene::Solver other)
+      : options_(options), own_(std::exchange(options, std::move(other))) {}
   ~OtherOptions() {
     if (!stay_) options_ = std::move(own_);
   }

@@ -34,9 +34,9 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discre
   out.u = to_global(discretization.problem, global ? std::exchange(x, {}) : x);
   const std::vector<double>& local = global ? out.u : x;
   out.contact = contact_state(nodes, model, discretization, local);
-  out.pressure = std::move(pressure);
+  out.pressure = std::exchange(pressure, {});
   out.rigid = rigid_motions(model, discretization, local);
-  out.slaves = std::move(slaves);
+  out.slaves = std::exchange(slaves, {});
   out.shift = std::move(shift);
   out.across = conditions_across(nodes, model);
   out.slaves.resize(model.obstacles.size());
