@@ -190,7 +190,7 @@ TEST_F(Accuracy, OfASumThatIsZeroSaysNothing) {
 }
 
 TEST_F(Accuracy, IsKept) {
-  const int scenes = nightly(200, 8);
+  const int scenes = nightly(200, 4);
   int kept = 0;
   for (int seed = 0; seed < scenes; ++seed) {
     std::mt19937 random(static_cast<unsigned>(seed));

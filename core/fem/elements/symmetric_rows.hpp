@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/algebra/block_matrix.hpp"
-#include "core/base/heap.hpp"
 #include "core/fem/elements/local_stiffness.hpp"
 
 namespace signorini {
@@ -43,11 +42,7 @@ class SymmetricRows {
   }
 
   /// The matrix, after the last patch.
-  BlockMatrix<1> take() {
-    give_unused_back(A_.column);
-    give_unused_back(A_.value);
-    return std::move(A_);
-  }
+  BlockMatrix<1> take() { return std::move(A_); }
 
  private:
   struct Entry {
