@@ -60,11 +60,11 @@ void Console::clear() const {
   open_ = false;
 }
 
-/// In place of the last one, as much as fits.
+/// In place of the last one, so that it fits.
 void Console::show() const {
-  std::string line = status_.line(seconds());
   const int width = terminal_width(STDERR_FILENO);
-  if (width > 1 && line.size() >= static_cast<std::size_t>(width)) line.resize(static_cast<std::size_t>(width) - 1);
+  const std::string line =
+      width > 1 ? status_.line(seconds(), static_cast<std::size_t>(width) - 1) : status_.line(seconds());
   clear();
   std::fputs(line.c_str(), stderr);
   open_ = true;

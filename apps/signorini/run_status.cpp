@@ -16,7 +16,10 @@ void RunStatus::step(const LoadStep& step, int of, double now) {
   number_ = step.number;
   of_ = of;
   step_.clear();
+  short_step_.clear();
   if (of > 1) step_ = fmt::format("step {} of {}, ", number_, of);
+  if (of > 1) short_step_ = fmt::format("step {}/{}, ", number_, of);
+  if (of > 1 || step.halvings > 0) short_step_ += fmt::format("t {:.4g}; ", step.to);
   if (step.halvings > 0)
     step_ += fmt::format("its part from t = {:.6g} to {:.6g}; ", step.from, step.to);
   else if (of > 1)
@@ -27,12 +30,14 @@ void RunStatus::step(const LoadStep& step, int of, double now) {
 void RunStatus::phase(const std::string& what) {
   what_ = what;
   cycle_.clear();
+  short_cycle_.clear();
   goal_ = {};
   errors_.clear();
 }
 
 void RunStatus::solving(const Goal& goal) {
   cycle_.clear();
+  short_cycle_.clear();
   goal_ = goal;
   errors_.clear();
 }
@@ -40,6 +45,8 @@ void RunStatus::solving(const Goal& goal) {
 void RunStatus::cycle(const IterationRecord& record, double now) {
   cycle_ = fmt::format("iteration {}, residual {:.1e}, {} nodes in contact; ", record.iteration, record.residual,
                        record.contact_nodes);
+  short_cycle_ =
+      fmt::format("it. {}, res. {:.0e}, {} in contact; ", record.iteration, record.residual, record.contact_nodes);
   const double error = std::log(std::max(record.residual, record.algebraic_error));
   if (!std::isfinite(error)) return errors_.clear();
   errors_.emplace_back(now, error);
@@ -65,6 +72,16 @@ std::string RunStatus::line(double now) const {
   const auto whole = expected(now);
   return fmt::format("{}{}; {}{:.0f} s {}", step_, what_, cycle_, now - begin_,
                      whole ? fmt::format("of about {:.0f} s", *whole) : "so far");
+}
+
+std::string RunStatus::line(double now, std::size_t width) const {
+  std::string full = line(now);
+  if (full.size() <= width) return full;
+  const auto whole = expected(now);
+  const std::string times = fmt::format("{:.0f}{} s", now - begin_, whole ? fmt::format("/{:.0f}", *whole) : "");
+  std::string work = fmt::format("{}{}; {}", short_step_, what_.substr(0, what_.find(':')), short_cycle_);
+  if (work.size() + times.size() > width) work.resize(width - std::min(width, times.size()));
+  return (work + times).substr(0, width);
 }
 
 }  // namespace signorini

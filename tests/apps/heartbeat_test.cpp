@@ -69,6 +69,19 @@ TEST(RunStatus, ExpectsOfTheNextStepsWhatTheFinishedOnesTook) {
   EXPECT_EQ(status.line(111), "step 5 of 10, its part from t = 0.4 to 0.45; at work; 111 s of about 211 s");
 }
 
+// Where it would be cut, contact and times were what a terminal of 80 columns did not show.
+TEST(RunStatus, FitsANarrowTerminalAndKeepsTheTimes) {
+  RunStatus status(0);
+  status.step({1, 0, 1. / 11}, 11, 10);
+  status.step({2, 1. / 11, 2. / 11}, 11, 30);
+  status.phase("level 5: 343937 vertices");
+  status.cycle(record(117, 6e-9, 26234), 31);
+  EXPECT_EQ(status.line(32, 79), "step 2/11, t 0.1818; level 5; it. 117, res. 6e-09, 26234 in contact; 32/230 s");
+  EXPECT_EQ(status.line(32, 200), status.line(32));
+  EXPECT_EQ(status.line(32, 30), "step 2/11, t 0.1818; l32/230 s");
+  EXPECT_EQ(status.line(32, 3), "32/");
+}
+
 // The error goes down by ten in 2 s; from 1e-3 to 1e-8 that is 10 s more.
 TEST(RunStatus, ExpectsOfASolveThatTheErrorGoesOnDown) {
   RunStatus status(0);
