@@ -116,7 +116,7 @@ void print_solver() {
   say("{}\n  {:<16}  {}\n", solver, "[solver]",
       "keys of the scene's table, --set solver.KEY=VALUE; `signorini help KEY` has a page on each");
   for (const std::string_view name : first_keys) print_option(*find_key(solver_keys(), name));
-  say("    and those that are changed more seldom:\n");
+  say("    and those that rarely need a change:\n");
   for (const KeySpec& key : solver_keys())
     if (std::ranges::find(first_keys, key.name) == std::end(first_keys)) print_option(key);
 }

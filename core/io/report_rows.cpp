@@ -231,11 +231,11 @@ struct Table<ContactReport> {
             "mean of the nodes that the obstacle may reach, weighted by their area; of two bodies those of the slave"),
         member("undetermined_nodes", &C::undetermined_nodes,
                "of those in contact, held by a fix along the obstacle's normal: what presses counts as the obstacle's"),
-        member("undetermined_force", &C::undetermined_force, "the sum of what presses there"),
+        member("undetermined_force", &C::undetermined_force, "the sum of the forces that press there"),
         member("largest_penetration", &C::largest_penetration,
                "how far a node of the deformed body is inside the obstacle; null where the obstacle cannot tell"),
         member("largest_penetration_between_nodes", &C::penetration_between_nodes, "the same of points between nodes"),
-        member("largest_opening", &C::largest_opening, "how far a node is off the obstacle though contact is claimed"),
+        member("largest_opening", &C::largest_opening, "how far a node that counts as in contact is off the obstacle"),
         {{"pair", Kind::object, "of two bodies which one is the slave, and why; else null", true, false,
           &object_spec<PairReport>},
          [](const C& c) { return c.pair ? as_object(*c.pair) : Json(nullptr); }}};
@@ -323,12 +323,14 @@ struct Table<RigidReport> {
   static constexpr const char* name = "rigid";
   static std::vector<Row<RigidReport>> rows() {
     using R = RigidReport;
-    return {member("rigid", &R::number, "number of the scene's `[[rigid]]`, from 0"),
-            member("point", &R::point, "that it turns about, undeformed; an axisymmetric body needs none"),
-            member("displacement", &R::displacement, "of the point"),
-            member("rotation", &R::rotation, "in radians, about the z-axis in 2D, else three entries"),
-            member("force", &R::force, "on the part: applied, or of what is prescribed what it takes"),
-            member("torque", &R::torque, "about the point, likewise")};
+    return {
+        member("rigid", &R::number, "number of the scene's `[[rigid]]`, from 0"),
+        member("point", &R::point, "the point about which it turns, undeformed; an axisymmetric body needs none"),
+        member("displacement", &R::displacement, "of the point"),
+        member("rotation", &R::rotation, "in radians, about the z-axis in 2D, else three entries"),
+        member("force", &R::force, "on the part: the applied force, or the force needed for a prescribed displacement"),
+        member("torque", &R::torque,
+               "about the point: the applied torque, or the torque needed for a prescribed rotation")};
   }
 };
 
@@ -337,15 +339,14 @@ struct Table<BalanceReport> {
   static constexpr const char* name = "balance";
   static std::vector<Row<BalanceReport>> rows() {
     using B = BalanceReport;
-    return {
-        member("body", &B::body, "its name"),
-        member("applied", &B::applied, "the sum of loads, and of forces on rigid parts"),
-        member(
-            "reactions", &B::reactions,
-            "the sum of what fixes and springs exert, and of what it takes to prescribe displacements of rigid parts"),
-        member("contact", &B::contact, "the sum of what obstacles exert"),
-        {{"sum", Kind::numbers, "of all three: zero but for the algebraic error"},
-         [](const B& b) -> Json { return b.sum(); }}};
+    return {member("body", &B::body, "its name"),
+            member("applied", &B::applied, "the sum of loads, and of forces on rigid parts"),
+            member("reactions", &B::reactions,
+                   "the sum of the forces of fixes and springs, and of those needed for prescribed displacements of "
+                   "rigid parts"),
+            member("contact", &B::contact, "the sum of the forces of obstacles"),
+            {{"sum", Kind::numbers, "of all three: zero, apart from the algebraic error"},
+             [](const B& b) -> Json { return b.sum(); }}};
   }
 };
 
@@ -355,7 +356,7 @@ struct Table<BodyReport> {
   static std::vector<Row<BodyReport>> rows() {
     using B = BodyReport;
     std::vector<Row<B>> all{
-        member("name", &B::name, "as in the scene; of bodies that are solved as one their names"),
+        member("name", &B::name, "as in the scene; for bodies that are solved together, their names"),
         {{"converged", Kind::flag, "whether it is solved"}, [](const B& b) -> Json { return b.summary.converged(); }}};
     std::vector<Row<Summary>> own = figures();
     std::erase_if(own, [](const Row<Summary>& row) {
@@ -429,7 +430,7 @@ struct Table<EstimateReport> {
              [](const E& e) -> Json { return e.relative_lower(); }},
             {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
             member("energy", &E::energy, "that of deformation, 1/2 a(v, v)"),
-            member("guaranteed", &E::guaranteed, "whether the true number surely lies between, but for rounding"),
+            member("guaranteed", &E::guaranteed, "whether the true number certainly lies between, apart from rounding"),
             member("reasons", &E::reasons, "why not, in sentences"),
             object("parts", &E::parts, "what `upper` consists of"),
             member("seconds", &E::seconds, "the time that it took")};
@@ -540,7 +541,8 @@ struct Table<Library> {
   static constexpr const char* name = "library";
   static std::vector<Row<Library>> rows() {
     return {member("file", &Library::file, "that it was loaded from"),
-            {{"licence", Kind::text, "that of what it is linked with included; null: it does not say", true},
+            {{"licence", Kind::text, "includes the licences of the libraries it is linked with; null: it does not say",
+              true},
              [](const Library& l) { return text_or_null(l.licence); }}};
   }
 };

@@ -15,14 +15,14 @@ inline constexpr WarningKind warning_kinds[] = {
      "a smaller `size` or more `cells`; or let the cut run along edges of the mesh"},
     {WarningKind::About::scene, "conflicting-fixes",
      "{}: prescribes other values than {} at {} {} that both of them pick; the values of the later one hold",
-     "two fixes prescribe different values at the same nodes", "mostly harmless; else pick faces that do not meet"},
+     "two fixes prescribe different values at the same nodes",
+     "usually nothing. If the values matter there, pick faces that do not meet"},
     {WarningKind::About::scene, "singular",
-     "{}: {} {}: where it bears a force, stresses there grow without end with smaller elements{}; expected faces, "
-     "however small, where these numbers matter",
-     "a force or a support at a point or along an edge. Its reaction is right, and so is what is far away. Stresses "
-     "next "
-     "to it belong to the mesh alone; at a point the displacement does, too",
-     "nothing, if the support only stops the body from drifting; else a small part of the boundary"},
+     "{}: {} {}: where it bears a force, stresses there grow without end as elements become smaller{}; expected "
+     "faces, which may be small, where these numbers matter",
+     "a force or a support at a point or along an edge. Its reaction is right, and so are results far away. Stresses "
+     "next to it depend on the mesh alone. At a point the displacement does so, too",
+     "nothing, if the support only stops the body from drifting; otherwise pick a small part of the boundary"},
     {WarningKind::About::scene, "off-vertex",
      "{}: the point ({}) is no vertex of the mesh: the nearest one is taken, ({}), which is {:.3g} away",
      "points are vertices of the mesh", "a vertex there, by `cells` or in the mesh file"},
@@ -44,16 +44,16 @@ inline constexpr WarningKind warning_kinds[] = {
      "another side meant?",
      "the faces that are picked on the two bodies do not face each other", "check `on` and `other_on`"},
     {WarningKind::About::scene, "tied-apart",
-     "{}: the bodies are up to {:.3g} apart, or into each other, and are tied as they are: the tie carries forces "
-     "across that, as if it were nothing",
-     "`adjust` admits that tied bodies do not touch. Displacements are tied across the gap, whose width is a lever "
-     "that moments do not know of",
+     "{}: the bodies do not touch exactly: they are up to {:.3g} apart, or overlap by as much. They are tied as they "
+     "are: the tie carries forces across this distance as if it were zero",
+     "`adjust` admits that tied bodies do not touch. Displacements are tied across the gap. A force across "
+     "a gap has a moment of force times width, and the tie leaves this moment out",
      "let the faces lie on each other"},
     {WarningKind::About::scene, "prescribed-slave",
      "{}: the displacement of {} of {} nodes of the slave on the coarsest mesh is prescribed along the {}; expected "
      "free nodes there, or the other side as the slave ('slave')",
-     "prescribed along the normal: nothing keeps the master off these nodes. Prescribed along the surface: no friction "
-     "acts at these nodes in the prescribed direction",
+     "if prescribed along the normal, nothing keeps the master off these nodes. If prescribed along the surface, no "
+     "friction acts at these nodes in the prescribed direction",
      "free the nodes, or set `slave`"},
     {WarningKind::About::scene, "locking", "poisson = {}: {} nearly incompressible material, {}",
      "linear elements are too stiff there: they lock. Quadratic elements without a pressure of their own lose "
@@ -66,27 +66,28 @@ inline constexpr WarningKind warning_kinds[] = {
      "a coarser mesh of quadratic elements, which is likely to be more accurate"},
 
     {WarningKind::About::mesh, "hinge", "{}: elements hang together only by the {}{}: the body has a hinge there",
-     "the elements on both sides have only that vertex or edge in common", "mend the mesh, unless a hinge is meant"},
+     "the elements on both sides have only that vertex or edge in common", "correct the mesh, unless you want a hinge"},
     {WarningKind::About::mesh, "torn",
      "{}: the vertex at {} lies inside the {} of an element, and is no vertex of that element{}: the body is torn "
      "there",
-     "a vertex lies inside an edge or a face of another element: the two are not connected there", "mend the mesh"},
+     "a vertex lies inside an edge or a face of another element: the two are not connected there", "correct the mesh"},
     {WarningKind::About::mesh, "group-inside",
      "{}: {} of the {} {} of the physical group '{}' are not on the boundary: they are left out of the part of that "
      "name",
-     "the part is smaller than the group", "mostly harmless"},
+     "the part is smaller than the group", "usually nothing: look whether the part has the faces you want"},
     {WarningKind::About::mesh, "chord-volume",
      "{}: the mesh has {:.2g} % {} volume than the surface in the file. Faces of the mesh are flat where that "
-     "surface is curved, and stay so however often they are refined; expected a smaller 'size'",
-     "a `solid` has flat faces where the surface is curved. Refinement does not make up for that", "a smaller `size`"},
+     "surface is curved, and refinement does not change this; expected a smaller 'size'",
+     "a `solid` has flat faces where the surface is curved. Refinement does not correct this", "a smaller `size`"},
     {WarningKind::About::mesh, "straight-edges",
-     "{}: {} midpoints of edges stay off the curved surface to which they belong: on that surface they would turn "
-     "elements inside out; a finer mesh follows it",
-     "on the curved surface these midpoints would turn elements inside out", "a finer mesh follows the surface"},
+     "{}: {} midpoints of edges are not moved onto the curved surface to which they belong: there they would turn "
+     "elements inside out; a finer mesh follows the surface",
+     "edges stay straight at these midpoints, though the surface is curved", "a finer mesh, which follows the surface"},
     {WarningKind::About::mesh, "flat-faces",
      "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, where "
-     "{}displacements are up to {:.3g}. The gap is then wrong by up to {:.2g} % of what closes it. Refinement brings "
-     "out the edges between the faces, and makes the largest pressure worse. geometry = 'smooth' of that {}{} puts a "
+     "{}displacements are up to {:.3g}. The gap is then wrong by up to {:.2g} % of the motion that closes it. "
+     "Refinement resolves the edges between the faces, and so makes the largest pressure worse. geometry = 'smooth' of "
+     "that {}{} puts a "
      "smooth surface through the vertices, but a single row of faces between two edges keeps these edges",
      "the flat faces seem to stand for a curved surface. Pressures then get worse with refinement",
      "`geometry = \"smooth\"`, or a second-order mesh: [geometry.md](geometry.md#warnings)"},
@@ -100,35 +101,38 @@ inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::result, "too-curved",
      "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: contact is linearised about "
      "the undeformed body, and {}",
-     "the deformed body reaches into the obstacle, or does not reach it where contact is claimed. Displacements are "
-     "too large for this curvature, or take the body over an edge of the obstacle, or elements are too large for "
-     "this contact",
+     "the deformed body reaches into the obstacle, or does not reach it at nodes that count as in contact. "
+     "Displacements are too large for this curvature, or move the body over an edge of the obstacle, or elements are "
+     "too large for this contact",
      "smaller displacements; a finer mesh; between bodies, more `[steps]`"},
     {WarningKind::About::result, "between-nodes",
-     "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: contact is kept up at nodes "
-     "only; expected smaller elements there",
-     "the obstacle is small beside the elements", "smaller elements there"},
+     "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: the condition of contact "
+     "holds at nodes only; expected smaller elements there",
+     "the obstacle is small in comparison with the elements", "smaller elements there"},
     {WarningKind::About::result, "unresolved-contact",
-     "{}: {} in contact, too few inside it to find its pressures: the largest pressure and the size of the contact may "
-     "be off by a third or more, or depend on the mesh where an edge or a corner touches; expected smaller elements "
+     "{}: {} in contact, and too few of them are inside the contact zone to find its pressures: the largest pressure "
+     "and "
+     "the size of the contact may be wrong by a third or more, or depend on the mesh where an edge or a corner "
+     "touches; expected smaller elements "
      "there",
-     "largest pressure and area may be off by a third or more",
+     "the largest pressure and the area may be wrong by a third or more",
      "smaller elements there: [pressures.md](pressures.md#is-it-fine-enough)"},
     {WarningKind::About::result, "peak-at-edge",
-     "{}: the largest pressure is where an edge or a corner touches: there it grows with smaller elements, and is not "
-     "to be relied on",
+     "{}: the largest pressure is where an edge or a corner touches: there it grows as elements become smaller: do "
+     "not rely on it",
      "the exact pressure is infinite there", "use the force, not this pressure"},
     {WarningKind::About::result, "never-touch",
      "{}: '{}' {} never touch; at the end a distance of {:.3g} is left between them",
-     "the message says which distance is left", "is the right side picked? Is the load large enough?"},
+     "the message says which distance is left",
+     "check that the right side is picked, and that the load is large enough"},
     {WarningKind::About::result, "slid-past",
      "{}: {} of {} nodes in contact have moved to where the other body is no longer in front of them{}. Which "
      "parts face each other is decided at the start of a step only; expected shorter steps ([steps])",
      "bodies slid far within a step", "shorter steps"},
     {WarningKind::About::result, "slides-on",
-     "{}: within a step the bodies slide past each other by more than part of an element, and do so again however "
-     "often they are paired anew: take shorter steps",
-     "each time the bodies are paired anew, they slide on to other faces", "shorter steps"},
+     "{}: within a step the bodies slide past each other by more than part of an element, and after each "
+     "new pairing they do so again: take shorter steps",
+     "each time the faces of the bodies are paired anew, the bodies slide on to other faces", "shorter steps"},
     {WarningKind::About::result, "friction-turned",
      "step {}: at t = {} friction has turned round: {}; expected shorter steps ([steps])",
      "friction turned round within the step, and nodes that have just come into contact carry most of it",
@@ -139,40 +143,41 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: {} of {} nodes in contact are also held along the obstacle's normal by a fix, or pressed on by other "
      "obstacles along directions that depend on each other{}. How the force divides between them is not determined; "
      "all that presses there, {:.3g}, is counted as this obstacle's",
-     "several conditions hold the same nodes, and how the force divides between them has no answer",
+     "several conditions hold the same nodes. Only the sum of their forces is determined",
      "let the fix end before the contact does"},
     {WarningKind::About::result, "undetermined-motion",
-     "{}: neither loads nor fixes nor obstacles determine these motions: {}; of all solutions the one that moves "
-     "least along them is given",
-     "the result is right but for this motion. Of all solutions the one that moves least is given",
+     "{}: neither loads nor fixes nor obstacles determine these motions: {}; there are many solutions, and the one "
+     "that "
+     "moves least along them is given",
+     "the result is right, except for this motion. Of all solutions the program gives the one that moves least",
      "a fix, if the place matters"},
     {WarningKind::About::result, "unbalanced", "body '{}': forces balance up to {:.2g} only, where {}",
-     "forces are not known more accurately than that. Or the loads are so small that their effect is not known",
-     "if the message says so, a smaller tolerance; else larger loads, or less prescribed displacement. What the "
-     "machine's precision leaves cannot be mended"},
+     "forces are not known more accurately than that, or the loads are so small that their effect is not known",
+     "a smaller tolerance, if the message says so; otherwise larger loads, or less prescribed displacement. An error "
+     "that comes from the machine's precision cannot be removed"},
     {WarningKind::About::result, "large-turn",
-     "{}: {} turns by {:.2g} degrees. Linear elasticity and contact are meant for small turns: from this one they "
-     "get strains of {:.1g} that are not there",
-     "linear elasticity takes part of the turn for strains", "smaller displacements, or turn the model instead"},
+     "{}: {} turns by {:.2g} degrees. Linear elasticity and contact are meant for small turns: this turn adds "
+     "false strains of {:.1g}",
+     "linear elasticity counts part of the turn as strain", "smaller displacements, or turn the model instead"},
     {WarningKind::About::result, "large-strain",
      "{}: strains are up to {}, and beyond {:g} in {:.3g} % of the body: linear elasticity and contact are meant for "
      "small strains{}",
      "strains are over `0.2` in more than a twentieth of a body",
-     "smaller loads; or take results as proportional to the loads"},
+     "smaller loads; or use the results only as numbers that are proportional to the loads"},
     {WarningKind::About::result, "accuracy-not-reached",
-     "{}: the upper bound of the energy error is {:.3g} of the energy, not {:g}, which is asked for: {}",
+     "{}: the upper bound of the energy error is {:.3g} of the energy, but {:g} was asked for: {}",
      "an adaptive run ended before it was as accurate as `refine.tolerance` says",
      "more `refine.max_unknowns`, `max_steps` or `max_seconds`, or a larger `tolerance`"},
     {WarningKind::About::result, "no-pictures", "no pictures were drawn: {}", "the library for pictures does not load",
-     "all other results are there"},
-    {WarningKind::About::result, "missing-picture", "a picture is missing: {}", "mostly too little memory",
-     "all other results are there"},
+     "nothing: all other results are there"},
+    {WarningKind::About::result, "missing-picture", "a picture is missing: {}", "usually there is too little memory",
+     "nothing: all other results are there"},
     {WarningKind::About::result, "interrupted",
      "interrupted: these results are those of the last iterate, which is no solution",
      "the solve was interrupted before it had a solution", "let it come to its end"},
     {WarningKind::About::result, "no-output",
      "standard output: cannot be written: is the disk full, or its reader gone? The results are in their files.",
-     "this warning is printed only, since the report is written before", "look into the report"},
+     "this warning is only printed, because the report is written before it", "read the report"},
 };
 
 /// The id of a kind, as a parameter of templates.

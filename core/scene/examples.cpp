@@ -53,23 +53,23 @@ constexpr const char* load_details = R"(
   volume.
 - On scalar bodies the load is a flux, or a source.
 - `force` and `torque` are totals: in space forces, in the plane forces per thickness, of an axisymmetric body those of
-  the whole body of revolution. They are divided over the area of the faces as the elements have it, curved ones, too.
-  The forces at the nodes sum to them up to rounding. With `[symmetry]` they are those of both sides if the faces go on
-  beyond the plane, see there.
-- `force` and `torque` may stand together. `about` then makes them the force and the moment of the whole load as seen
-  from that point: `force = [0, 0, -5]` with `about = [3, 0, 0]` pushes as a force at that point does.
+  the whole body of revolution. They are spread over the area of the faces on the mesh, curved faces included.
+  The nodal forces add up to them, to rounding. With `[symmetry]` they act on both sides if the faces continue beyond
+  the plane, see there.
+- `force` and `torque` may stand together. `about` then makes them the force and the moment of the whole load about
+  that point: `force = [0, 0, -5]` with `about = [3, 0, 0]` acts like a force at that point.
 - [loads.md](loads.md) has examples.
 )";
 
 constexpr const char* spring_details = R"(
-- The traction is -k u: it pulls as it pushes. What only pushes is an obstacle.
+- The traction is -k u: it pulls and pushes alike. An obstacle only pushes.
 - `stiffness` is per area (in the plane per length and thickness). `total` is divided by the area of the faces, of a body
   of revolution by that of the rings, with `[symmetry]` by that on both sides if the faces go on beyond the plane.
 - `springs` of the report has the force of each. Their energy counts in `energy`.
 )";
 
 constexpr const char* rigid_details = R"(
-A punch that is pushed onto a block by a force and keeps level:
+A punch that a force pushes onto a block, and that does not tilt:
 
 ```
 [[rigid]]
@@ -103,7 +103,7 @@ it moves. After the solve the program compares the nodes of the deformed boundar
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
 | `largest_penetration_between_nodes` | the same for points between nodes, because conditions hold at nodes alone |
-| `largest_opening` | how far a node is off the obstacle although contact is claimed |
+| `largest_opening` | how far a node that counts as in contact is off the obstacle |
 | `beyond_nodes` | of two bodies: nodes in contact that no longer have the other body in front of them |
 
 The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
@@ -112,8 +112,8 @@ The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
   leave. It is compared with the displacements there. If displacements within the body differ by more than that, it is
   compared with their difference.
 - More than a tenth of the nodes in contact are beyond.
-- A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity takes both for
-  small.
+- A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity assumes that
+  both are small.
 - An obstacle is never touched. The warning gives the smallest distance that is left.
 
 A scene is refused in three cases. A twentieth of a body would be pressed through itself, for example because
@@ -210,7 +210,7 @@ no boundary: no part has them, and `on = "boundary"` leaves them out.
 **These are of the part that is meshed:** numbers of unknowns, nodes and faces, the VTU and the pictures. In each entry
 of `bodies` in the report, `symmetry` lists the planes, and `copies` says how many such parts the body has: 2, 4 or 8.
 
-A solution that is not symmetric is not found, such as that of a body that buckles. Bodies that touch each other may
+A solution without this symmetry is not found, for example that of a body that buckles. Bodies that touch each other may
 have planes of symmetry, too, if every body lies on every plane. `apps/scenes/quarter_ball_on_plane.toml` is a scene.
 )";
 
@@ -225,18 +225,19 @@ at = [0.1, 0.5, 1]
 At `t = 0` nothing has happened yet: friction in the first step counts from the undeformed body.
 
 **Steps that fail.** A step with friction may end without a solution (exit status 3). It is then cut in two at the
-middle of its `t`. Each part that fails is cut again, at most `halvings` times. What a failed attempt computed is
-forgotten: a part starts from the last step that was solved. The report lists the parts among its `steps`, and what
-failed under `failed_steps`. A warning says it. If the smallest part fails, too, the run ends with exit status 3, and
+middle of its `t`. Each part that fails is cut again, at most `halvings` times. The results of a failed attempt are
+dropped: a part starts from the last step that was solved. The report lists the parts among its `steps`, and what
+failed under `failed_steps`. A warning says so. If the smallest part fails, too, the run ends with exit status 3, and
 the steps before it are kept.
 
 **Steps that are too long.** A step that is solved may be cut, too: if friction acts against its direction in the last
-step, and most of it at nodes that have come into contact since. In a long step these nodes slip by what they moved
-before they touched, as where a blade rolls onto a drum. If the step may not be cut any more, a warning says so.
+step, and most of it at nodes that have come into contact since. In a long step the slip of these nodes includes
+their motion before they touched, for example where a blade rolls onto a drum. If the step may not be cut any more, a
+warning says so.
 
 **Steps that are not cut.** Steps are not cut if nothing of the body depends on `t`, or if no obstacle has friction or
-another energy of its own. Such a body does not remember its way: a step of it is the same problem, however it is
-reached. The run goes on after a step that failed.
+another energy of its own. Such a body has no memory: its step is the same problem, whatever
+happened before it. The run goes on after a step that failed.
 )";
 
 constexpr const char* contact_details = R"(

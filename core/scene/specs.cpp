@@ -86,10 +86,10 @@ constexpr const char* on_help = "a named part or a physical group of the mesh; \
 constexpr const char* on_or_edge_help =
     "a named part or a physical group of the mesh; \"boundary\" is all of it. A list of two parts: the edge (2D: the "
     "points) that they have in common";
-constexpr const char* at_help = "in place of both a point: the vertex of the mesh that is nearest to it is picked";
+constexpr const char* at_help = "a point, in place of both: the nearest vertex of the mesh is picked";
 constexpr const char* where_help =
-    "picks the boundary faces all of whose vertices satisfy the expression; those of the coarsest mesh, finer ones "
-    "inherit it";
+    "picks the boundary faces all of whose vertices satisfy the expression; this is decided on the coarsest mesh, and "
+    "finer meshes inherit it";
 
 constexpr const char* frame_help =
     "normal: components along the outer normal and the tangents, for symmetry planes; cylindrical: away from an axis, "
@@ -123,8 +123,8 @@ constexpr KeySpec load[] = {
     {"torque", moment, "", "", "",
      "in total: about the axes through `about`, in 2D about z; spread like the displacement of a small turn"},
     {"about", point, "", "", "",
-     "a point: `torque`, or zero, is the moment of the whole load about it, `force` included; by default the centroid "
-     "of what the load acts on"},
+     "a point about which the whole load, `force` included, has the moment `torque` (or zero); default: the centroid "
+     "of the place where the load acts"},
     {"frame", text, "global", "global | normal | cylindrical", "", frame_help},
     center_key,
     axis_key,
@@ -149,13 +149,15 @@ constexpr KeySpec rigid[] = {
     {"on", text, "", "", "", on_help},
     {"where", condition, "", "", "", where_help},
     {"point", point, "", "", "",
-     "that is displaced, and that the part turns about; by default the centroid of the faces of the coarsest mesh. "
+     "the point that is displaced, and about which the part turns; by default the centroid of the faces of the "
+     "coarsest mesh. "
      "Axisymmetric bodies need none"},
-    {"displacement", values, "", "", "", "of the point, per component, or \"free\"; by default all of it is free"},
+    {"displacement", values, "", "", "",
+     "displacement of the point, per component, or \"free\"; by default all of it is free"},
     {"rotation", values, "", "", "",
      "in radians, or \"free\": about z in 2D, else about the three axes; by default all of it is free"},
-    {"force", values, "", "", "", "on the point, per component, where that is free; by default none"},
-    {"torque", values, "", "", "", "about the point, likewise, as many as rotations"},
+    {"force", values, "", "", "", "on the point, per component, where the displacement is free; by default none"},
+    {"torque", values, "", "", "", "about the point, where the rotation is free; as many numbers as rotations"},
 };
 
 constexpr KeySpec pairing_key = {"pairing",
@@ -295,8 +297,8 @@ constexpr KeySpec output[] = {
 const std::vector<TableSpec>& tables() {
   static const std::vector<TableSpec> all = {
       {"body", true,
-       "The body to be deformed, or the domain of a scalar equation. There may be several, in one report: they are "
-       "solved one after the other, but for those that obstacles let touch each other.",
+       "The body to be deformed, or the domain of a scalar equation. There may be several, in one report. They are "
+       "solved one after the other; bodies that may touch each other are solved together.",
        body},
       {"material", true, "What a part of a body is made of that the mesh file names; elsewhere the body's own holds.",
        material},
@@ -304,8 +306,7 @@ const std::vector<TableSpec>& tables() {
        fix},
       {"load", true, "A force that pulls or pushes.", load},
       {"spring", true,
-       "Springs, or an elastic foundation: what pulls the body back where it moves, by a traction that is proportional "
-       "to its displacement.",
+       "Springs, or an elastic foundation: a traction that is proportional to the displacement, and against it.",
        spring},
       {"rigid", true,
        "Faces of an elastic body that move as a rigid body does: each component of its displacement and its rotation "

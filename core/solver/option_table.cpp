@@ -19,14 +19,14 @@ constexpr const char* see_levels = "See docs/theory/amg.md.";
 constexpr OptionRow<S> table[] = {
     {"tolerance", &S::tolerance, "(0, 1)", "for the relative algebraic error and for the natural residual"},
     {"max_iterations", &S::max_iterations, "[1, 1000000]",
-     "limit on the number of steps of all methods together: cycles, and the linear solves of others", always,
-     "With `pdas` and `newton`, or where `auto` goes on with other methods, a step solves a linear system."},
+     "limit on the steps of all methods together; a step is a cycle, or a linear solve of other methods", always,
+     "With `pdas` and `newton`, and where `auto` goes on with other methods, each step solves a linear system."},
     {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas | newton",
      "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
      "pdas: primal-dual active sets with a direct solver; newton: the same with friction and the pressures of nearly "
      "incompressible material, a semismooth Newton method; auto: monotone, tnnmg while phases rest, pdas where cycles "
-     "are slow and unknowns no more than 150000 or scalar, newton where friction is not found, and where such "
-     "pressures are not and unknowns are no more than 100000, in space 20000",
+     "are slow and unknowns are scalar or at most 150000; newton where friction does not come to rest, and where such "
+     "pressures do not and unknowns are at most 100000, in space 20000",
      always, "See docs/theory/auto.md."},
     {"cycle", &S::cycle, "V | W | F", "shape of the cycle", always,
      "With `start = \"nested\"`, the default, any of them is full multigrid."},
@@ -36,17 +36,18 @@ constexpr OptionRow<S> table[] = {
      "\"forward\", \"backward\", \"symmetric\", \"adjoint\" (forward down, backward up), \"surface_first\" or "
      "\"patch\". See docs/theory/smoothers.md."},
     {"relaxation", &S::relaxation, "(0, 2)",
-     "over-relaxation of the smoother's sweeps where no bound is met; 1 is plain Gauss-Seidel", always,
-     "Larger for badly shaped elements."},
+     "over-relaxation of the smoother's sweeps at nodes that reach no bound; 1 is plain Gauss-Seidel", always,
+     "Take more for badly shaped elements."},
     {"transfer", &S::transfer, "", "a monotone restriction of `signorini list transfers`", always,
      "\"min_merge\", \"mandel\" or \"kornhuber\". See docs/theory/transfer.md."},
     {"coarse", &S::coarse, "", "a coarse solver of `signorini list coarse`", always,
-     "\"newton\": sweeps, and Newton steps with a factorisation where these do not soon do; \"pgs\": projected "
+     "\"newton\": sweeps, and if these do not soon suffice, Newton steps with a factorisation; \"pgs\": projected "
      "Gauss–Seidel alone."},
     {"truncate", &S::truncate, "none | normal | tangential",
      "directions in contact taken out of the interpolation; tangential: all directions of a vector in contact", always,
-     "With \"none\" coarse levels are held back by the directions in contact."},
-    {"cut", &S::cut, "[0, 100]", "also truncate where less is left than this part of the last cycle's largest change"},
+     "With \"none\" the directions in contact make coarse corrections short."},
+    {"cut", &S::cut, "[0, 100]",
+     "also truncate where the distance to a bound is less than this part of the last cycle's largest change"},
     {"rotate", &S::rotate, "all | not_coarsest | meshes | none",
      "levels on which contact vectors use their local basis; meshes: not the algebraic ones", of_levels,
      "There coarse contact vectors take over the frame of their fine twin. See docs/theory/amg.md."},
@@ -71,9 +72,9 @@ constexpr OptionRow<S> table[] = {
      "Their corrections are made A-orthogonal to each other, and the energy is minimised along them. See "
      "docs/theory/monotone_multigrid.md."},
     {"threads", &S::threads, "[1, 4096]",
-     "threads of the cycles, for large problems, and of packing files; all else uses one, and results do not depend on "
-     "them",
-     always, "Levels of less than some megabytes use one."},
+     "threads for the cycles of large problems, and for the packing of files; everything else uses one thread. Results "
+     "do not depend on their number",
+     always, "Levels of less than some megabytes use one thread."},
 };
 
 [[noreturn]] void refuse(const char* name, const std::string& found, const Range& range, const char* kind) {

@@ -178,7 +178,7 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
       warnings.push_back(warning<"too-curved">(
           origin, std::fmax(contact.largest_penetration, contact.largest_opening),
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
-                                                                 : "off the obstacle though contact is claimed",
+                                                                 : "off the obstacle at nodes that count as in contact",
           contact.largest_displacement, at_step(report, farthest), why_off(contact)));
     const StepReport& between = worst(report, k, off_between);
     if (const ContactReport& c = between.contact[k]; off_between(c) > coarse)

@@ -195,7 +195,7 @@ TEST(Sliding, StepsThatAreTooLongSaySo) {
                  fix("round", "flat", "[0, 0]") + fix("column", "bottom", "[0, \"0.6 * t\"]") +
                  pair("column", "top", "round", "curved", more) + "[steps]\nat = [0.1, 1]\n"));
     return std::ranges::any_of(solved(driver).warnings, [](const std::string& warning) {
-      return warning.find("however often they are paired anew") != std::string::npos;
+      return warning.find("after each new pairing they do so again") != std::string::npos;
     });
   };
   EXPECT_TRUE(told(""));

@@ -66,7 +66,7 @@ std::string table(const std::vector<Setting>& settings, const std::vector<Run>& 
         "<tr><td>{}</td><td><code>{}</code></td><td>{:.0f}</td><td>{:.0f}</td><td>{:.0f}</td>"
         "<td>{:.3g}</td><td>{}</td></tr>\n",
         escaped(settings[run.setting].name), escaped(run.keys.back()), run.unknowns, run.iterations, run.memory,
-        run.seconds, run.error ? error_text(run) : "not told from the reference");
+        run.seconds, run.error ? error_text(run) : "too close to the reference");
   return out + "</tbody></table>\n";
 }
 
