@@ -55,9 +55,9 @@ double rounding_of_gain(const Level<B>& level, const std::vector<double>& before
 
 // Bounds of component k at a slot, on x
 template <int B>
-struct Bound {
+struct SlotBound {
   double lower, upper;
-  Bound(const Level<B>& level, Index slot, int k)
+  SlotBound(const Level<B>& level, Index slot, int k)
       : lower(level.constraints.lower[Offset{slot} * B + k]), upper(level.constraints.upper[Offset{slot} * B + k]) {}
 };
 
@@ -67,7 +67,7 @@ void mask_contact(const Level<B>& level, std::vector<Flags>& mask) {
   for (Index slot = 0; slot < level.constraints.size(); ++slot) {
     const Index p = level.constraints.vector[slot];
     for (int k = 0; k < B; ++k) {
-      const Bound<B> bound(level, slot, k);
+      const SlotBound<B> bound(level, slot, k);
       const double x = level.x[Offset{p} * B + k];
       if (x <= bound.lower || x >= bound.upper) mask[p] |= static_cast<Flags>(1u << k);
     }
@@ -81,7 +81,7 @@ double admissible_step(const Level<B>& level, const std::vector<double>& d, doub
   for (Index slot = 0; slot < level.constraints.size(); ++slot) {
     const Index p = level.constraints.vector[slot];
     for (int k = 0; k < B; ++k) {
-      const Bound<B> bound(level, slot, k);
+      const SlotBound<B> bound(level, slot, k);
       const Offset i = Offset{p} * B + k;
       if (d[i] > negligible) step = std::min(step, (bound.upper - level.x[i]) / d[i]);
       if (d[i] < -negligible) step = std::min(step, (bound.lower - level.x[i]) / d[i]);
@@ -94,7 +94,7 @@ template <int B>
 void clamp(const Level<B>& level) {
   for (Index slot = 0; slot < level.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
-      const Bound<B> bound(level, slot, k);
+      const SlotBound<B> bound(level, slot, k);
       double& x = level.x[Offset{level.constraints.vector[slot]} * B + k];
       x = block::clamp(x, bound.lower, bound.upper);
     }
@@ -264,7 +264,7 @@ bool CoarseNewton<B>::falls_forever(const Level<B>& level) const {
   const double nothing = no_component / std::sqrt(static_cast<double>(motions.rows()));
   for (Index slot = 0; slot < level.constraints.size(); ++slot)
     for (int k = 0; k < B; ++k) {
-      const Bound<B> bound(level, slot, k);
+      const SlotBound<B> bound(level, slot, k);
       const auto row = motions.row(Offset{level.constraints.vector[slot]} * B + k);
       if (row.norm() > nothing) allowed.bound(row, bound.lower, bound.upper);
     }

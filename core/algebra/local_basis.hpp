@@ -2,6 +2,9 @@
 
 namespace signorini {
 
+/// Sine of the angle below which two directions are one.
+inline constexpr double same_direction = 1e-6;
+
 /// A basis Q and its dual N = Q^-T, both row-major, for given directions of B entries each: the first columns of N are
 /// the `leading` unit vectors, which are linearly independent, the last ones the `trailing` orthonormal vectors, which
 /// are orthogonal to them; the columns between them, from Householder reflections, complete the basis orthonormally.

@@ -28,6 +28,15 @@ double dot(const std::array<double, N>& a, const std::array<double, N>& b) {
   return s;
 }
 
+/// Scales a vector to length one and returns its former length; the zero vector stays.
+template <std::size_t N>
+inline double normalise(std::array<double, N>& v) {
+  const double length = std::sqrt(dot(v, v));
+  if (length > 0)
+    for (double& c : v) c /= length;
+  return length;
+}
+
 inline std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

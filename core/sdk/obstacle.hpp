@@ -53,7 +53,7 @@ struct SurfaceVertex {
 /// k < directions. Directions are unit vectors, linearly independent of each other. That is all of it: the kernel's
 /// line searches and coarse corrections keep within these bounds and ask for nothing else. Several obstacles at a
 /// vertex make a polyhedron of their bounds. Sets that are none, such as balls and cones, are refused
-/// (core/fem/assembly/admissible_sets.hpp): bound them from outside by planes, one obstacle for each.
+/// (core/constraints/admissible_sets.hpp): bound them from outside by planes, one obstacle for each.
 template <int B>
 struct LocalConstraint {
   int directions = 0;

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "driver/levels/own_numbers.hpp"
+#include "core/constraints/own_numbers.hpp"
 
 namespace signorini {
 

@@ -12,9 +12,11 @@
 #include "core/base/error.hpp"
 #include "core/base/release.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/fem/assembly/admissible_sets.hpp"
-#include "core/fem/assembly/check_functionals.hpp"
+#include "core/constraints/admissible_sets.hpp"
+#include "core/constraints/check_functionals.hpp"
 #include "core/fem/assembly/springs.hpp"
+#include "core/fem/conditions/model_places.hpp"
+#include "core/fem/conditions/walls.hpp"
 #include "core/fem/elements/nested.hpp"
 #include "core/fem/incompressible/pressure_load.hpp"
 #include "core/mesh/families.hpp"
@@ -44,9 +46,7 @@ constexpr double of_assembly = 6;
 template <int B>
 void remember(const std::vector<double>& u, Discretization<B>& discretization) {
   Constraints<B>& c = discretization.problem.constraints;
-  const std::vector<double> x = c.last.empty() ? std::vector<double>() : to_local(discretization.problem, u);
-  for (std::size_t slot = 0; !x.empty() && slot < c.vector.size(); ++slot)
-    for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
+  if (!c.last.empty()) count_from(to_local(discretization.problem, u), c);
   for (HeldBound<B>& held : discretization.held)
     for (int k = 0; k < B; ++k) held.last[k] += u[Offset{held.bound.vertex} * B + k];
 }
@@ -156,7 +156,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   DiscreteProblem<B>& problem = solution.discretization.problem;
   if (model.follows && !here.before.u.empty()) remember(here.before.u, solution.discretization);
   rest_where_prescribed(problem);
-  if (model.follows) here.before.numbers.hand_to(solution.discretization);
+  if (model.follows) here.before.numbers.hand_to(solution.discretization.functional, problem.constraints);
   problem.cheap_to_factorise = level < factorised_;
   if (!here.force.empty()) {
     add_force(here.force, 1, solution.discretization.load);
@@ -468,7 +468,9 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
       solution.discretization.problem.following = &*pressure;
     }
   }
-  probe_functionals(here.nodes, model, solution.discretization, solution.x);
+  const ModelPlaces<D, B> places(here.nodes, model);
+  const std::vector<Index>& acts = solution.discretization.functional;
+  probe_functionals(places, solution.discretization.problem, acts, solution.x);
   const bool result = level + 1 == levels_.size() && options.tolerance <= options_.tolerance;
   progress_.solving({result, options.tolerance, 1 << levels_.finest().mesh->mirrors.size()});
   try {
@@ -478,14 +480,14 @@ void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, c
                                            registry_, monitor_);
   } catch (const Error& error) {  // the solver knows no scene
     if (error.status() != Exit::interrupted) {
-      blame_functionals(here.nodes, model, solution.discretization, solution.x);
+      blame_functionals(places, solution.discretization.problem, acts, solution.x);
       if (!std::ranges::all_of(solution.x, [](double v) { return std::isfinite(v); }))
-        check_admissible_sets(here.nodes, model, solution.discretization.problem, true);
+        check_admissible_sets(places, solution.discretization.problem, extent(here.nodes.mesh()), true);
     }
     throw Error(error.status(), fmt::format("{}: {}", model.origin, error.what()));
   }
   if (spared_) restore_ends(*spared_);
-  check_functionals(here.nodes, model, solution.discretization, solution.x);
+  check_functionals(places, solution.discretization.problem, acts, solution.x);
   solution.summary.add_rounding(of_assembly * solution.summary.rounding_error, options.tolerance);
   solution.summary.add_rounding(moved.back(), options.tolerance);
   if constexpr (D == B) {
@@ -563,7 +565,7 @@ Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
     if (solution.discretization.functional.empty()) body.emplace(here.nodes, model, solution.discretization);
     solve_level(model, level, options, body ? &*body : nullptr, solution);
     here.now.u = to_global(solution.discretization.problem, solution.x);
-    here.now.numbers = {solution.discretization, solution.x};
+    here.now.numbers = {solution.discretization.problem, solution.discretization.functional, solution.x};
     here.now.pressure = solution.pressure;
     coarse = std::move(solution);
     return "";
@@ -595,7 +597,7 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   coarse = {};
   if (finest == first_) come_near(model, solution);
   solve_finest(model, solution);
-  levels_[finest].now.numbers = {solution.discretization, solution.x};
+  levels_[finest].now.numbers = {solution.discretization.problem, solution.discretization.functional, solution.x};
   levels_[finest].now.pressure = solution.pressure;
   solution.summary.put_in_front(std::exchange(dropped_, {}));
   return solution;

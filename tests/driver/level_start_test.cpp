@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/constraints/own_numbers.hpp"
 #include "core/fem/assembly/springs.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/solver/convergence.hpp"
@@ -10,7 +11,6 @@
 #include "driver/levels/level_solution.hpp"
 #include "driver/levels/level_start.hpp"
 #include "driver/levels/moved_problem.hpp"
-#include "driver/levels/own_numbers.hpp"
 #include "driver/levels/turned_friction.hpp"
 #include "tests/support/problems.hpp"
 
@@ -112,24 +112,26 @@ Discretization<2> numbered(const std::vector<Index>& nodes, const std::vector<In
   return out;
 }
 
+OwnNumbers<2> kept_of(const Discretization<2>& step) { return {step.problem, step.functional, {}}; }
+
 TEST(OwnNumbers, GoOverByNodeAndObstacle) {
-  const OwnNumbers<2> kept(numbered({1, 4, 7, 9}, {0, -1, 0, 1}, 2), {});
+  const OwnNumbers<2> kept = kept_of(numbered({1, 4, 7, 9}, {0, -1, 0, 1}, 2));
   Discretization<2> next = numbered({1, 4, 7, 8, 9}, {0, 0, 0, 0, 0}, 2);
-  kept.hand_to(next);
+  kept.hand_to(next.functional, next.problem.constraints);
   EXPECT_EQ(next.problem.constraints.before, (std::vector<double>{10, 11, 0, 0, 70, 71, 0, 0, 0, 0}));
   Discretization<2> narrow = numbered({7, 9}, {0, 1}, 1);
-  kept.hand_to(narrow);
+  kept.hand_to(narrow.functional, narrow.problem.constraints);
   EXPECT_EQ(narrow.problem.constraints.before, (std::vector<double>{70, 90}));
 }
 
 TEST(OwnNumbers, GoOverToOtherNodes) {
-  const OwnNumbers<2> kept(numbered({1, 4, 7}, {0, 0, 1}, 1), {});
+  const OwnNumbers<2> kept = kept_of(numbered({1, 4, 7}, {0, 0, 1}, 1));
   const std::vector<Index> source{4, -1, 7, 4, 3};
   Discretization<2> next = numbered({0, 1, 2, 3, 4}, {0, 0, 1, 0, 0}, 1);
-  kept.at_nodes(source).hand_to(next);
+  kept.at_nodes(source).hand_to(next.functional, next.problem.constraints);
   EXPECT_EQ(next.problem.constraints.before, (std::vector<double>{40, 0, 70, 40, 0}));
   Discretization<2> untouched = numbered({0}, {0}, 1);
-  OwnNumbers<2>().hand_to(untouched);
+  OwnNumbers<2>().hand_to(untouched.functional, untouched.problem.constraints);
   EXPECT_EQ(untouched.problem.constraints.before, std::vector<double>{0});
 }
 

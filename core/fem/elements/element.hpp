@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/algebra/local_basis.hpp"
 #include "core/base/dot.hpp"
 #include "core/fem/elements/nodes.hpp"
 #include "core/input/field.hpp"
@@ -10,8 +11,6 @@
 
 namespace signorini {
 
-/// Sine of the angle below which two directions are one.
-inline constexpr double same_direction = 1e-6;
 /// Cosine of the angle up to which faces that meet belong to one smooth surface: 30 degrees.
 inline constexpr double smooth_cosine = std::numbers::sqrt3 / 2;
 
@@ -59,15 +58,6 @@ inline LinearElement<D> linear_element(const Mesh<D>& mesh, const Simplex<D>& v)
 template <int D>
 inline Point<D> area_normal(const Mesh<D>& mesh, const Face<D>& face) {
   return area_normal(points_of(mesh, face.vertices));
-}
-
-/// Scales a vector to length one and returns its former length; the zero vector stays.
-template <std::size_t N>
-inline double normalise(std::array<double, N>& v) {
-  const double length = std::sqrt(dot(v, v));
-  if (length > 0)
-    for (double& c : v) c /= length;
-  return length;
 }
 
 /// The point with the given barycentric coordinates in a simplex of any dimension.

@@ -1,6 +1,6 @@
 // What an obstacle admits at a node has to be the box of its bounds: one that derives from the interface itself, with a
 // sweep of its own, is asked for it.
-#include "core/fem/assembly/admissible_sets.hpp"
+#include "core/constraints/admissible_sets.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/fem/conditions/model_places.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/projected_sweep.hpp"
 #include "tests/core/fem/support.hpp"
@@ -148,7 +149,8 @@ TEST(AdmissibleSets, SweepsThatEndNowhereAreFoundWhenAllAreAsked) {
   const Mesh<2> mesh = unit_mesh<2>(2);
   const auto discretization = discretize(mesh, model);
   try {
-    check_admissible_sets(Nodes<2>(mesh), model, discretization.problem, true);
+    const Nodes<2> nodes(mesh);
+    check_admissible_sets(ModelPlaces<2, 2>(nodes, model), discretization.problem, 1, true);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), Exit::plugin);

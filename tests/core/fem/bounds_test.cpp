@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
+#include "core/constraints/bound_combiner.hpp"
+#include "core/constraints/local_problem.hpp"
 #include "core/fem/conditions/bound_bends.hpp"
 #include "core/fem/conditions/bound_coefficients.hpp"
-#include "core/fem/conditions/local_problem.hpp"
+#include "core/fem/conditions/model_places.hpp"
 #include "core/mesh/refine.hpp"
 #include "core/sdk/given_friction.hpp"
 #include "core/sdk/given_friction_solver.hpp"
@@ -93,7 +95,7 @@ struct Combined {
   explicit Combined(std::vector<Bound<2>> some, std::optional<FixedDirections<2>> fixed = {})
       : bounds(std::move(some)), fixes(fixed ? std::vector{*fixed} : std::vector<FixedDirections<2>>()) {
     for (std::size_t k = 0; k < 9; ++k) model.obstacles.push_back(floor<2>([](const double*) { return 0.0; }));
-    combiner.emplace(nodes, model, bounds, fixes);
+    combiner.emplace(places, bounds, fixes);
     out = combiner->combine(bounds.data(), bounds.data() + bounds.size(), fixes.empty() ? nullptr : fixes.data(), held);
   }
   const Mesh<2> mesh = unit_mesh<2>(1);
@@ -101,7 +103,8 @@ struct Combined {
   Model<2> model;
   std::vector<Bound<2>> bounds, held;
   std::vector<FixedDirections<2>> fixes;
-  std::optional<BoundCombiner<2, 2>> combiner;
+  const ModelPlaces<2, 2> places{nodes, model};
+  std::optional<BoundCombiner<2>> combiner;
   std::vector<CombinedBound<2>> out;
 };
 

@@ -1,11 +1,12 @@
 // After a solve the functionals of obstacles are asked whether the result is due to faults of theirs.
-#include "core/fem/assembly/check_functionals.hpp"
+#include "core/constraints/check_functionals.hpp"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/fem/conditions/model_places.hpp"
 #include "core/sdk/functional_obstacle.hpp"
 #include "tests/core/fem/support.hpp"
 
@@ -59,9 +60,9 @@ class CheckFunctionals : public ::testing::Test {
   }
   ~CheckFunctionals() override { fault = Fault::none; }
 
-  void check() const { check_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
-  void probe() const { probe_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
-  void blame() const { blame_functionals<2, 1>(Nodes<2>(mesh_), model_, discretization_, x_); }
+  void check() const { check_functionals<1>(places_, discretization_.problem, discretization_.functional, x_); }
+  void probe() const { probe_functionals<1>(places_, discretization_.problem, discretization_.functional, x_); }
+  void blame() const { blame_functionals<1>(places_, discretization_.problem, discretization_.functional, x_); }
   double& at_slot() { return x_[discretization_.problem.constraints.vector.front()]; }
 
   template <class Ask>
@@ -76,7 +77,9 @@ class CheckFunctionals : public ::testing::Test {
   }
 
   const Mesh<2> mesh_ = unit_mesh<2>(2);
+  const Nodes<2> nodes_{mesh_};
   Model<1> model_;
+  const ModelPlaces<2, 1> places_{nodes_, model_};
   Discretization<1> discretization_;
   std::vector<double> x_;
 };

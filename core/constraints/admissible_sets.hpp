@@ -1,6 +1,5 @@
 #pragma once
-#include "core/fem/elements/nodes.hpp"
-#include "core/fem/model/model.hpp"
+#include "core/constraints/bound.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {
@@ -10,10 +9,11 @@ namespace signorini {
 /// next to far away ones on all sides of the box. Those of BoxObstacle with its own minimiser are boxes; what a
 /// functional adds to the energy would hide the set.
 /// @param problem its constraints and segments
+/// @param size of what is asked for: points are far beyond it
 /// @param all asks boxes with minimisers of their own as well, such as one whose sweep has led to no number
-/// @throws Error(Exit::plugin) that names the obstacle and the node where it is none
-template <int D, int B>
-void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem,
+/// @throws Error(Exit::plugin) that names the obstacle and the place where it is none
+template <int B>
+void check_admissible_sets(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem, double size,
                            bool all = false);
 
 }  // namespace signorini

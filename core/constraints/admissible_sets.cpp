@@ -1,4 +1,4 @@
-#include "core/fem/assembly/admissible_sets.hpp"
+#include "core/constraints/admissible_sets.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rounding.hpp"
-#include "core/fem/conditions/walls.hpp"
 #include "core/sdk/box_obstacle.hpp"
 #include "core/solver/functional.hpp"
 
@@ -112,27 +111,28 @@ class Projection {
   LevelView<B> view_;
 };
 
-template <int D, int B>
-[[noreturn]] void refuse(const Nodes<D>& nodes, const Model<B>& model, const Segment<B>& segment, Index node,
+template <int B>
+[[noreturn]] void refuse(const ObstaclePlaces<B>& places, const Segment<B>& segment, Index vector,
                          const std::array<double, B>& found, const std::array<double, B>& expected) {
-  const auto term = std::ranges::find(model.obstacles, segment.obstacle, &ObstacleTerm<B>::obstacle);
+  Index number = 0;
+  while (number < places.count() && places.obstacle(number) != segment.obstacle) ++number;
   throw Error(Exit::plugin,
-              fmt::format("{}: the plugin's sweep ends at ({:.6g}) in local coordinates of the node at ({:.6g}), where "
-                          "its directions and bounds admit ({:.6g}): what an obstacle admits at a node has to be the "
-                          "box of its bounds along its directions",
-                          term == model.obstacles.end() ? model.origin : term->origin, fmt::join(found, ", "),
-                          fmt::join(nodes.at(node), ", "), fmt::join(expected, ", ")));
+              fmt::format("{}: the plugin's sweep ends at ({:.6g}) in local coordinates of the node at {}, where its "
+                          "directions and bounds admit ({:.6g}): what an obstacle admits at a node has to be the box "
+                          "of its bounds along its directions",
+                          number < places.count() ? places.origin(number) : "obstacle", fmt::join(found, ", "),
+                          places.place(vector), fmt::join(expected, ", ")));
 }
 
 }  // namespace
 
-template <int D, int B>
-void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const DiscreteProblem<B>& problem, bool all) {
+template <int B>
+void check_admissible_sets(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem, double size, bool all) {
   const auto asked = [all](const Segment<B>& s) {
     return all ? !s.obstacle->functional() : may_be_no_box(*s.obstacle);
   };
   if (std::ranges::none_of(problem.segments, asked)) return;
-  Projection<B> projection(problem, extent(nodes.mesh()));
+  Projection<B> projection(problem, size);
   for (const Segment<B>& segment : problem.segments) {
     if (!asked(segment)) continue;
     const std::pair<Index, Index> slots = slots_between(problem.constraints, segment.first, segment.last);
@@ -140,21 +140,20 @@ void check_admissible_sets(const Nodes<D>& nodes, const Model<B>& model, const D
       projection.run(segment, sides);
       for (Index p = segment.first; p < segment.last; ++p)  // also what no bound holds
         if (const auto at = projection.at(p); !std::ranges::all_of(at, [](double v) { return std::isfinite(v); }))
-          refuse<D, B>(nodes, model, segment, p, at, {});
+          refuse<B>(places, segment, p, at, {});
       for (Index slot = slots.first; slot < slots.second; ++slot) {
         const auto found = projection.found(slot), expected = projection.expected(slot);
         const double rounding = of_distance * projection.distance(slot);
         for (int k = 0; k < B; ++k)
           if (!(std::abs(found[k] - expected[k]) <= rounding + of_coordinates * std::abs(expected[k])))
-            refuse<D, B>(nodes, model, segment, problem.constraints.vector[slot], found, expected);
+            refuse<B>(places, segment, problem.constraints.vector[slot], found, expected);
       }
     });
   }
 }
 
-template void check_admissible_sets(const Nodes<2>&, const Model<1>&, const DiscreteProblem<1>&, bool);
-template void check_admissible_sets(const Nodes<3>&, const Model<1>&, const DiscreteProblem<1>&, bool);
-template void check_admissible_sets(const Nodes<2>&, const Model<2>&, const DiscreteProblem<2>&, bool);
-template void check_admissible_sets(const Nodes<3>&, const Model<3>&, const DiscreteProblem<3>&, bool);
+template void check_admissible_sets(const ObstaclePlaces<1>&, const DiscreteProblem<1>&, double, bool);
+template void check_admissible_sets(const ObstaclePlaces<2>&, const DiscreteProblem<2>&, double, bool);
+template void check_admissible_sets(const ObstaclePlaces<3>&, const DiscreteProblem<3>&, double, bool);
 
 }  // namespace signorini

@@ -1,4 +1,4 @@
-#include "core/fem/assembly/check_functionals.hpp"
+#include "core/constraints/check_functionals.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
-#include "core/fem/conditions/local_problem.hpp"
+#include "core/constraints/local_problem.hpp"
 #include "core/sdk/polyhedron.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/functional.hpp"
@@ -25,15 +25,14 @@ bool all_finite(const Numbers& numbers) {
 }
 
 /// Asks the functionals of a problem at one vector of unknowns, node by node.
-template <int D, int B>
+template <int B>
 class Check {
  public:
-  Check(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
+  Check(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem, const std::vector<Index>& acts,
         const std::vector<double>& x)
-      : nodes_(nodes),
-        model_(model),
-        acts_(discretization.functional),
-        problem_(discretization.problem),
+      : places_(places),
+        acts_(acts),
+        problem_(problem),
         x_(x),
         data_(functional::data_at(problem_, x)),
         view_(functional::view(problem_)) {
@@ -196,7 +195,7 @@ class Check {
       if (acts_[slot] >= 0) use(static_cast<Index>(slot));
   }
 
-  const Obstacle<B>& obstacle(Index slot) const { return *model_.obstacles[acts_[slot]].obstacle; }
+  const Obstacle<B>& obstacle(Index slot) const { return *places_.obstacle(acts_[slot]); }
 
   std::span<const double> at(Index slot) const {
     return std::span(x_).subspan(static_cast<std::size_t>(problem_.constraints.vector[slot]) * B, B);
@@ -222,14 +221,12 @@ class Check {
 
   template <class Numbers>
   [[noreturn]] void refuse(Index slot, const std::string& what, const Numbers& found) const {
-    throw Error(Exit::plugin, fmt::format("{}: at ({:.6g}), in local coordinates, {} ({:.6g}): a fault of the plugin",
-                                          model_.obstacles[acts_[slot]].origin,
-                                          fmt::join(nodes_.at(problem_.constraints.vector[slot]), ", "), what,
-                                          fmt::join(found, ", ")));
+    throw Error(Exit::plugin, fmt::format("{}: at {}, in local coordinates, {} ({:.6g}): a fault of the plugin",
+                                          places_.origin(acts_[slot]), places_.place(problem_.constraints.vector[slot]),
+                                          what, fmt::join(found, ", ")));
   }
 
-  const Nodes<D>& nodes_;
-  const Model<B>& model_;
+  const ObstaclePlaces<B>& places_;
   const std::vector<Index>& acts_;  // per slot the obstacle whose functional does
   const DiscreteProblem<B>& problem_;
   const std::vector<double>& x_;
@@ -240,53 +237,51 @@ class Check {
 
 }  // namespace
 
-template <int D, int B>
-void check_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
-                       const std::vector<double>& x) {
-  if (discretization.functional.empty()) return;
-  Check<D, B> check(nodes, model, discretization, x);
+template <int B>
+void check_functionals(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem,
+                       const std::vector<Index>& acts, const std::vector<double>& x) {
+  if (acts.empty()) return;
+  Check<B> check(places, problem, acts, x);
   check.solution();
   if (!all_finite(x)) return;
   check.answers();
   check.minimisers();
 }
 
-template <int D, int B>
-void probe_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
-                       const std::vector<double>& x) {
-  if (discretization.functional.empty() || !all_finite(x)) return;
+template <int B>
+void probe_functionals(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem,
+                       const std::vector<Index>& acts, const std::vector<double>& x) {
+  if (acts.empty() || !all_finite(x)) return;
   std::vector<double> start = x;
-  make_admissible(discretization.problem, start);
-  Check<D, B>(nodes, model, discretization, start).probe();
+  make_admissible(problem, start);
+  Check<B>(places, problem, acts, start).probe();
 }
 
-template <int D, int B>
-void blame_functionals(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
-                       std::vector<double> x) {
-  if (discretization.functional.empty()) return;
-  const DiscreteProblem<B>& problem = discretization.problem;
+template <int B>
+void blame_functionals(const ObstaclePlaces<B>& places, const DiscreteProblem<B>& problem,
+                       const std::vector<Index>& acts, std::vector<double> x) {
+  if (acts.empty()) return;
   for (double& value : x)
     if (!std::isfinite(value)) value = 0;
   make_admissible(problem, x);
   std::vector<double> r(x.size());
   residual<B>(problem.A, x.data(), problem.b.data(), r.data());
   if (!std::isfinite(dot(r, r)) || !std::isfinite(dot(x, x))) return;  // no finite question
-  Check<D, B> check(nodes, model, discretization, x);
+  Check<B> check(places, problem, acts, x);
   check.answers();
   check.local_solvers();
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                 \
-  template void probe_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
-                                        const std::vector<double>&);                                \
-  template void check_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
-                                        const std::vector<double>&);                                \
-  template void blame_functionals<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
-                                        std::vector<double>);
-SIGNORINI_INSTANTIATE(2, 1)
-SIGNORINI_INSTANTIATE(3, 1)
-SIGNORINI_INSTANTIATE(2, 2)
-SIGNORINI_INSTANTIATE(3, 3)
+#define SIGNORINI_INSTANTIATE(B)                                                                                     \
+  template void probe_functionals<B>(const ObstaclePlaces<B>&, const DiscreteProblem<B>&, const std::vector<Index>&, \
+                                     const std::vector<double>&);                                                    \
+  template void check_functionals<B>(const ObstaclePlaces<B>&, const DiscreteProblem<B>&, const std::vector<Index>&, \
+                                     const std::vector<double>&);                                                    \
+  template void blame_functionals<B>(const ObstaclePlaces<B>&, const DiscreteProblem<B>&, const std::vector<Index>&, \
+                                     std::vector<double>);
+SIGNORINI_INSTANTIATE(1)
+SIGNORINI_INSTANTIATE(2)
+SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

@@ -4,25 +4,34 @@
 #include <utility>
 #include <vector>
 
-#include "core/fem/assembly/discretize.hpp"
+#include "core/solver/discrete_problem.hpp"
 #include "core/solver/functional.hpp"
 
 namespace signorini {
 
-/// What functionals keep of a load step: their own numbers at its solution, by node and obstacle, since slots are
-/// numbered anew in every step.
+/// Friction counts from where its vectors were after the last load step.
+/// @param x that, B per vector, in local coordinates
+template <int B>
+void count_from(const std::vector<double>& x, Constraints<B>& c) {
+  for (std::size_t slot = 0; !c.last.empty() && slot < c.vector.size(); ++slot)
+    for (int k = 0; k < B; ++k) c.last[slot * B + k] += x[Offset{c.vector[slot]} * B + k];
+}
+
+/// What functionals keep of a load step: their own numbers at its solution, by vector and obstacle, since slots
+/// are numbered anew in every step.
 template <int B>
 class OwnNumbers {
  public:
   OwnNumbers() = default;
+  /// @param acts per slot: the obstacle whose functional acts there, -1: none; empty without any
   /// @param x solution in local coordinates
-  OwnNumbers(const Discretization<B>& discretization, const std::vector<double>& x)
-      : width_(discretization.problem.constraints.width) {
-    if (discretization.functional.empty()) return;
-    const std::vector<double> data = functional::data_at(discretization.problem, x);
-    for (std::size_t slot = 0; slot < discretization.functional.size(); ++slot) {
-      if (discretization.functional[slot] < 0) continue;
-      of_.emplace_back(discretization.problem.constraints.vector[slot], discretization.functional[slot]);
+  OwnNumbers(const DiscreteProblem<B>& problem, const std::vector<Index>& acts, const std::vector<double>& x)
+      : width_(problem.constraints.width) {
+    if (acts.empty()) return;
+    const std::vector<double> data = functional::data_at(problem, x);
+    for (std::size_t slot = 0; slot < acts.size(); ++slot) {
+      if (acts[slot] < 0) continue;
+      of_.emplace_back(problem.constraints.vector[slot], acts[slot]);
       const auto from = data.begin() + static_cast<Offset>(slot) * width_;
       numbers_.insert(numbers_.end(), from, from + width_);
     }
@@ -43,11 +52,10 @@ class OwnNumbers {
     return out;
   }
 
-  /// To where the next step has the same obstacles at the same nodes: Constraints::before.
-  void hand_to(Discretization<B>& next) const {
-    Constraints<B>& c = next.problem.constraints;
-    for (std::size_t slot = 0; slot < next.functional.size(); ++slot) {
-      const std::pair key(c.vector[slot], next.functional[slot]);
+  /// To where the next step has the same obstacles at the same vectors: Constraints::before.
+  void hand_to(const std::vector<Index>& acts, Constraints<B>& c) const {
+    for (std::size_t slot = 0; slot < acts.size(); ++slot) {
+      const std::pair key(c.vector[slot], acts[slot]);
       const auto found = std::ranges::lower_bound(of_, key);
       if (found == of_.end() || *found != key) continue;
       const auto from = numbers_.begin() + (found - of_.begin()) * width_;
