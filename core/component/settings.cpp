@@ -42,7 +42,7 @@ Value typed(const RawValue& raw, const OptionSpec& spec) {
   return {};
 }
 
-RawValue scalar_default(std::string_view text, OptionType type, const std::string& origin) {
+RawValue scalar_value(std::string_view text, OptionType type, const std::string& origin) {
   if (type == OptionType::text) return {std::string(text), origin};
   if (type == OptionType::boolean && (text == "true" || text == "false")) return {text == "true", origin};
   if (type == OptionType::integer) {
@@ -53,11 +53,9 @@ RawValue scalar_default(std::string_view text, OptionType type, const std::strin
   return {std::string(text), origin};  // numbers may be expressions
 }
 
-// The default of a specification as if a user had written it. A vector is "[a, b, c]", its entries without commas.
-RawValue default_value(const OptionSpec& spec, const std::string& component) {
-  const std::string origin = fmt::format("default of '{}' of {}", spec.name, component);
-  std::string_view text = spec.fallback;
-  if (spec.type != OptionType::vector) return scalar_default(text, spec.type, origin);
+// A text as if a user had written that value in a scene. A vector is "[a, b, c]", its entries without commas.
+RawValue value_of(std::string_view text, OptionType type, const std::string& origin) {
+  if (type != OptionType::vector) return scalar_value(text, type, origin);
   RawValue::List list;
   if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
   while (!text.empty()) {
@@ -66,6 +64,15 @@ RawValue default_value(const OptionSpec& spec, const std::string& component) {
     text.remove_prefix(std::min(comma + 1, text.size()));
   }
   return {list, origin};
+}
+
+RawValue default_value(const OptionSpec& spec, const std::string& component) {
+  return value_of(spec.fallback, spec.type, fmt::format("default of '{}' of {}", spec.name, component));
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' ');
+  return first == text.npos ? std::string_view() : text.substr(first, text.find_last_not_of(' ') + 1 - first);
 }
 
 void reject_unknown_keys(const std::string& component, std::span<const OptionSpec> specs, const RawTable& given,
@@ -230,6 +237,21 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
                                                  std::shared_ptr<const DistanceFunction> shape, double t) {
   reject_unknown_keys(component, specs, given, other_keys);
   return std::make_shared<CompiledSettings>(component, specs, given, std::move(shape), t);
+}
+
+RawTable table_of(const std::string& component, std::span<const OptionSpec> specs,
+                  std::span<const std::string> assignments) {
+  RawTable out{component, {}};
+  for (const std::string& text : assignments) {
+    const std::string origin = fmt::format("{}: '{}'", component, text);
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) input_error(origin, "expected KEY=VALUE");
+    const std::string key(trimmed(std::string_view(text).substr(0, equals)));
+    const auto spec = std::ranges::find_if(specs, [&](const OptionSpec& one) { return key == one.name; });
+    const OptionType type = spec == specs.end() ? OptionType::text : spec->type;  // what is unknown is refused later
+    out.entries.emplace_back(key, value_of(trimmed(std::string_view(text).substr(equals + 1)), type, origin));
+  }
+  return out;
 }
 
 void check_asked(const Settings& settings, std::string_view origin) {

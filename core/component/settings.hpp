@@ -19,6 +19,11 @@ std::shared_ptr<const Settings> compile_settings(const std::string& component, s
                                                  const RawTable& given, std::span<const std::string> other_keys = {},
                                                  std::shared_ptr<const DistanceFunction> shape = nullptr, double t = 1);
 
+/// Options given as texts "KEY=VALUE", a vector as "[a, b, c]": what compile_settings() takes. Error(Exit::input) for a
+/// text without an equals sign.
+RawTable table_of(const std::string& component, std::span<const OptionSpec> specs,
+                  std::span<const std::string> assignments);
+
 /// Throws Error(Exit::plugin) where a component asked these settings for an option that its table does not have, or for
 /// one as of another type, naming it.
 /// @param origin of the component, for the message

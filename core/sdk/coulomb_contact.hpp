@@ -1,8 +1,7 @@
 #pragma once
 #include <string>
 
-#include "core/sdk/coulomb_friction.hpp"
-#include "core/sdk/given_friction.hpp"
+#include "core/sdk/coulomb_law.hpp"
 #include "core/sdk/rigid_contact.hpp"
 
 namespace signorini {
@@ -10,11 +9,7 @@ namespace signorini {
 /// Contact and friction by Coulomb's law: |tau| <= mu times the force that presses, at each vertex.
 /// @tparam Contact RigidContact<B> or ElasticContact<B>: what may not be penetrated
 template <int B, class Contact>
-class CoulombContact final
-    : public FunctionalObstacle<B, GivenFriction<B>, GivenFrictionSolver<B>, GivenFrictionModel<B>>,
-      public Renewal<B>,
-      public Scaling,
-      public Friction {
+class CoulombContact final : public CoulombLaw<B> {
  public:
   /// The row of a table of options that goes with it, beside those of Contact.
   static constexpr OptionSpec friction_option = {"friction", OptionType::field, "", "[0, inf)",
@@ -24,10 +19,6 @@ class CoulombContact final
   CoulombContact(const Settings& settings, const char* type) : settings_(settings), contact_(settings, type) {
     if (!settings.has("friction"))
       throw Error(Exit::input, std::string("the obstacle type '") + type + "' needs 'friction'");
-  }
-
-  ObstacleDescriptor descriptor() const noexcept override {
-    return {2, {{"normal", B, 1}, {"tangential", B - 1, 1}}, CoulombFriction<B>::data};
   }
 
   void assemble(const SurfaceVertex* vertices, std::size_t count, LocalConstraint<B>* constraints,
@@ -41,26 +32,6 @@ class CoulombContact final
       constraints[k].data[1] = friction;
     }
   }
-
-  const Renewal<B>* renewal() const noexcept override { return this; }
-  void renew(const LevelView<B>& level, Index first, Index last, const double* r,
-             double* data) const noexcept override {
-    const auto [from, to] = slots_between(level, first, last);
-    for (Index slot = from; slot < to; ++slot) {
-      const Index p = level.constrained[slot];
-      const Offset at = Offset{p} * B;
-      const Slot<B> s = this->slot_of(level, slot);
-      double* own = data + Offset{slot} * level.width;
-      own[0] = CoulombFriction<B>::bound(s, level.value + level.row[p] * B * B, r + at, level.x + at);
-      own[1] = s.data[1];
-    }
-  }
-
-  const Scaling* scaling() const noexcept override { return this; }
-  void scale(double ratio, double* data) const noexcept override { data[0] *= ratio; }
-
-  const Friction* friction() const noexcept override { return this; }
-  FrictionLaw law(const double* data) const noexcept override { return {data[1], 0}; }
 
  private:
   const Settings& settings_;

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <utility>
 
 #include "core/sdk/box_obstacle.hpp"
 #include "core/sdk/constrained_minimiser.hpp"
@@ -26,11 +27,16 @@ struct Slot {
 ///   met exactly, not up to rounding;
 /// - `Model`, its linearisation: `void linearise(const Slot<B>&, const double* x, const QuadraticModel<B>& out)`, `out`
 ///   being that of this vector alone, gradient and hessian zero on entry.
-/// One class may be all of them. Functions are static, and inlined into loops that the implementation's own library
-/// instantiates. Implementations that have a Renewal, a Scaling or a Friction derive from these, too.
+/// One class may be all of them. Functions are static, or members of objects that the constructor takes, and inlined
+/// into loops that the implementation's own library instantiates. Implementations that have a Renewal, a Scaling or a
+/// Friction derive from these, too.
 template <int B, class Phi, class Solver = Phi, class Model = Phi>
 class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public Linearisation<B> {
  public:
+  FunctionalObstacle() = default;
+  FunctionalObstacle(Phi phi, Solver solver, Model model)
+      : phi_(std::move(phi)), solver_(std::move(solver)), model_(std::move(model)) {}
+
   const Functional<B>* functional() const noexcept final { return this; }
   const Linearisation<B>* linearisation() const noexcept final { return this; }
 
@@ -38,7 +44,7 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
   void sweep(const LevelView<B>& view, Index first, Index last, Order order) const noexcept override {
     const LevelView<B> level = view;  // stores to the iterate change nothing of it
     const auto [from, to] = slots_between(level, first, last);
-    sweep_slots<B>(level, from, to, first, last, order, [&level](Index slot) {
+    sweep_slots<B>(level, from, to, first, last, order, [&level, this](Index slot) {
       const Index p = level.constrained[slot];
       double r[B], y[B];
       row_residual<B>(level, p, r);
@@ -75,13 +81,13 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
   double change(const LevelView<B>& level, Index first, Index last, const double* from,
                 const double* to) const noexcept override {
     return sum(level, first, last,
-               [&](Index slot, Offset at) { return Phi::change(slot_of(level, slot), from + at, to + at); });
+               [&](Index slot, Offset at) { return phi_.change(slot_of(level, slot), from + at, to + at); });
   }
 
   double slope(const LevelView<B>& level, Index first, Index last, const double* at,
                const double* step) const noexcept override {
     return sum(level, first, last,
-               [&](Index slot, Offset i) { return Phi::slope(slot_of(level, slot), at + i, step + i); });
+               [&](Index slot, Offset i) { return phi_.slope(slot_of(level, slot), at + i, step + i); });
   }
 
   void linearise(const LevelView<B>& level, Index first, Index last,
@@ -91,7 +97,7 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
                                   out.lower + Offset{slot} * B, out.upper + Offset{slot} * B, out.critical + slot};
       std::fill_n(own.gradient, B, 0.0);
       std::fill_n(own.hessian, B * B, 0.0);
-      Model::linearise(slot_of(level, slot), level.x + at, own);
+      model_.linearise(slot_of(level, slot), level.x + at, own);
       return 0.0;
     });
   }
@@ -104,18 +110,18 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
 
  private:
   /// False where faces leave nothing admissible.
-  static bool minimise(const LevelView<B>& level, Index slot, const double* r, double* y) {
+  bool minimise(const LevelView<B>& level, Index slot, const double* r, double* y) const {
     const Index p = level.constrained[slot];
     const double *M = level.value + level.row[p] * B * B, *x = level.x + Offset{p} * B;
     if (B == 1 || !has_facets(level, slot)) {
-      Solver::minimise(slot_of(level, slot), M, r, x, y);
+      solver_.minimise(slot_of(level, slot), M, r, x, y);
       return true;
     }
     const Slot<B> own = slot_of(level, slot);
     const auto with_force = [&](const double* force, double* out) {
       double sum[B];
       for (int i = 0; i < B; ++i) sum[i] = r[i] + force[i];
-      Solver::minimise(own, M, sum, x, out);
+      solver_.minimise(own, M, sum, x, out);
     };
     double stiffness[B];
     for (int i = 0; i < B; ++i) stiffness[i] = M[i * (B + 1)];
@@ -131,6 +137,10 @@ class FunctionalObstacle : public BoxObstacle<B>, public Functional<B>, public L
     for (Index slot = from; slot < to; ++slot) out += term(slot, Offset{level.constrained[slot]} * B);
     return out;
   }
+
+  [[no_unique_address]] Phi phi_;
+  [[no_unique_address]] Solver solver_;
+  [[no_unique_address]] Model model_;
 };
 
 }  // namespace signorini

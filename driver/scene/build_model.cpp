@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <span>
-#include <type_traits>
 
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
+#include "core/component/new_obstacle.hpp"
 #include "core/component/settings.hpp"
 #include "core/fem/conditions/directions.hpp"
 #include "core/mesh/mirror.hpp"
@@ -21,13 +21,6 @@
 
 namespace signorini {
 namespace {
-
-template <int B>
-auto constructor(const ObstacleType& type) {
-  if constexpr (B == 1) return type.create1;
-  if constexpr (B == 2) return type.create2;
-  if constexpr (B == 3) return type.create3;
-}
 
 template <int B>
 [[noreturn]] void wrong_equation(const Scene::Obstacle& scene, const ObstacleType& type) {
@@ -56,30 +49,6 @@ void expect_shape(const Scene::Obstacle& scene, const ObstacleType& type) {
   }
 }
 
-/// Where a call failed: a fault of the plugin is told with its file.
-std::string blamed(const Status& status, const Scene::Obstacle& scene, const Registry& registry, const char* call) {
-  if (!is_fault_of_plugin(status)) return scene.source.table;
-  return fmt::format("{}: {}: the {} of '{}' failed", scene.source.table, registry.entry("obstacle", scene.type).file,
-                     call, scene.type);
-}
-
-/// @param plugin where messages begin
-void check_descriptor(const ObstacleDescriptor& descriptor, int block, const std::string& plugin) {
-  constexpr int most_directions = std::extent_v<decltype(descriptor.direction)>;
-  const auto refuse = [&](const std::string& what) { throw Error(Exit::plugin, plugin + " " + what); };
-  if (const int found = descriptor.directions; found < 0 || found > most_directions)
-    refuse(fmt::format("describes {} directions, expected 0 to {}", found, most_directions));
-  if (const int found = descriptor.data; found < 0 || found > most_data)
-    refuse(fmt::format("has {} numbers of its own, expected 0 to {}", found, most_data));
-  for (int k = 0; k < descriptor.directions; ++k) {
-    const auto& [name, components, values] = descriptor.direction[k];
-    if (!name || !*name) refuse(fmt::format("describes direction {} without a name", k));
-    if (components < 1 || components > block)
-      refuse(fmt::format("describes {} components of '{}', expected 1 to {}", components, name, block));
-    if (values < 1) refuse(fmt::format("describes {} values of '{}', expected at least 1", values, name));
-  }
-}
-
 /// Tells an obstacle that depends on its step which one it is.
 template <int B>
 void begin_step(Obstacle<B>& obstacle, const LoadStep& step, const Scene::Obstacle& scene, const Registry& registry) {
@@ -87,7 +56,9 @@ void begin_step(Obstacle<B>& obstacle, const LoadStep& step, const Scene::Obstac
   if (!stepping) return;
   Status status;
   stepping->begin(step, status);
-  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "beginning of a step"));
+  if (!status.ok())
+    throw_failure(
+        status, failed_call(status, scene.source.table, registry.entry("obstacle", scene.type), "beginning of a step"));
 }
 
 /// The obstacle with the settings it holds on to.
@@ -97,8 +68,7 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   const double t = step.to;
   const ObstacleType& type = registry.obstacle(scene.type);
   const std::string& origin = scene.source.table;
-  const auto create = constructor<B>(type);
-  if (!create) wrong_equation<B>(scene, type);
+  if (!constructor<B>(type)) wrong_equation<B>(scene, type);
   if (scene.other.empty() && type.takes_body)
     input_error(origin, fmt::format("missing key 'other': the obstacle type '{}' acts between two bodies", scene.type));
   if (scene.shape && !type.takes_shape)
@@ -111,19 +81,11 @@ ObstacleTerm<B> create_obstacle(const Scene::Obstacle& scene, int dimension, con
   if (scene.shape) shape = rigid_shape(*scene.shape, dimension, t, origin);
   auto settings = compile_settings(fmt::format("obstacle '{}'", scene.type), {type.options, type.option_count},
                                    scene.options, scene.core_keys(), shape, t);
-  Status status;
-  std::unique_ptr<Obstacle<B>> obstacle(create(*settings, status));
-  check_asked(*settings, origin);  // first: what it then complains about may be due to it
-  if (!status.ok()) throw_failure(status, blamed(status, scene, registry, "constructor"));
-  if (!obstacle) throw Error(Exit::plugin, fmt::format("{}: the plugin of '{}' made no obstacle", origin, scene.type));
-  check_descriptor(obstacle->descriptor(), B, fmt::format("{}: the plugin of '{}'", origin, scene.type));
-  if (obstacle->functional() && !obstacle->linearisation())
-    throw Error(Exit::plugin,
-                fmt::format("{}: the plugin of '{}' has a functional without its linearisation", origin, scene.type));
+  const std::shared_ptr<Obstacle<B>> obstacle =
+      new_obstacle<B>(type, registry.entry("obstacle", scene.type), settings, origin);
   begin_step(*obstacle, step, scene, registry);
   check_asked(*settings, origin);
-  std::shared_ptr<const Obstacle<B>> shared(obstacle.release(), [settings](const Obstacle<B>* held) { delete held; });
-  return {std::move(shared), scene.on, origin, std::move(shape), {}, std::move(settings)};
+  return {obstacle, scene.on, origin, std::move(shape), {}, std::move(settings)};
 }
 
 /// Of a tie; nothing where bodies may part.
