@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "amg/black_box/block_obstacles.hpp"
 #include "amg/black_box/block_rows.hpp"
 #include "amg/black_box/falls_forever.hpp"
 #include "amg/black_box/given_bounds.hpp"
@@ -23,8 +24,14 @@
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
+#include "core/constraints/admissible_sets.hpp"
+#include "core/constraints/check_functionals.hpp"
+#include "core/constraints/own_numbers.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"
+#include "core/solver/local_coordinates.hpp"
+#include "core/solver/sticking.hpp"
 #include "methods/attempts.hpp"
 #include "methods/configuration.hpp"
 
@@ -94,11 +101,26 @@ class BlackBox::Solver {
   virtual ~Solver() = default;
   virtual void set_tolerance(double tolerance) = 0;
   virtual void set_matrix(const SparseRows& A) = 0;
+  virtual void set_obstacles(std::vector<BlockObstacle<1>>) { refuse_obstacles(1); }
+  virtual void set_obstacles(std::vector<BlockObstacle<2>>) { refuse_obstacles(2); }
+  virtual void set_obstacles(std::vector<BlockObstacle<3>>) { refuse_obstacles(3); }
+  virtual void next_step() { no_step(); }
   virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                        std::span<const double> start, const Monitor& monitor) = 0;
 
   static std::unique_ptr<Solver> create(const SparseRows& A, const Given& given, int block,
                                         const SolverOptions& options, const NearNullSpace& near_null = {});
+
+ protected:
+  virtual std::string accepted_obstacles() const = 0;
+  [[noreturn]] static void no_step() {
+    input_error("next_step", "found no solution of a solve with obstacles, from which a next step could begin");
+  }
+
+ private:
+  [[noreturn]] void refuse_obstacles(int block) const {
+    input_error("obstacles", fmt::format("given for blocks of {}, expected {}", block, accepted_obstacles()));
+  }
 };
 
 /// The same in other units of the rows. Bounds that hold are met to the last bit.
@@ -130,6 +152,12 @@ class BlackBox::InUnits final : public Solver {
       result.multiplier[i] /= units_[i];
     }
     return result;
+  }
+
+ protected:
+  std::string accepted_obstacles() const override {
+    return "none: the unknowns of this matrix are in different units, as its diagonal shows; give a near null space, "
+           "such as ones, and they are left as they are";
   }
 
  private:
@@ -183,6 +211,10 @@ class BlackBox::BlockSolver final : public Solver {
       input_error("matrix", fmt::format("found {} rows, expected {} as before", A.rows, problem_.A.size() * B));
     std::vector<Flags> zero_rows, fixed = problem_.fixed;
     DiscreteProblem<B> problem = problem_of<B>(A, zero_rows);
+    BlockMatrix<B> given = obstacles_ ? problem.A : BlockMatrix<B>();
+    if (obstacles_ && zero_rows == zero_rows_) problem.frames = problem_.frames;
+    if (obstacles_ && zero_rows != zero_rows_) fixed.assign(zero_rows.size(), 0);  // those of the last frames
+    rotate(problem.A, problem.frames);
     for (std::size_t p = 0; p < fixed.size(); ++p) fixed[p] = (fixed[p] & ~zero_rows_[p]) | zero_rows[p];
     HeldRows<B> held;
     held.hold(problem, std::move(fixed));
@@ -195,6 +227,7 @@ class BlackBox::BlockSolver final : public Solver {
       levels = levels_for(problem);
     if (!motions.complete()) refuse_indefinite<B>(problem.A, *levels);
     problem_ = std::move(problem);
+    given_ = std::move(given);
     motions_ = std::move(motions);
     zero_rows_ = std::move(zero_rows);
     held_ = std::move(held);
@@ -209,10 +242,10 @@ class BlackBox::BlockSolver final : public Solver {
     problem_.b.assign(b.begin(), b.end());
     const GivenBounds bounds(n, lower, upper);
     check_start(start);
-    hold(held_by(bounds));
-    problem_.constraints = constraints<B>(bounds, problem_.fixed);
-    for (std::size_t i = 0; i < n; ++i)
-      problem_.start[i] = held(problem_.fixed, i, B) ? prescribed_value(i, bounds[i], start) : 0;
+    if (obstacles_)
+      place_obstacles(bounds, start);
+    else
+      place_bounds(bounds, start);
     held_.prescribe(problem_);
     const double begin = seconds();
     if (!motions_) motions_.emplace(problem_.A);
@@ -220,7 +253,9 @@ class BlackBox::BlockSolver final : public Solver {
     interpolations_.clear();
     const double ready = seconds();
     Result result;
-    fall_ = motions_->fall(problem_.b, problem_.constraints);
+    // What friction or faces hold is not known there.
+    fall_ = is_box() ? motions_->fall(problem_.b, problem_.constraints)
+                     : typename Motions<B>::Fall{.row = {}, .unclear = {}, .certain = true};
     if (fall_.row || fall_.unclear)
       result = without_solution(start);
     else if (!algebraic_settings(options_).only_twins)
@@ -229,10 +264,44 @@ class BlackBox::BlockSolver final : public Solver {
       result = solve(galerkin_hierarchy<B>(problem_, levels_->prolongations, transfer(), {.only_twins = true}), b,
                      start, monitor);
     result.summary.setup_seconds += ready - begin;
-    held_.residual(problem_, result.x.data(), b.data(), result.multiplier.data());
-    find_active(result, lower, upper);
+    if (obstacles_) {
+      leave_frames(result, b, bounds);
+    } else {
+      held_.residual(problem_, result.x.data(), b.data(), result.multiplier.data());
+      find_active(result, lower, upper);
+    }
     return result;
   }
+
+  using Solver::set_obstacles;
+  void set_obstacles(std::vector<BlockObstacle<B>> obstacles) override {
+    std::optional<BlockObstacles<B>> taken;
+    if (!obstacles.empty()) taken.emplace(std::move(obstacles), problem_.A.size());
+    if (!obstacles_) {
+      problem_.fixed.clear();  // puts the matrix back
+      hold(std::vector<Flags>(static_cast<std::size_t>(problem_.A.size()), 0));
+      given_ = problem_.A;
+    } else if (!taken) {
+      turn({});
+      given_ = {};
+      localised_ = {};
+      problem_.segments.clear();
+    }
+    obstacles_ = std::move(taken);
+    before_.reset();
+    solved_.clear();
+    last_.clear();
+  }
+
+  void next_step() override {
+    if (solved_.empty()) no_step();
+    std::vector<double> u = solved_;
+    out_of_frames(problem_.frames, u);
+    before_.emplace(Before{std::move(u), OwnNumbers<B>(problem_, localised_.functional, solved_)});
+  }
+
+ protected:
+  std::string accepted_obstacles() const override { return fmt::format("blocks of {}, as the matrix has", B); }
 
  private:
   TransferFactory<B> transfer() const {
@@ -252,6 +321,68 @@ class BlackBox::BlockSolver final : public Solver {
       if (bounds[i].lower == bounds[i].upper) out[i / B] |= static_cast<Flags>(1u << (i % B));
     return out;
   }
+
+  struct Before {
+    std::vector<double> u;  // global coordinates
+    OwnNumbers<B> numbers;
+  };
+
+  void place_bounds(const GivenBounds& bounds, std::span<const double> start) {
+    hold(held_by(bounds));
+    problem_.constraints = constraints<B>(bounds, problem_.fixed);
+    for (std::size_t i = 0; i < problem_.b.size(); ++i)
+      problem_.start[i] = held(problem_.fixed, i, B) ? prescribed_value(i, bounds[i], start) : 0;
+  }
+
+  void place_obstacles(const GivenBounds& bounds, std::span<const double> start) {
+    localised_ = obstacles_->localised(bounds, fixes(bounds, start));
+    DiscreteProblem<B>& local = localised_.problem;
+    check_admissible_sets(*obstacles_, local, std::max(obstacles_->size(), 1.0));
+    turn(std::move(local.frames));
+    hold(std::move(local.fixed));
+    problem_.constraints = std::move(local.constraints);
+    problem_.segments = std::move(local.segments);
+    problem_.start = std::move(local.start);
+    rotate(problem_.b, problem_.frames);
+    if (!before_) return;
+    std::vector<double> last = before_->u;
+    into_frames(problem_.frames, last);
+    count_from(last, problem_.constraints);
+    rest_where_prescribed(problem_);
+    before_->numbers.hand_to(localised_.functional, problem_.constraints);
+  }
+
+  /// The unknowns that are prescribed, as directions.
+  std::vector<FixedDirections<B>> fixes(const GivenBounds& bounds, std::span<const double> start) const {
+    const std::vector<Flags> components = held_by(bounds);
+    std::vector<FixedDirections<B>> out;
+    for (Index p = 0; p < problem_.A.size(); ++p) {
+      if (!components[p]) continue;
+      FixedDirections<B>& fixed = out.emplace_back(FixedDirections<B>{.vertex = p});
+      for (int k = 0; k < B; ++k) {
+        if (!(components[p] >> k & 1u)) continue;
+        double axis[B] = {};
+        axis[k] = 1;
+        const std::size_t i = static_cast<std::size_t>(p) * B + static_cast<std::size_t>(k);
+        fixed.add(axis, prescribed_value(i, bounds[i], start), 0);
+      }
+    }
+    return out;
+  }
+
+  /// The matrix in other frames; nothing is held any more.
+  void turn(Frames<B> frames) {
+    const Frames<B>& now = problem_.frames;
+    if (frames.slot == now.slot && frames.basis == now.basis && frames.dual == now.dual) return;
+    held_ = {};
+    problem_.A = given_;
+    problem_.fixed.clear();
+    problem_.frames = std::move(frames);
+    rotate(problem_.A, problem_.frames);
+  }
+
+  /// Whether bounds of components are all that holds the solution.
+  bool is_box() const { return problem_.constraints.facet.empty() && !has_functional(problem_.segments); }
 
   /// Levels are for components that are held: where these are others, they have to be made anew.
   void hold(std::vector<Flags> components) {
@@ -296,6 +427,7 @@ class BlackBox::BlockSolver final : public Solver {
     Result result;
     std::vector<Stage> dropped;
     std::vector<double> from(start.begin(), start.end());
+    if (obstacles_) return solve_with_obstacles(levels, std::move(from), monitor);
     if (from == last_) go_on(problem_, way_, from);
     if (start.empty())
       result.x = nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped);
@@ -312,6 +444,47 @@ class BlackBox::BlockSolver final : public Solver {
     remember(start, result);
     add_multiplier(result);
     return result;
+  }
+
+  Result solve_with_obstacles(const AlgebraicLevels<B>& levels, std::vector<double> start, const Monitor& monitor) {
+    Result result;
+    std::vector<Stage> dropped;
+    if (!start.empty()) into_frames(problem_.frames, start);
+    result.x = start.empty() ? nested_start<B>(problem_, levels.prolongations, options_, registry_, monitor, &dropped)
+                             : std::move(start);
+    const std::vector<Index>& acts = localised_.functional;
+    probe_functionals(*obstacles_, problem_, acts, result.x);
+    try {
+      result.summary = signorini::solve<B>(problem_, levels.prolongations, result.x, options_, registry_, monitor);
+    } catch (const Error& error) {
+      if (error.status() != Exit::interrupted) blame_functionals(*obstacles_, problem_, acts, result.x);
+      throw;
+    }
+    check_functionals(*obstacles_, problem_, acts, result.x);
+    result.summary.put_in_front(std::move(dropped));
+    if (!fall_.certain && is_box()) recognise_unbounded(levels, result, monitor);
+    return result;
+  }
+
+  /// The result in the coordinates of the matrix that was given, with what holds it.
+  void leave_frames(Result& result, std::span<const double> b, const GivenBounds& bounds) {
+    solved_ = result.x;
+    result.touching = obstacles_->touched(problem_.constraints, localised_, result.x);
+    out_of_frames(problem_.frames, result.x);
+    const double rounding = rounding_of_differences * max_norm(result.x);
+    result.multiplier.assign(b.size(), 0);
+    residual<B>(given_, result.x.data(), b.data(), result.multiplier.data());
+    result.active.assign(b.size(), 0);
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      double& force = result.multiplier[i] *= -1;
+      const auto p = static_cast<Index>(i / B);
+      const double off = problem_.frames.at(p) ? rounding : 0;
+      const bool at_lower = result.x[i] <= bounds[i].lower + off, at_upper = result.x[i] >= bounds[i].upper - off;
+      if (at_lower || at_upper) result.active[i] = at_lower && !(at_upper && force < 0) ? -1 : 1;
+      result.x[i] = at_lower ? bounds[i].lower : at_upper ? bounds[i].upper : result.x[i];
+      const bool pushes = (at_lower && force > 0) || (at_upper && force < 0);
+      if (!pushes && !obstacles_->acts_on(p)) force = 0;
+    }
   }
 
   /// What the next solve may go on from. A single cycle leaves nothing but the solver's error.
@@ -343,6 +516,7 @@ class BlackBox::BlockSolver final : public Solver {
     Result result;
     result.x.assign(start.begin(), start.end());
     result.x.resize(problem_.b.size(), 0);
+    into_frames(problem_.frames, result.x);
     make_admissible(problem_, result.x);
     add_multiplier(result);
     if (fall_.row)
@@ -458,6 +632,12 @@ class BlackBox::BlockSolver final : public Solver {
   bool chosen_;                               // levels by the matrix
   std::optional<AlgebraicLevels<B>> levels_;  // for the components that are held; none: to be made
   std::vector<Prolongation> interpolations_;  // given ones, while they have no levels
+
+  std::optional<BlockObstacles<B>> obstacles_;  // nothing: bounds alone
+  BlockMatrix<B> given_;                        // with obstacles: the matrix without frames
+  LocalisedProblem<B> localised_;               // of the last solve with them, but for what is in the problem now
+  std::optional<Before> before_;                // the end of the last load step; nothing: none
+  std::vector<double> solved_;                  // the last solution with them, in local coordinates
 };
 
 std::unique_ptr<BlackBox::Solver> BlackBox::Solver::create(const SparseRows& A, const Given& given, int block,
@@ -501,5 +681,16 @@ BlackBox::Result BlackBox::solve(const Values& b, const Values& lower, const Val
 }
 
 void BlackBox::set_matrix(const SparseRows& A) { solver_->set_matrix(A); }
+
+template <int B>
+void BlackBox::set_obstacles(std::vector<BlockObstacle<B>> obstacles) {
+  solver_->set_obstacles(std::move(obstacles));
+}
+
+void BlackBox::next_step() { solver_->next_step(); }
+
+template void BlackBox::set_obstacles(std::vector<BlockObstacle<1>>);
+template void BlackBox::set_obstacles(std::vector<BlockObstacle<2>>);
+template void BlackBox::set_obstacles(std::vector<BlockObstacle<3>>);
 
 }  // namespace signorini

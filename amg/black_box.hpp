@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "amg/black_box/block_obstacle.hpp"
 #include "core/algebra/near_null_space.hpp"
 #include "core/algebra/sparse_rows.hpp"
 #include "core/solver/options.hpp"
@@ -67,11 +68,12 @@ class BlackBox {
   struct Result {
     std::vector<double> x;
     /// A x - b where a bound holds: at a solution >= 0 at lower bounds, <= 0 at upper ones; exactly 0 elsewhere, and
-    /// where it has the other sign.
+    /// where it has the other sign. With obstacles all of A x - b, the force on it, at the blocks that they act on.
     std::vector<double> multiplier;
     /// -1 at the lower bound, 1 at the upper one, 0 between them; equal bounds: by the sign of the multiplier, -1 where
     /// it is 0.
     std::vector<signed char> active;
+    std::vector<Index> touching;  ///< with obstacles: the blocks that one of them holds, ascending
     Summary summary;
   };
 
@@ -116,6 +118,25 @@ class BlackBox {
   /// between the levels stay, their matrices are computed anew. The more the matrices differ the more cycles it takes.
   /// @throws Error(Exit::input) for a matrix as above, or of another size; nothing has changed then
   void set_matrix(const SparseRows& A);
+
+  /// Obstacles for the solves from now on, in place of those before, which also forget the last load step: all that the
+  /// kernel knows, with directions of their own, faces and energies. They are asked for their bounds here and now.
+  /// Bounds of solve() and equal ones, which prescribe unknowns, may act on the same blocks. The matrix is kept twice
+  /// then. A start is taken as it is, and energies are 1/2 x'Ax - b'x plus what obstacles add.
+  ///
+  ///   solver.set_obstacles<2>({{floor, blocks, places, "floor"}});
+  ///
+  /// @tparam B the block size that the solver was set up with; none at all: bounds alone again
+  /// @throws Error(Exit::input) for another block size, blocks that do not exist or are given twice, places that do not
+  ///     fit, are no numbers or have no unit normal, no measure for an obstacle that adds to the energy; whatever the
+  ///     obstacle complains about. Nothing has changed then
+  template <int B>
+  void set_obstacles(std::vector<BlockObstacle<B>> obstacles);
+
+  /// A load step ends with the last solution: from now on friction counts slip from there, and functionals find their
+  /// numbers in Slot::before.
+  /// @throws Error(Exit::input) where no solve with obstacles has ended yet
+  void next_step();
 
  private:
   class Solver;

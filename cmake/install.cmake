@@ -50,8 +50,8 @@ foreach(folder ${folders} amg c driver conformance)
   endif()
 endforeach()
 # Those of the components, and what they include; the loader of plugins is for tests of a plugin.
-string(JOIN " " public core/sdk/*.hpp c/signorini.h amg/black_box.hpp amg/coarsening/*.hpp driver/driver.hpp
-  driver/body_run.hpp core/component/plugin_loader.hpp core/component/settings.hpp conformance/check.hpp)
+string(JOIN " " public core/sdk/*.hpp c/signorini.h amg/black_box.hpp amg/obstacle_by_name.hpp amg/tabulated_obstacle.hpp
+  amg/coarsening/*.hpp driver/driver.hpp driver/body_run.hpp core/component/plugin_loader.hpp core/component/settings.hpp conformance/check.hpp)
 install(CODE "include(${PROJECT_SOURCE_DIR}/cmake/public_headers.cmake)
   public_headers(\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR} ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/include
     ${public})
