@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
-#include <cstring>
 #include <new>
 
 #include "amg/black_box.hpp"
 #include "amg/black_box/recognise_block.hpp"
+#include "c/obstacles.hpp"
+#include "c/versioned.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/options_from_text.hpp"
 
@@ -23,6 +24,7 @@ struct signorini_solver {
   void* monitor_data = nullptr;
   const signorini::IterationRecord* cycle = nullptr;  // while the monitor is called
   std::vector<signorini_cycle> history{};             // of the last solve that wrote results
+  std::vector<signorini::Index> touching{};           // the same
 };
 
 namespace {
@@ -121,23 +123,10 @@ BlackBox box_of(const SparseRows& A, int block, const signorini_setup& setup) {
                   copies_of(setup.coarse_matrices, setup.coarse_matrices ? setup.levels : 0));
 }
 
-/// A setup as this version has it, of a program that may know fewer members, which it leaves at zero, or more, which it
-/// may not use then.
 signorini_setup complete(const signorini_setup* given) {
   if (!given) return SIGNORINI_SETUP;
   constexpr std::size_t first_version = offsetof(signorini_setup, one_triangle) + sizeof given->one_triangle;
-  constexpr std::size_t nonsense = 4096;
-  const std::size_t size = given->size;
-  if (size < first_version || size > nonsense)
-    signorini::input_error("setup.size", fmt::format("found {}, expected sizeof(signorini_setup), as SIGNORINI_SETUP "
-                                                     "sets it",
-                                                     size));
-  signorini_setup out{};
-  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
-  if (std::any_of(bytes + std::min(size, sizeof out), bytes + size, [](unsigned char byte) { return byte != 0; }))
-    signorini::input_error("setup", "uses members that this library, which is older than its header, does not know");
-  std::memcpy(&out, bytes, std::min(size, sizeof out));
-  return out;
+  return signorini::versioned(given, first_version, "setup", "signorini_setup", "SIGNORINI_SETUP");
 }
 
 /// @param matrix makes a copy of the matrix
@@ -235,6 +224,7 @@ int signorini_solve(signorini_solver* solver, const double* b, const double* low
       if (multiplier) std::ranges::copy(result.multiplier, multiplier);
       if (summary) *summary = summary_of(result.summary);
       solver->active = std::move(result.active);
+      solver->touching = std::move(result.touching);
       solver->history.clear();
       for (const auto& record : result.summary.history) solver->history.push_back(cycle_of(record, solver->vectors));
     }
@@ -295,5 +285,43 @@ int signorini_history(const signorini_solver* solver, std::int32_t size, signori
     std::copy_n(all.begin(), std::min<std::size_t>(static_cast<std::size_t>(size), all.size()), cycles);
     *count = static_cast<std::int32_t>(all.size());
     return report(SIGNORINI_SOLVED, "the cycles of the last solve");
+  });
+}
+
+int signorini_set_obstacles(signorini_solver* solver, std::int32_t count, const signorini_obstacle* const* obstacles) {
+  return guarded([&] {
+    require(solver, "solver");
+    if (count < 0) signorini::input_error("count", fmt::format("found {}, expected 0 or more", count));
+    if (count > 0) require(obstacles, "obstacles");
+    switch (solver->unknowns / static_cast<std::size_t>(solver->vectors)) {
+      case 1:
+        solver->solver.set_obstacles<1>(signorini::obstacles_from_c<1>(count, obstacles));
+        break;
+      case 2:
+        solver->solver.set_obstacles<2>(signorini::obstacles_from_c<2>(count, obstacles));
+        break;
+      default:
+        solver->solver.set_obstacles<3>(signorini::obstacles_from_c<3>(count, obstacles));
+    }
+    return report(SIGNORINI_SOLVED, "obstacles are set");
+  });
+}
+
+int signorini_next_step(signorini_solver* solver) {
+  return guarded([&] {
+    require(solver, "solver");
+    solver->solver.next_step();
+    return report(SIGNORINI_SOLVED, "the next load step");
+  });
+}
+
+int signorini_touching(const signorini_solver* solver, signed char* touching) {
+  return guarded([&] {
+    require(solver, "solver");
+    require(touching, "touching");
+    if (solver->active.size() != solver->unknowns) signorini::input_error("solver", "has no results yet");
+    std::fill_n(touching, solver->vectors, static_cast<signed char>(0));
+    for (const signorini::Index block : solver->touching) touching[block] = 1;
+    return report(SIGNORINI_SOLVED, "what obstacles hold");
   });
 }

@@ -1,7 +1,7 @@
 #ifndef SIGNORINI_H
 #define SIGNORINI_H
 /*
- * Plain C interface of the solver for matrices and bounds,
+ * Plain C interface of the solver for matrices, bounds and obstacles,
  *
  *     min 1/2 x'Ax - b'x   over lower <= x <= upper
  *
@@ -143,6 +143,88 @@ int signorini_current_cycle(const signorini_solver* solver, signorini_cycle* cyc
  * which may be null where `size` is 0, and *count is how many there are.
  */
 int signorini_history(const signorini_solver* solver, int32_t size, signorini_cycle* cycles, int32_t* count);
+
+/*
+ * What an energy of the caller sees of one block, all in the block's local coordinates: component k is along direction
+ * k of the obstacle, the others are orthogonal to all directions. Keeps its members.
+ */
+typedef struct {
+  int32_t unknowns;           /* of the block: 1, 2 or 3; that many values have `lower`, `upper` and `last` */
+  const double *lower, *upper; /* bounds, infinite where there is none, equal where a component is prescribed */
+  const double* number;        /* the energy's own numbers, of this block */
+  const double* last;          /* values after the last load step, zero in the first: signorini_next_step() */
+  const double* before;        /* `number` at the end of the last load step, zero in the first */
+  unsigned tangential;         /* bit k: component k is orthogonal to the obstacle's first direction */
+} signorini_slot;
+
+/*
+ * An energy phi that is added at each block: convex, and smooth but for kinks. Functions may be called by several
+ * threads at a time and must not throw or jump; M is the block's own unknowns x unknowns matrix, row-major. They see no
+ * block's number: what differs between blocks is in `number`. Begin with `signorini_energy energy = SIGNORINI_ENERGY;`.
+ */
+typedef struct {
+  size_t size; /* sizeof(signorini_energy) */
+  /* phi(to) - phi(from), without cancellation */
+  double (*change)(const signorini_slot* slot, const double* from, const double* to, void* data);
+  /* the one-sided derivative of phi at `at` along `step` */
+  double (*slope)(const signorini_slot* slot, const double* at, const double* step, void* data);
+  /* y: the minimiser of 1/2 (y-x)'M(y-x) - r'(y-x) + phi(y) within the bounds, which it meets exactly, like kinks */
+  void (*minimise)(const signorini_slot* slot, const double* M, const double* r, const double* x, double* y,
+                   void* data);
+  /* gradient and Hessian (row-major) at x of the piece of phi that x is on; both are zero before. Components at a kink
+     stay zero there and get their bit set in *critical */
+  void (*linearise)(const signorini_slot* slot, const double* x, double* gradient, double* hessian, unsigned* critical,
+                    void* data);
+  /* null, or: phi depends on the solution, as Coulomb's friction does: `number`, which slot->number is a copy of, is
+     written anew from x and the residual r = b - Ax before each cycle */
+  void (*renew)(const signorini_slot* slot, const double* M, const double* r, const double* x, double* number,
+                void* data);
+  /* null, or: makes the numbers those of a block that stands for `ratio` as much of the surface. Without it starts from
+     coarser levels leave phi out */
+  void (*scale)(double ratio, double* number, void* data);
+  void* data; /* passed on */
+} signorini_energy;
+
+#define SIGNORINI_ENERGY \
+  { sizeof(signorini_energy), 0, 0, 0, 0, 0, 0, 0 }
+
+/*
+ * An obstacle at some blocks: lower <= direction . v <= upper for the unknowns v of each, B of them. Begin with
+ * `signorini_obstacle obstacle = SIGNORINI_OBSTACLE;`. Arrays are copied.
+ */
+typedef struct {
+  size_t size;             /* sizeof(signorini_obstacle) */
+  const char* name;        /* for messages; null: "obstacle" */
+  int32_t blocks;          /* it acts on so many, */
+  const int32_t* block;    /* these, from 0, ascending: block p is rows p * B to p * B + B - 1 */
+  int32_t directions;      /* at each of them: 1 to B */
+  const double* direction; /* blocks x directions x B: unit vectors, such as the outer normals of what is in the way;
+                              null: the first coordinate axes */
+  const double* lower;     /* blocks x directions; null, or infinite: none. A gap is a lower bound -gap */
+  const double* upper;
+  const double* friction; /* null, or: for each block the coefficient of Coulomb's friction along one direction */
+  const signorini_energy* energy; /* null, or: an energy of the caller, in place of friction */
+  int32_t numbers;                /* of the energy per block: 0 to 8 */
+  const double* number;           /* blocks x numbers */
+} signorini_obstacle;
+
+#define SIGNORINI_OBSTACLE \
+  { sizeof(signorini_obstacle), 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0 }
+
+/*
+ * Obstacles for the solves from now on, in place of those before, which also forget the last load step; `count` 0: none.
+ * They act together with the bounds of signorini_solve(). `multiplier` is then all of Ax - b at their blocks. Several
+ * may act on one block, one of them with friction or an energy. Where another status than SIGNORINI_SOLVED is returned
+ * nothing has changed; the message names obstacle and block. A wrong energy, as far as it is noticed, makes
+ * signorini_solve() return SIGNORINI_BAD_INPUT.
+ */
+int signorini_set_obstacles(signorini_solver* solver, int32_t count, const signorini_obstacle* const* obstacles);
+
+/* A load step ends with the last solution with obstacles: friction counts slip from there. */
+int signorini_next_step(signorini_solver* solver);
+
+/* For each block: 1 where an obstacle held it in the last solve that wrote results, else 0. */
+int signorini_touching(const signorini_solver* solver, signed char* touching);
 
 #ifdef __cplusplus
 }
