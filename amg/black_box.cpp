@@ -101,9 +101,9 @@ class BlackBox::Solver {
   virtual ~Solver() = default;
   virtual void set_tolerance(double tolerance) = 0;
   virtual void set_matrix(const SparseRows& A) = 0;
-  virtual void set_obstacles(std::vector<BlockObstacle<1>>) { refuse_obstacles(1); }
-  virtual void set_obstacles(std::vector<BlockObstacle<2>>) { refuse_obstacles(2); }
-  virtual void set_obstacles(std::vector<BlockObstacle<3>>) { refuse_obstacles(3); }
+  virtual void set_obstacles(std::vector<BlockObstacle<1>>&&) { refuse_obstacles(1); }
+  virtual void set_obstacles(std::vector<BlockObstacle<2>>&&) { refuse_obstacles(2); }
+  virtual void set_obstacles(std::vector<BlockObstacle<3>>&&) { refuse_obstacles(3); }
   virtual void next_step() { no_step(); }
   virtual Result solve(std::span<const double> b, std::span<const double> lower, std::span<const double> upper,
                        std::span<const double> start, const Monitor& monitor) = 0;
@@ -274,7 +274,7 @@ class BlackBox::BlockSolver final : public Solver {
   }
 
   using Solver::set_obstacles;
-  void set_obstacles(std::vector<BlockObstacle<B>> obstacles) override {
+  void set_obstacles(std::vector<BlockObstacle<B>>&& obstacles) override {
     std::optional<BlockObstacles<B>> taken;
     if (!obstacles.empty()) taken.emplace(std::move(obstacles), problem_.A.size());
     if (!obstacles_) {
