@@ -85,6 +85,7 @@ void take_better_side(const Model<B>& model, const PairedBodies<B>& pairs, Maste
       summary.resolved = of_master.resolved;
       if (!summary.resolved) continue;
       slave.take(master, *pairs.means);
+      summary.area = of_master.area;
       summary.max_pressure = slave.largest();
       summary.peaks_at_edge = of_master.peaks_at_edge;
     } else if (larger < 1 && summary.resolved && summary.error < added(1 / larger, of_master.error)) {

@@ -50,6 +50,7 @@ struct Touching {
     slaves.obstacles.resize(1);
     slaves.obstacles[0].max_pressure = 3 * (1 + slave_scatter);
     slaves.obstacles[0].peaks_at_edge = slave_scatter > 0;
+    slaves.obstacles[0].area = slave_scatter > 0 ? 0.5 : 1;  // as if every second node were open
     slaves.obstacles[0].error = slave_scatter / 4;
     masters.nodes = line(100, master_cells, master_scatter);
     masters.pressures = {{.area = 1, .resolved = true, .peaks_at_edge = false, .error = master_scatter / 4}};
@@ -77,6 +78,7 @@ TEST(BetterSide, PressuresOfAFineSlaveThatScatterAreThoseOfTheCoarseMaster) {
   Touching::expect_smooth(sides.slaves.nodes);
   EXPECT_NEAR(sides.slaves.obstacles[0].max_pressure, 3, 1e-12);
   EXPECT_FALSE(sides.slaves.obstacles[0].peaks_at_edge);
+  EXPECT_EQ(sides.slaves.obstacles[0].area, 1);
 }
 
 TEST(BetterSide, PressuresOfAFineMasterThatScatterAreThoseOfTheCoarseSlave) {
