@@ -17,6 +17,7 @@ namespace {
 
 constexpr double digits = 1e-6;         // of the size of all: what files round away
 constexpr double one_plane = 1e-6;      // angle
+constexpr double few_digits = 4;        // of these, where lengths and angles are compared
 constexpr double kink = 0.5;            // of the angle between faces: more than that has to be left of an edge
 constexpr double share = 0.25;          // of its half of the angle: less is not turning on
 constexpr double alone = 0.2;           // of the angle, where one side alone is seen
@@ -195,7 +196,7 @@ class EdgeFinder {
         }
       }
     }
-    const double size = faces_.empty() ? 0 : length<D>(difference<D>(high, low));
+    size_ = faces_.empty() ? 0 : length<D>(difference<D>(high, low));
     angle_.assign(joints_.beyond.size(), 0);
     kind_.assign(joints_.beyond.size(), Kind::wall);
     for (Index i = 0; i < count(); ++i) {
@@ -203,7 +204,7 @@ class EdgeFinder {
       if (j < 0) continue;
       angle_[i] = angle_between<D>(normal_at(i), normal_at(j));
       if (angle_[i] > crease_) continue;
-      const double least = std::max(one_plane, digits * size / std::min(height_[i], height_[j]));
+      const double least = std::max(one_plane, digits * size_ / std::min(height_[i], height_[j]));
       kind_[i] = angle_[i] <= least ? Kind::flat : Kind::open;
     }
   }
@@ -515,6 +516,32 @@ class EdgeFinder {
           more = true;
         }
     }
+    for (const Open& one : open)
+      for (const Open& other : open)
+        if (one.joint < other.joint && are_regular(one, other))
+          set(one.joint, Kind::round), set(other.joint, Kind::round);
+  }
+
+  /// Two joints across one face, with nothing that turns on beyond: three faces of the same height at the same angle,
+  /// but for digits, are those of a round, as those of a whole polygon are.
+  bool are_regular(const Open& one, const Open& other) const {
+    const auto leads_to = [](const Open& from, int side, Index joint) {
+      const auto& next = from.sides[side].next;  // of three sections in space
+      return !next.empty() && std::ranges::count(next, joint) == std::ssize(next);
+    };
+    const auto ends = [](const Side& side) { return !side.flat && side.next.empty(); };
+    for (const int a : {0, 1})
+      for (const int b : {0, 1}) {
+        const Index i = a == 0 ? one.joint : joints_.beyond[one.joint],
+                    j = b == 0 ? other.joint : joints_.beyond[other.joint];
+        if (!leads_to(one, a, j) || !leads_to(other, b, i) || !ends(one.sides[1 - a]) || !ends(other.sides[1 - b]))
+          continue;
+        const double least = few_digits * digits * size_, h = height_[i];
+        const auto same = [&](Index at) { return std::abs(height_[at] - h) <= least; };
+        return is_convex(i) == is_convex(j) && same(j) && same(joints_.beyond[i]) && same(joints_.beyond[j]) &&
+               std::abs(angle_[i] - angle_[j]) <= least / h;
+      }
+    return false;
   }
 
   /// Less than this part of what one of the faces turns by at another joint, a round one.
@@ -583,7 +610,7 @@ class EdgeFinder {
   std::span<const Point<D>> points_;
   const std::vector<std::array<Index, D>>& faces_;
   const Joints<D>& joints_;
-  double crease_;
+  double crease_, size_ = 0;
   const JointNormal<D>& joint_normal_;
   std::vector<Point<D>> normal_;
   std::vector<double> height_, angle_;  // per face and tip

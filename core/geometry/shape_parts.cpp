@@ -172,6 +172,10 @@ class ShapeFinder {
     });
   }
 
+  bool has_tip(const Curve<D>& curve, Index f) const {
+    return std::ranges::any_of(faces_[f], [&](Index v) { return is_tip<D>(curve, points_[v], longest_[f]); });
+  }
+
   /// The angle between a face and a shape that its corners are on, at most.
   double turn_of(const Curve<D>& curve, Index f, double side) const {
     double least = 1;
@@ -194,7 +198,9 @@ class ShapeFinder {
       const double side = side_of(shape, faces[0]), reach = reach_of(faces);
       double most = 0;
       for (const Index f : faces) most = std::max(most, alike * turn_of(shape, f, side));
-      const auto fits = [&](Index f) { return is_on(shape, f, side, reach) && turn_of(shape, f, side) <= most; };
+      const auto fits = [&](Index f) {  // few faces go all around a tip
+        return is_on(shape, f, side, reach) && (has_tip(shape, f) || turn_of(shape, f, side) <= most);
+      };
       for (std::size_t at = 0; at < faces.size(); ++at)
         for (int tip = 0; tip < D; ++tip) {
           const Index there = beyond[faces[at] * D + tip], g = there < 0 ? -1 : there / D;

@@ -20,7 +20,8 @@ struct ShapeParts {
 /// them are on: a few beside each other, or three plates whose lines have three vertices or more. Rows of plates with
 /// two vertices across tell nothing by themselves, for every surface of revolution has cones in it: their profile does,
 /// see find_profile_edges(). What others leave over is looked at again, and may be flat as well. In the end, faces
-/// beside a shape that are exactly on it, and turn no farther than its own, belong to it, whatever edges say.
+/// beside a shape that are exactly on it, and turn no farther than its own, or have the tip of a cone, belong to it,
+/// whatever edges say.
 /// @param across per face and tip the face and tip beyond, D times its number and the tip; -1 at edges and borders
 /// @param beyond the same for all joints; -1 at borders
 /// @param flats gets what is left over between others and flat, and loses what belongs to shapes

@@ -168,6 +168,23 @@ TEST(Edges, OfRoundSurfacesAreNone) {
   }
 }
 
+// Three cells of one length at one angle, as of a quarter of a ring, are those of an arc; of others nothing tells that.
+TEST(Edges, BetweenThreeCellsOfAnArcAreNone) {
+  for (const double angle : {5.0, 15.0, 30.0}) {
+    const std::vector<Leg> arc{{1, angle}, {1, angle}, {1, 90}, {2, 0}},
+        longer{{1, angle}, {1.01, angle}, {1, 90}, {2, 0}}, turned{{1, angle}, {1, 1.1 * angle}, {1, 90}, {2, 0}},
+        waved{{1, angle}, {1, -angle}, {1, 90}, {2, 0}};
+    EXPECT_EQ(count(line(arc)).smooth, 2) << angle;
+    for (const int rows : {1, 3})
+      for (const auto& facets : {strip(arc, rows), moved(strip(arc, rows))})
+        EXPECT_EQ(count(facets).smooth, 2 * rows) << angle;
+    for (const auto& legs : {longer, turned, waved}) {
+      EXPECT_EQ(count(line(legs)).smooth, 0) << angle;
+      EXPECT_EQ(count(strip(legs, 3)).smooth, 0) << angle;
+    }
+  }
+}
+
 /// Irregular triangles on x(u, v), closed in u where `closed`.
 template <class X>
 Facets<3> grid(int n, int m, bool closed, const X& x) {
