@@ -9,9 +9,17 @@
 #include "core/io/vtu_reader.hpp"
 
 namespace signorini {
+namespace {
+
+/// What programs leave behind the end: blanks, and ends of strings and of files.
+constexpr std::string_view trailing("\0\x1a \t\r\n", 6);
+
+}  // namespace
+
 AnyMesh parse_mesh(std::string_view content, std::string_view place, FileGroups* groups) {
-  std::size_t first = content.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;  // byte order mark
-  first = content.find_first_not_of(" \t\r\n", first);
+  content.remove_prefix(content.starts_with("\xEF\xBB\xBF") ? 3 : 0);   // byte order mark
+  content = content.substr(0, content.find_last_not_of(trailing) + 1);  // all formats end with a word
+  const std::size_t first = content.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) input_error(place, "the mesh file is empty");
   const auto holds = [&](std::string_view section) { return content.find(section, first) != std::string_view::npos; };
   // Comments of other formats begin likewise.

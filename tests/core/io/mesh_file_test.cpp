@@ -34,5 +34,14 @@ TEST(ParseMesh, AFileOfVersion1NeedsNoHead) {
   EXPECT_EQ(std::get<Mesh<2>>(mesh).elements.size(), 1u);
 }
 
+// As editors and programs of other systems leave them.
+TEST(ParseMesh, AByteOrderMarkAndZerosBehindTheEndSayNothing) {
+  const std::string mesh =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+      "$Elements\n1\n1 2 0 1 2 3\n$EndElements\n";
+  for (const std::string& content : {"\xEF\xBB\xBF" + mesh, mesh + std::string("\0\0\n", 3), mesh + "\x1a"})
+    EXPECT_EQ(std::get<Mesh<2>>(parse_mesh(content, "a.msh")).elements.size(), 1u);
+}
+
 }  // namespace
 }  // namespace signorini
