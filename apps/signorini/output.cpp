@@ -58,9 +58,10 @@ ContactFields contact_fields(const Nodes<D>& nodes, const Results<D, B>& results
       fields.normal[at] += part * (node.force[i] - node.tangential[i]) / node.area;
     }
   };
-  const std::vector<ContactNode<B>>& all = results.contact.nodes;
+  std::vector<ContactNode<B>> all = results.contact.nodes;
+  all.insert(all.end(), results.masters.begin(), results.masters.end());  // a node may be at several interfaces
+  std::ranges::stable_sort(all, {}, &ContactNode<B>::vertex);
   for (const ContactNode<B>& node : all) add(node, part_of_meeting(all, node));
-  for (const ContactNode<B>& node : results.masters) add(node);
   for (auto* field : {&fields.gap, &fields.pressure, &fields.nodal_pressure, &fields.contact})
     *field = nodes.per_vertex(std::move(*field), 1);
   if (B > 1)
