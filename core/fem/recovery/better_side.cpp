@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace signorini {
 namespace {
@@ -35,6 +36,22 @@ class PressedSide {
     return out;
   }
 
+  /// With nodes without contact that see nothing but nodes in contact: between coarse nodes, as long as some node of
+  /// this side presses on each of these.
+  /// @param known without them
+  double area_with_gaps(const PressedSide& other, const MasterMeans& seen, double known) const {
+    if (2 * in_contact() < other.in_contact()) return known;
+    for (const ContactNode<B>* node : nodes_) {
+      const auto row = std::ranges::lower_bound(seen.node, node->vertex);
+      if (node->contact || row == seen.node.end() || *row != node->vertex) continue;
+      const std::ptrdiff_t k = row - seen.node.begin();
+      const std::span of_other(seen.column.begin() + seen.row[k], seen.column.begin() + seen.row[k + 1]);
+      const auto presses = [&](Index q) { return !other.at(q) || other.at(q)->contact; };
+      if (std::ranges::all_of(of_other, presses)) known += node->area;
+    }
+    return known;
+  }
+
   /// Pressures, and what friction is of them, become those of the other side.
   /// @param seen what nodes see of it
   void take(const PressedSide& other, const MasterMeans& seen) {
@@ -49,6 +66,10 @@ class PressedSide {
   }
 
  private:
+  std::ptrdiff_t in_contact() const {
+    return std::ranges::count_if(nodes_, [](const ContactNode<B>* node) { return node->contact; });
+  }
+
   const ContactNode<B>* at(Index vertex) const {
     const auto found = std::ranges::lower_bound(nodes_, vertex, {}, [](const auto* node) { return node->vertex; });
     return found != nodes_.end() && (*found)->vertex == vertex ? *found : nullptr;
@@ -85,7 +106,8 @@ void take_better_side(const Model<B>& model, const PairedBodies<B>& pairs, Maste
       summary.resolved = of_master.resolved;
       if (!summary.resolved) continue;
       slave.take(master, *pairs.means);
-      summary.area = of_master.area;
+      const double all = slave.area_with_gaps(master, *pairs.means, summary.area);
+      summary.area = std::max(summary.area, std::min(of_master.area, all));
       summary.max_pressure = slave.largest();
       summary.peaks_at_edge = of_master.peaks_at_edge;
     } else if (larger < 1 && summary.resolved && summary.error < added(1 / larger, of_master.error)) {

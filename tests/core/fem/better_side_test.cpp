@@ -50,7 +50,6 @@ struct Touching {
     slaves.obstacles.resize(1);
     slaves.obstacles[0].max_pressure = 3 * (1 + slave_scatter);
     slaves.obstacles[0].peaks_at_edge = slave_scatter > 0;
-    slaves.obstacles[0].area = slave_scatter > 0 ? 0.5 : 1;  // as if every second node were open
     slaves.obstacles[0].error = slave_scatter / 4;
     masters.nodes = line(100, master_cells, master_scatter);
     masters.pressures = {{.area = 1, .resolved = true, .peaks_at_edge = false, .error = master_scatter / 4}};
@@ -78,7 +77,25 @@ TEST(BetterSide, PressuresOfAFineSlaveThatScatterAreThoseOfTheCoarseMaster) {
   Touching::expect_smooth(sides.slaves.nodes);
   EXPECT_NEAR(sides.slaves.obstacles[0].max_pressure, 3, 1e-12);
   EXPECT_FALSE(sides.slaves.obstacles[0].peaks_at_edge);
-  EXPECT_EQ(sides.slaves.obstacles[0].area, 1);
+}
+
+// Where the coarse master bulges between nodes that press on it others are open.
+TEST(BetterSide, TheAreaHasWhatIsBetweenNodesThatPress) {
+  for (const bool ends : {false, true}) {
+    Touching sides(fine_cells, 0.2, coarse_cells, 0);
+    for (std::size_t i = 1; i < sides.slaves.nodes.size(); i += 2) {
+      sides.slaves.nodes[i].contact = false;
+      sides.slaves.nodes[i].recovered = 0;
+    }
+    sides.slaves.obstacles[0].area = 0.5;
+    if (ends) sides.masters.nodes.front().contact = false;
+    sides.take();
+    EXPECT_NEAR(sides.slaves.obstacles[0].area, ends ? 0.875 : 1, 1e-12);  // not before a node without contact
+  }
+  Touching edge(fine_cells, 0.2, coarse_cells, 0);
+  edge.masters.pressures[0].area = 0.9, edge.slaves.obstacles[0].area = 0.95;
+  edge.take();
+  EXPECT_EQ(edge.slaves.obstacles[0].area, 0.95);  // fine nodes know better where contact ends
 }
 
 TEST(BetterSide, PressuresOfAFineMasterThatScatterAreThoseOfTheCoarseSlave) {
