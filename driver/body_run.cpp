@@ -175,8 +175,8 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 }
 
 template <int D, int B>
-bool BodyRun<D, B>::turns_friction() const {
-  return turned_at_newcomers(accepted_contact_, results_.contact);
+const char* BodyRun<D, B>::doubt_of_friction(bool followed) const {
+  return signorini::doubt_of_friction(accepted_contact_, results_.contact, followed);
 }
 
 template <int D, int B>

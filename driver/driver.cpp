@@ -26,9 +26,10 @@ namespace {
 /// Of the unknowns: meshes that are hardly finer are not made.
 constexpr double least_growth = 1.1;
 
-/// See turned_at_newcomers().
+/// See doubt_of_friction().
 const std::string at_newcomers =
-    "most of it acts at nodes that came into contact in this step, and what they moved before they touched counts, too";
+    "most of friction acts at nodes that came into contact in this step, and what they moved before they touched "
+    "counts, too";
 
 }  // namespace
 
@@ -240,12 +241,12 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
   if (progress_.is_ended()) return keep_iterate(std::move(report), std::move(warnings));
   const bool stuck = is_stuck(report);
-  bool turned = false;
-  for (std::size_t body = 0; body < bodies(); ++body) turned = turned || (!stuck && turns_friction(body));
-  const bool parts_differ = (stuck || turned) && may_be_cut(by, report);
+  const char* doubt = nullptr;
+  for (std::size_t body = 0; body < bodies() && !stuck && !doubt; ++body) doubt = doubt_of_friction(by, body);
+  const bool parts_differ = (stuck || doubt) && may_be_cut(by, report);
   const std::string* veto = parts_differ ? veto_against_cutting() : nullptr;
   if (parts_differ && !veto) {
-    note_failure(by, stuck ? "no solution was found" : "friction turned round", report.summary.iterations,
+    note_failure(by, stuck ? "no solution was found" : doubt, report.summary.iterations,
                  stuck ? report.summary.reason : at_newcomers);
     const double middle = by.from + (by.to - by.from) / 2;
     return advance({by.number, by.from, middle, by.halvings + 1}, done) &&
@@ -256,7 +257,7 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
   if (stuck && veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
-  if (turned) warnings.push_back(warning<"friction-turned">(by.number, by.to, at_newcomers));
+  if (doubt) warnings.push_back(warning<"friction-turned">(by.number, by.to, doubt, at_newcomers));
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();
@@ -289,8 +290,8 @@ const std::string* Driver::veto_against_cutting() const {
   return nullptr;
 }
 
-bool Driver::turns_friction(std::size_t body) const {
-  return visit(body, [](const auto& run) { return run.turns_friction(); });
+const char* Driver::doubt_of_friction(const LoadStep& by, std::size_t body) const {
+  return visit(body, [&](const auto& run) { return run.doubt_of_friction(by.to < scene_.steps.at.back()); });
 }
 
 /// A part differs from the whole where something of the body in question depends on t, or on the step.
@@ -298,7 +299,7 @@ bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
-    if ((!report.bodies[body].summary.converged() || turns_friction(body)) &&
+    if ((!report.bodies[body].summary.converged() || doubt_of_friction(by, body)) &&
         (uses_t(solved_, solved_.bodies[body]) || visit(body, [](const auto& run) { return run.depends_on_step(); })))
       return true;
   return false;

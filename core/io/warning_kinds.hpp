@@ -121,8 +121,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: the largest pressure is where an edge or a corner touches: there it grows as elements become smaller: do "
      "not rely on it",
      "the exact pressure is infinite there", "use the force, not this pressure"},
-    {WarningKind::About::result, "never-touch",
-     "{}: '{}' {} never touch; at the end a distance of {:.3g} is left between them",
+    {WarningKind::About::result, "never-touch", "{}: '{}' {} never touch; at the end {}",
      "the message says which distance is left",
      "check that the right side is picked, and that the load is large enough"},
     {WarningKind::About::result, "slid-past",
@@ -134,11 +133,13 @@ inline constexpr WarningKind warning_kinds[] = {
      "new pairing they do so again: take shorter steps",
      "each time the faces of the bodies are paired anew, the bodies slide on to other faces", "shorter steps"},
     {WarningKind::About::result, "friction-turned",
-     "step {}: at t = {} friction has turned round: {}; expected shorter steps ([steps])",
-     "friction turned round within the step, and nodes that have just come into contact carry most of it",
+     "step {}: at t = {} the direction of friction is in doubt: {}, and {}; expected shorter steps ([steps])",
+     "nodes that have just come into contact carry most of the friction, and it turned round within the step, or "
+     "contact moved on by more than its size",
      "shorter steps"},
     {WarningKind::About::result, "step-cut", "step {}: from t = {} to {} {}, and it was cut in two: {}",
-     "the step could not be solved in one piece, or friction turned round in it", "nothing, if the run ends with 0"},
+     "the step could not be solved in one piece, or the direction of friction was in doubt",
+     "nothing, if the run ends with 0"},
     {WarningKind::About::result, "undetermined-force",
      "{}: {} of {} nodes in contact are also held along the obstacle's normal by a fix, or pressed on by other "
      "obstacles along directions that depend on each other{}. How the force divides between them is not determined; "

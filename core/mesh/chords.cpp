@@ -169,7 +169,6 @@ double sagitta(double angle, double across) {
 
 template <int D>
 Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked) {
-  if (hierarchy.refinements.empty()) return {};
   std::vector<WideJoint<D>> wide;
   Chords largest;
   SmoothedOver smooth;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -24,32 +25,54 @@ struct Drag {
 };
 
 template <int B>
-bool touches(const ContactState<B>& contact, const ContactNode<B>& node) {
+const ContactNode<B>* same(const ContactState<B>& contact, const ContactNode<B>& node) {
   auto other = std::ranges::lower_bound(contact.nodes, node.vertex, {}, &ContactNode<B>::vertex);
   for (; other != contact.nodes.end() && other->vertex == node.vertex; ++other)
-    if (other->contact && other->obstacle == node.obstacle) return true;
-  return false;
+    if (other->obstacle == node.obstacle) return &*other;
+  return nullptr;
 }
+
+/// What touches first of an obstacle: nodes as near as the nearest one is before a step, but for rounding.
+class Beginning {
+ public:
+  /// @param gap of a node then
+  void add(double gap, bool touches) {
+    if (gap < least_ - std::fabs(least_) * rounding_of_differences) stays_ = false;
+    if (gap <= least_ + std::fabs(least_) * rounding_of_differences) stays_ = stays_ || touches;
+    least_ = std::min(least_, gap);
+  }
+  /// Whether one of them touches after the step.
+  bool stays() const { return stays_; }
+
+ private:
+  double least_ = infinity;
+  bool stays_ = false;
+};
 
 }  // namespace
 
 template <int B>
-bool turned_at_newcomers(const ContactState<B>& last, const ContactState<B>& now) {
+const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed) {
+  std::vector<Beginning> beginning(now.obstacles.size());
   std::vector<Drag<B>> before(now.obstacles.size()), after(now.obstacles.size()), of_newcomers(now.obstacles.size());
   for (const ContactNode<B>& node : last.nodes) before[node.obstacle].add(node);
   for (const ContactNode<B>& node : now.nodes) {
     after[node.obstacle].add(node);
-    if (node.contact && !touches(last, node)) of_newcomers[node.obstacle].add(node);
+    const ContactNode<B>* before = same(last, node);
+    if (!std::isnan(node.start)) beginning[node.obstacle].add(before ? before->gap : node.start, node.contact);
+    if (node.contact && !(before && before->contact)) of_newcomers[node.obstacle].add(node);
   }
-  for (std::size_t k = 0; k < after.size(); ++k)
-    if (before[k].has_direction() && after[k].has_direction() && of_newcomers[k].size > most * after[k].size &&
-        block::dot<B>(before[k].force.data(), after[k].force.data()) < 0)
-      return true;
-  return false;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    if (!after[k].has_direction() || of_newcomers[k].size <= most * after[k].size) continue;
+    if (block::dot<B>(before[k].force.data(), after[k].force.data()) < 0 && before[k].has_direction())
+      return "friction turned round";
+    if (!followed && before[k].size == 0 && !beginning[k].stays()) return "contact moved on from where it was";
+  }
+  return nullptr;
 }
 
-template bool turned_at_newcomers(const ContactState<1>&, const ContactState<1>&);
-template bool turned_at_newcomers(const ContactState<2>&, const ContactState<2>&);
-template bool turned_at_newcomers(const ContactState<3>&, const ContactState<3>&);
+template const char* doubt_of_friction(const ContactState<1>&, const ContactState<1>&, bool);
+template const char* doubt_of_friction(const ContactState<2>&, const ContactState<2>&, bool);
+template const char* doubt_of_friction(const ContactState<3>&, const ContactState<3>&, bool);
 
 }  // namespace signorini

@@ -3,11 +3,14 @@
 
 namespace signorini {
 
-/// Whether friction of one of the obstacles acts against what it was in the last step, and most of it at nodes that
-/// have come into contact since. All that these have moved in a step counts, before they touched as well: where contact
-/// moves on by more than its size, as where a blade rolls onto a drum, that may be more than what they slip, and the
-/// other way. Shorter steps tell.
+/// Why the direction of friction of one of the obstacles is in doubt; null: of none. Most of it acts at nodes that have
+/// come into contact since the last step, and either it acts against what it was in that; or there was none, no step
+/// follows that would tell, and contact is no longer where it began: at the node with the least distance then. All that
+/// newcomers have moved in a step counts, before they touched as well: where contact moves on by more than its size, as
+/// where a blade rolls onto a drum, that may be more than what they slip, and the other way. Shorter steps tell.
+/// @param last without nodes: nothing has moved before
+/// @param followed by another step
 template <int B>
-bool turned_at_newcomers(const ContactState<B>& last, const ContactState<B>& now);
+const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed);
 
 }  // namespace signorini

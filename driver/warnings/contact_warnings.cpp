@@ -131,14 +131,14 @@ Warnings pair_warnings(const Nodes<D>& nodes, const Model<B>& model) {
       }
       if (coupling.nodes() == 0) warnings.push_back(warning<"not-facing">(term.origin));
       const std::vector<FixedDirections<D>> fixes = collect_fixes<D, D>(nodes, model);
-      const PrescribedNodes fixed = prescribed_nodes(nodes, fixes, coupling);
+      const PrescribedNodes fixed = prescribed_nodes(nodes, fixes, faces.slave, coupling);
       Index lost = fixed.normal;
       if (term.obstacle->functional()) couple_whole_jumps<D>(nodes, model, term, faces, fixes, {}, {}, &lost);
       if (lost > 0 && fixed.normal > 0 && fixed.normal < fixed.all)
         warnings.push_back(warning<"prescribed-slave">(term.origin, fixed.normal, fixed.all,
                                                        "normal: nothing keeps the other body off them"));
-      if (term.obstacle->friction() && lost > 0 && lost > fixed.normal)
-        warnings.push_back(warning<"prescribed-slave">(term.origin, lost, fixed.all,
+      if (term.obstacle->friction() && std::min(lost, fixed.some) > fixed.normal)
+        warnings.push_back(warning<"prescribed-slave">(term.origin, std::min(lost, fixed.some), fixed.all,
                                                        "surface: no friction acts there along what is prescribed"));
     }
   return warnings;
@@ -163,7 +163,11 @@ Warnings apart_warnings(const Scene& scene, std::size_t body, const Report& repo
     if (!std::isfinite(least)) continue;
     warnings.push_back(warning<"never-touch">(
         obstacle.source.table, obstacle.body,
-        paired ? fmt::format("and '{}'", obstacle.other) : std::string("and the obstacle"), least));
+        paired ? fmt::format("and '{}'", obstacle.other) : std::string("and the obstacle"),
+        least < 0 ? fmt::format("they overlap by {:.3g}, in the mean around a node, and no condition keeps them apart "
+                                "there: expected smaller elements, or the other side as the slave",
+                                -least)
+                  : fmt::format("a distance of {:.3g} is left between them", least)));
   }
   return warnings;
 }
@@ -272,11 +276,14 @@ template <int D, int B>
 Warnings chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                         const Results<D, B>& results) {
   Warnings warnings;
-  for (std::size_t k = 0; k < results.deformed.size() && B == D && !hierarchy.refinements.empty(); ++k) {
-    if (!results.deformed[k]) continue;
+  for (std::size_t k = 0; k < results.deformed.size() && B == D; ++k) {
+    const bool refined = !hierarchy.refinements.empty();
+    // Vertices are on what faces stand for: a rigid obstacle, whose distance is that of nodes, is where it should be.
+    if (!results.deformed[k] || !(refined || model.obstacles[k].other)) continue;
     const double depth = flattened(results, static_cast<Index>(k));
     const double displacement = results.deformed[k]->displacement;
-    const double most = depth > 0 ? edged * depth : noticeable * displacement;
+    // Pressures peak where refinement has brought out the edges; before that the gap alone is wrong.
+    const double most = depth > 0 && refined ? edged * depth : noticeable * std::max(depth, displacement);
     const auto add = [&](const char* whose, double sagitta, double angle) {
       if (!(sagitta > most)) return;
       warnings.push_back(
@@ -295,8 +302,9 @@ Warnings chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy
           depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", depth) : "", displacement));
     };
     std::vector<bool> touching(nodes.size()), at_vertex;
-    for (const ContactNode<B>& node : results.contact.nodes)
-      if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
+    for (const auto* side : {&results.contact.nodes, &results.masters})
+      for (const ContactNode<B>& node : *side)
+        if (node.contact && node.obstacle == static_cast<Index>(k)) touching[node.vertex] = true;
     for (Index v = 0; v < nodes.mesh().vertices(); ++v) at_vertex.push_back(touching[nodes.of_vertex(v)]);
     const bool by_shape = D == 2 && hierarchy.levels.front().pieces.empty();  // a polygon's edges are straight
     const Chords chords = by_shape ? Chords{} : chord_sagitta(hierarchy, std::move(at_vertex));

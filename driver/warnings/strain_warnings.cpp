@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
+#include "core/fem/conditions/fixes.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/connected.hpp"
 #include "driver/warnings/contact_warnings.hpp"
@@ -20,6 +23,15 @@ std::string where(const StrainSizes<D>& strains) {
   return fmt::format("{:.3g} at ({:.6g})", strains.largest, fmt::join(strains.place, ", "));
 }
 
+/// Whether some displacement is prescribed that is not zero.
+template <int D>
+bool moves_by_fixes(const Nodes<D>& nodes, const Model<D>& model) {
+  const std::vector<FixedDirections<D>> fixes = collect_fixes<D, D>(nodes, model);
+  return std::ranges::any_of(fixes, [](const auto& at) {
+    return std::any_of(at.value, at.value + at.count, [](double v) { return v != 0; });
+  });
+}
+
 }  // namespace
 
 template <int D>
@@ -29,7 +41,7 @@ StrainSizes<D> strains(const Nodes<D>& nodes, const Model<D>& model, const std::
 
 template <int D>
 void refuse_folded(const Nodes<D>& coarsest, const Model<D>& model, const StrainSizes<D>& strains) {
-  if (model.obstacles.empty() || strains.folded <= much) return;
+  if (strains.folded <= much || (model.obstacles.empty() && !moves_by_fixes(coarsest, model))) return;
   const Warnings reasons = start_warnings(coarsest, model);  // an obstacle may be on the wrong side
   input_error(model.origin,
               fmt::format("{:.3g} % of the body would be pressed through itself, with strains of up to {}: linear "

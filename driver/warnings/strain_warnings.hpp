@@ -14,7 +14,8 @@ template <int D>
 StrainSizes<D> strains(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
 
 /// Error(Exit::input) where much of a body is pressed through itself: what linear elasticity says then is nonsense.
-/// Without obstacles all is proportional to the loads, and results may be meant to be scaled: these are warned of.
+/// With neither obstacles nor prescribed motions all is proportional to the loads, and results may be meant to be
+/// scaled: these are warned of.
 template <int D>
 void refuse_folded(const Nodes<D>& coarsest, const Model<D>& model, const StrainSizes<D>& strains);
 

@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <numbers>
 
 #include "tests/bodies/scenes.hpp"
@@ -181,6 +183,23 @@ TEST_F(PressFit, OfAFineStiffSlaveTouchesAllAround) {
       for (const char* slave : {"body", "other"})
         EXPECT_LT(off({.cells = cells, .order = 1, .refinements = refinements, .slave = slave, .young = {1, 30}}),
                   0.05);
+}
+
+// A bore of ten cells has edges of 36 degrees: whichever side is the slave, that they are no circle is told.
+TEST_F(PressFit, InAPolygonIsWarnedOf) {
+  const auto ring = [&](const std::string& name, double inner, double outer, int around) {
+    return sector(folder_, name, {.inner = inner, .outer = outer, .along_radius = 2, .around = around},
+                  "young = 1\npoisson = 0.3\norder = 1\n") +
+           tables::fix(name, name == "hub" ? "outer" : "inner", "[0, 0]");
+  };
+  for (const char* slave : {"body", "other"})
+    for (const int refinements : {0, 1}) {
+      Driver driver(scene_of(ring("shaft", 0.5, 1 + interference, 37) + ring("hub", 1, 2, 10) +
+                             pair("shaft", "outer", "hub", "inner", fmt::format("slave = \"{}\"\n", slave)) +
+                             fmt::format("[refine]\nuniform = {}\n", refinements)));
+      EXPECT_THAT(driver.solve().warnings, testing::Contains(testing::HasSubstr("if the flat faces of the body")))
+          << slave << " " << refinements;
+    }
 }
 
 }  // namespace

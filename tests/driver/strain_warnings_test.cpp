@@ -30,6 +30,17 @@ TEST(StrainWarnings, large_strains_are_warned_of) {
   EXPECT_THAT(warnings(squeezed(0.02, material)), Not(Contains(HasSubstr("strains"))));
 }
 
+// A displacement that is prescribed says what it means, whether there is an obstacle or not.
+TEST(StrainWarnings, a_body_moved_through_itself_is_refused) {
+  const auto moved = [](const std::string& by) {
+    return tables::block("block", "[0, 0]", "[1, 1]", "[4, 4]") + tables::fix("block", "bottom", "[0, 0]") +
+           tables::fix("block", "top", by);
+  };
+  EXPECT_THAT(refused(moved("[0, 10]")), HasSubstr("pressed through itself"));
+  EXPECT_THAT(refused(moved("[5, 0]")), HasSubstr("pressed through itself"));
+  EXPECT_EQ(refused(moved("[0, 0.1]")), "not refused");
+}
+
 // Where nothing touches anything all is proportional to the loads.
 TEST(StrainWarnings, without_obstacles_results_may_be_scaled) {
   const std::string bar = tables::block("bar", "[0, 0]", "[4, 1]", "[8, 2]") + tables::fix("bar", "left", "[0, 0]") +

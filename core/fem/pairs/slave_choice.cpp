@@ -135,8 +135,7 @@ class Chooser {
     std::ranges::sort(out.nodes);
     out.nodes.erase(std::unique(out.nodes.begin(), out.nodes.end()), out.nodes.end());
     mark(k, out.nodes);
-    const std::vector<Index> reached = vertices_of(closest(nodes_.mesh(), faces, own, within_reach));
-    out.fixed = prescribed_nodes(nodes_, fixes_, own, &reached);
+    out.fixed = prescribed_nodes(nodes_, fixes_, faces, own);
     const std::vector<Index> near = closest(nodes_.mesh(), faces, own, depth);
     double area = 0;
     for (const Index f : near) {
@@ -148,14 +147,6 @@ class Chooser {
     }
     out.modulus /= area;
     out.size = std::pow(area / static_cast<double>(near.size()), 1.0 / (D - 1));
-    return out;
-  }
-
-  std::vector<Index> vertices_of(const std::vector<Index>& faces) const {
-    std::vector<Index> out;
-    for (const Index f : faces)
-      for (const Index v : nodes_.mesh().boundary[f].vertices) out.push_back(v);
-    std::ranges::sort(out);
     return out;
   }
 
@@ -200,10 +191,14 @@ class Chooser {
 
 template <int D>
 PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
-                                 const MortarCoupling<D>& coupling, const std::vector<Index>* only) {
+                                 const std::vector<Index>& faces, const MortarCoupling<D>& coupling) {
   PrescribedNodes out;
+  std::vector<Index> reached;
+  for (const Index f : closest(nodes.mesh(), faces, coupling, within_reach))
+    reached.insert(reached.end(), nodes.mesh().boundary[f].vertices.begin(), nodes.mesh().boundary[f].vertices.end());
+  std::ranges::sort(reached);
   for (Index n = 0; n < coupling.nodes(); ++n) {
-    if (only && !std::ranges::binary_search(*only, coupling.node[n])) continue;
+    if (!std::ranges::binary_search(reached, coupling.node[n])) continue;
     ++out.all;
     const Index p = nodes.of_vertex(coupling.node[n]);
     const auto at = std::ranges::lower_bound(fixes, p, {}, &FixedDirections<D>::vertex);
@@ -235,9 +230,9 @@ void exchange_sides(const std::vector<SlaveChoice>& choices, Model<D>& model) {
 }
 
 template PrescribedNodes prescribed_nodes(const Nodes<2>&, const std::vector<FixedDirections<2>>&,
-                                          const MortarCoupling<2>&, const std::vector<Index>*);
+                                          const std::vector<Index>&, const MortarCoupling<2>&);
 template PrescribedNodes prescribed_nodes(const Nodes<3>&, const std::vector<FixedDirections<3>>&,
-                                          const MortarCoupling<3>&, const std::vector<Index>*);
+                                          const std::vector<Index>&, const MortarCoupling<3>&);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<2>&, const Model<2>&);
 template std::vector<SlaveChoice> choose_slaves(const Nodes<3>&, const Model<3>&);
 template void exchange_sides(const std::vector<SlaveChoice>&, Model<2>&);

@@ -17,17 +17,18 @@ struct SlaveChoice {
 
 /// Nodes of a slave where fixes (not planes of symmetry) stand in the way of contact with the other body.
 struct PrescribedNodes {
-  Index all = 0;     ///< that have a part of the other body in front of them
+  Index all = 0;     ///< that have a part of the other body in front of them, and where contact may come to
   Index normal = 0;  ///< prescribed along the normal: left out, nothing keeps the other body off them
   Index some = 0;    ///< prescribed along any direction: no friction acts along that
 
   /// Friction is lost at most nodes.
   bool without_friction() const { return 2 * some > all; }
 };
-/// @param only of these vertices, ascending; null: of all
+/// Contact may come to faces that are by no more than their length farther apart than the closest ones.
+/// @param faces the slave's
 template <int D>
 PrescribedNodes prescribed_nodes(const Nodes<D>& nodes, const std::vector<FixedDirections<D>>& fixes,
-                                 const MortarCoupling<D>& coupling, const std::vector<Index>* only = nullptr);
+                                 const std::vector<Index>& faces, const MortarCoupling<D>& coupling);
 
 /// One per obstacle of the model; of those that act on one body the reason is empty. Where the model leaves it open the
 /// slave is the softer body, by the moduli next to the faces that are closest to the other body; where they differ by

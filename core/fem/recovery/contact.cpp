@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -135,7 +134,7 @@ class NodeReader {
     const std::array<double, B> u = global(node.vertex);
     double moved = 0, square = 0;
     for (int i = 0; i < B; ++i) moved += u[i] * node.direction[i], square += node.direction[i] * node.direction[i];
-    return square > 0 ? node.gap - moved : std::numeric_limits<double>::quiet_NaN();
+    return square > 0 ? node.gap - moved : unknown_gap;
   }
 
   /// A vertex where a functional acts and nothing is bounded.
@@ -477,7 +476,7 @@ class Covered {
 // Areas, pressures and what follows from them, for the nodes of one obstacle.
 template <int D, int B>
 void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization, Index obstacle,
-             double least_force, const std::vector<double>& start, ContactState<B>& state) {
+             double least_force, ContactState<B>& state) {
   const ContactSurface<D, B> surface(nodes, model, obstacle);
   ContactSummary<B>& summary = state.obstacles[obstacle];
   ContactTotals<B> totals(summary);
@@ -501,7 +500,7 @@ void measure(const Nodes<D>& nodes, const Model<B>& model, const Discretization<
   if (in_body) {
     if constexpr (B == 1) summary.area = coincidence_set(nodes, obstacle, state.nodes);
   } else {
-    const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, start, state.nodes);
+    const RecoveredPressure recovered = recover_pressure(nodes, surface, obstacle, least_force, state.nodes);
     summary.area = recovered.area;
     summary.resolved = recovered.resolved;
     summary.peaks_at_edge = recovered.peaks_at_edge;
@@ -554,14 +553,10 @@ ContactState<B> contact_state(const Nodes<D>& nodes, const Model<B>& model, cons
   for (const ContactNode<B>& node : state.nodes)
     largest[node.obstacle] = std::max(largest[node.obstacle], node.pressure);
   if (!discretization.held.empty() || !discretization.facets.empty()) release_what_does_not_press(largest, state.nodes);
-  std::vector<double> start;  // directions alone bend
-  if (B > 1 && std::ranges::any_of(model.obstacles, [](const auto& term) { return acts_on_faces(term); })) {
-    start.reserve(state.nodes.size());
-    for (const ContactNode<B>& node : state.nodes) start.push_back(reader.start(node));
-  }
+  if constexpr (B > 1)
+    for (ContactNode<B>& node : state.nodes) node.start = reader.start(node);
   for (std::size_t obstacle = 0; obstacle < model.obstacles.size(); ++obstacle)
-    measure(nodes, model, discretization, static_cast<Index>(obstacle), positive_force * largest[obstacle], start,
-            state);
+    measure(nodes, model, discretization, static_cast<Index>(obstacle), positive_force * largest[obstacle], state);
   return state;
 }
 

@@ -1,10 +1,14 @@
 #pragma once
+#include <limits>
+
 #include "core/fem/assembly/discretize.hpp"
 
 namespace signorini {
 
 /// Of the largest force: what counts as one that presses.
 inline constexpr double positive_force = 1e-8;
+
+inline constexpr double unknown_gap = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a node of an elastic body: friction, and the other body's part in contact.
 template <int B>
@@ -14,8 +18,9 @@ struct ElasticContact {
   std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
   double dissipated = 0;               ///< work of that against the motion, not negative but for rounding
   double covered = 1;                  ///< between bodies: part of the area that the other one is in front of
-  double taken = 0;   ///< likewise: over its area, that of nodes beside it that are left out, and press on it
-  FrictionLaw law{};  ///< where there is friction
+  double taken = 0;            ///< likewise: over its area, that of nodes beside it that are left out, and press on it
+  FrictionLaw law{};           ///< where there is friction
+  double start = unknown_gap;  ///< distance along `direction` before anything moved
   /// The tangential traction at the node, exerted by the obstacle, global: see recover_traction(). Where it is not
   /// recovered, force over area.
   std::array<double, B> traction{};
@@ -24,7 +29,7 @@ struct ElasticContact {
 template <>
 struct ElasticContact<1> {
   static constexpr bool friction = false, sticks = false;
-  static constexpr double dissipated = 0, covered = 1, taken = 0;
+  static constexpr double dissipated = 0, covered = 1, taken = 0, start = unknown_gap;
   static constexpr std::array<double, 1> tangential{}, traction{};
   static constexpr FrictionLaw law{};
 };

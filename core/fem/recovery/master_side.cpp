@@ -35,7 +35,7 @@ class Master {
     }
     std::vector<std::array<double, D>> traction;
     for (const ContactNode<D>& node : out_) traction.push_back(node.traction);
-    to.pressures[obstacle_] = recover_pressure(nodes_, surface_, obstacle_, least, {}, out_);
+    to.pressures[obstacle_] = recover_pressure(nodes_, surface_, obstacle_, least, out_);
     // Of the recovered pressure the part that friction is of the nodal one: so it stays within Coulomb's law.
     for (std::size_t k = 0; k < out_.size(); ++k) {
       out_[k].traction = traction[k];

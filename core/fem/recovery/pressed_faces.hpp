@@ -23,13 +23,11 @@ inline constexpr Index unreachable = -1;  ///< number of a node that the obstacl
 template <int D, int B>
 class PressedFaces {
  public:
-  /// @param start see recover_pressure()
   PressedFaces(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle, double least_force,
-               const std::vector<double>& start, std::vector<ContactNode<B>>& contact) {
+               std::vector<ContactNode<B>>& contact) {
     for (std::size_t k = 0; k < contact.size(); ++k) {
       if (contact[k].obstacle != obstacle) continue;
       node_.push_back(&contact[k]);
-      start_.push_back(start.empty() ? unknown : start[k]);
     }
     for (const ContactNode<B>* node : node_) {
       pressed_.push_back(node->contact && node->pressure * node->area > least_force);
@@ -181,7 +179,6 @@ class PressedFaces {
       node.vertex = v, node.obstacle = obstacle;
       const auto at = std::ranges::upper_bound(node_, v, {}, [](const auto* other) { return other->vertex; });
       pressed_.insert(pressed_.begin() + (at - node_.begin()), false);
-      start_.insert(start_.begin() + (at - node_.begin()), unknown);
       node_.insert(at, &node);
     }
   }
@@ -315,7 +312,7 @@ class PressedFaces {
       const Index other = corners_[face][i];
       if (first == unreachable || other == unreachable) return not_known();
       way[i - 1] = difference<D>(nodes.at(node_[other]->vertex), nodes.at(node_[first]->vertex));
-      more[i - 1] = start_[other] - start_[first];
+      more[i - 1] = node_[other]->start - node_[first]->start;
     }
     if constexpr (D == 2) {
       for (int i = 0; i < D; ++i) out[i] = way[0][i] * more[0] / dot(way[0], way[0]);
@@ -329,7 +326,7 @@ class PressedFaces {
   }
   static Point<D> not_known() {
     Point<D> out;
-    out.fill(unknown);
+    out.fill(unknown_gap);
     return out;
   }
 
@@ -391,7 +388,7 @@ class PressedFaces {
           }
       if (!edge) continue;
       const double gap = node_[k]->gap;
-      if (std::isnan(start_[k]))
+      if (std::isnan(node_[k]->start))
         reach_[k] = 0;  // far off
       else if (gap <= steepest * falls)
         reach_[k] = std::clamp(1 - gap / falls, 0.0, 1.0);
@@ -428,7 +425,7 @@ class PressedFaces {
       double within = -1;
       for (const Index other : around_[from])
         if (pressed(other)) within = std::max(within, turn(from, other));
-      return within >= 0 && !std::isnan(start_[k]) && turn(k, from) > kinked * within + rounding;
+      return within >= 0 && !std::isnan(node_[k]->start) && turn(k, from) > kinked * within + rounding;
     }
     return false;
   }
@@ -448,7 +445,6 @@ class PressedFaces {
     return false;
   }
 
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::size_t most_mirrors = 32;
   static constexpr double kinked = 3;       // times the bends elsewhere: smooth surfaces differ by less
   static constexpr double rounding = 1e-6;  // of slopes
@@ -464,7 +460,7 @@ class PressedFaces {
   std::vector<Index> faces_, face_at_;
   std::vector<std::array<Index, D>> corners_;
   std::vector<std::vector<Index>> around_;
-  std::vector<double> start_, bend_, reach_;
+  std::vector<double> bend_, reach_;
 };
 
 /// Coordinates in a plane that touches the surface.

@@ -419,9 +419,8 @@ class Recovery {
 
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
-                                   double least_force, const std::vector<double>& start,
-                                   std::vector<ContactNode<B>>& contact) {
-  const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, start, contact);
+                                   double least_force, std::vector<ContactNode<B>>& contact) {
+  const PressedFaces<D, B> faces(nodes, surface, obstacle, least_force, contact);
   Recovery<D, B> recovery(nodes, surface, faces);
   recovery.fit();
   if constexpr (B > 1) recover_traction(nodes, surface, faces);
@@ -430,7 +429,7 @@ RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                        \
   template RecoveredPressure recover_pressure(const Nodes<D>&, const ContactSurface<D, B>&, Index, double, \
-                                              const std::vector<double>&, std::vector<ContactNode<B>>&);
+                                              std::vector<ContactNode<B>>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

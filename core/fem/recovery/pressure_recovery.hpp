@@ -20,7 +20,6 @@ namespace signorini {
 /// at the edge of coarse contacts not below what of a node's mean the pressure farther inside does not explain. Where
 /// too few nodes are around, or it rises towards the edge as under a punch, it is the mean.
 /// @param least_force forces up to this one are none
-/// @param start per node of `contact`, what was between the two before anything moved; NaN, or an empty list: unknown
 /// @return `area`, the measure of the contact: of the faces, or parts of faces, where what is fitted is positive. Where
 /// it does not fall towards the edge, as under a punch, contact goes on as far as PressedFaces::reach(). `resolved`:
 /// where the largest pressure is there are nodes enough inside the contact for a fit, in 3D in two rows or more; or no
@@ -36,7 +35,6 @@ struct RecoveredPressure {
 };
 template <int D, int B>
 RecoveredPressure recover_pressure(const Nodes<D>& nodes, const ContactSurface<D, B>& surface, Index obstacle,
-                                   double least_force, const std::vector<double>& start,
-                                   std::vector<ContactNode<B>>& contact);
+                                   double least_force, std::vector<ContactNode<B>>& contact);
 
 }  // namespace signorini

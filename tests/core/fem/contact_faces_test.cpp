@@ -146,7 +146,7 @@ struct Bottom {
       node.area = surface.area(node);
     }
   }
-  PressedFaces<D, D> faces(double least = 0) { return {nodes, surface, 0, least, {}, contact}; }
+  PressedFaces<D, D> faces(double least = 0) { return {nodes, surface, 0, least, contact}; }
 
   Mesh<D> mesh;
   Nodes<D> nodes;

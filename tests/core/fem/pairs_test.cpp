@@ -444,7 +444,7 @@ TEST(PrescribedNodes, AreCountedByWhatIsPrescribed) {
   pair.model.fixes = {fix<2>("up/left", {0.0, 0.0}), fix<2>("up/right", {0.0, std::nullopt})};
   const PairedFaces faces = pair.faces();
   const auto coupling = couple_sides(pair.nodes, pair.model, pair.model.obstacles[0], faces.slave, faces.master);
-  const PrescribedNodes found = prescribed_nodes(pair.nodes, pair.fixes(), coupling);
+  const PrescribedNodes found = prescribed_nodes(pair.nodes, pair.fixes(), faces.slave, coupling);
   EXPECT_EQ(found.all, 3);
   EXPECT_EQ(found.normal, 1);
   EXPECT_EQ(found.some, 2);

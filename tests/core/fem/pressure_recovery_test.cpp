@@ -36,7 +36,7 @@ class Bottom {
       node.contact = node.pressure > 1e-12;
       contact_.push_back(node);
     }
-    resolved_ = recover_pressure(*nodes_, surface, 0, 0, {}, contact_).resolved;
+    resolved_ = recover_pressure(*nodes_, surface, 0, 0, contact_).resolved;
   }
 
   bool resolved() const { return resolved_; }
@@ -185,7 +185,7 @@ std::vector<double> recovered_beside(Side side, int order) {
     node.pressure = surface.mean(node, [](const Point<D>& x) { return 2 + std::cos(4 * x[0]); });
     contact.push_back(node);
   }
-  recover_pressure(nodes, surface, 0, 0, {}, contact);
+  recover_pressure(nodes, surface, 0, 0, contact);
   std::vector<double> out(contact.size());
   std::ranges::transform(contact, out.begin(), &ContactNode<D>::recovered);
   return out;
@@ -239,7 +239,7 @@ void expect_none_from_hardly_covered(double end, Index last_pressed) {
     contact.push_back(node);
     if (node.hardly_covered()) break;
   }
-  const RecoveredPressure found = recover_pressure(nodes, surface, 0, 0, {}, contact);
+  const RecoveredPressure found = recover_pressure(nodes, surface, 0, 0, contact);
   EXPECT_TRUE(std::isfinite(found.area));
   EXPECT_GE(found.area, 0);
   if (last_pressed < 0) return;

@@ -20,10 +20,10 @@ std::string content(const std::filesystem::path& file) {
 }
 
 TEST(Warning, HasTheIdOfItsKindAndItsTextWithTheValues) {
-  const Warning one = warning<"never-touch">("obstacle.0", "a", "and 'b'", 0.12345);
-  EXPECT_EQ(one.id, "never-touch");
+  const Warning one = warning<"tied-apart">("obstacle.0", 0.12345);
+  EXPECT_EQ(one.id, "tied-apart");
   EXPECT_EQ(one.text, "obstacle.0: 'a' and 'b' never touch; at the end a distance of 0.123 is left between them");
-  EXPECT_EQ(one, warning<"never-touch">("obstacle.0", "a", "and 'b'", 0.12345));
+  EXPECT_EQ(one, warning<"tied-apart">("obstacle.0", 0.12345));
 }
 
 TEST(Warning, IsInTheReportWithItsIdBesideIt) {

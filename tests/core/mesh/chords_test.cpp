@@ -42,7 +42,7 @@ Mesh<3> arch_3d(Index n, int quarters = 1) {
 
 TEST(Chords, SagittaIsThatOfTheArcsThroughTheVertices) {
   for (const Index n : {8, 16, 64})
-    for (const int refinements : {1, 2}) {
+    for (const int refinements : {0, 1, 2}) {
       const double exact = 2 * (1 - std::cos(pi / (4 * static_cast<double>(n))));  // of the outer arc
       EXPECT_NEAR(sagitta_everywhere(arch(n), refinements), exact, 0.01 * exact);
       EXPECT_NEAR(sagitta_everywhere(arch_3d(n), refinements), exact, 0.01 * exact);
@@ -75,11 +75,10 @@ TEST(Chords, OfThirtyDegreesCount) {
   EXPECT_NEAR(sagitta_everywhere(arch_3d(3), 1), exact, 0.02 * exact);
 }
 
-TEST(Chords, PolyhedraAndMeshesThatAreNotRefinedHaveNone) {
+TEST(Chords, PolyhedraHaveNone) {
   EXPECT_EQ(sagitta_everywhere(rectangle({0, 0}, {3, 1}, {4, 3}), 2), 0);
   EXPECT_EQ(sagitta_everywhere(box({0, 0, 0}, {3, 1, 2}, {2, 3, 2}), 1), 0);
   EXPECT_EQ(sagitta_everywhere(arch(2), 1), 0) << "edges of 45 degrees";
-  EXPECT_EQ(sagitta_everywhere(arch(8), 0), 0);
 }
 
 // As a chamfer has it.
