@@ -250,7 +250,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();
   if (long_list) give_freed_memory_back();
   results_ = signorini::results<D, B>(nodes(), model_, solution.discretization, std::move(solution.x),
-                                      solution.pressure, slaves_, solver_.shift());
+                                      solution.pressure, slaves_, solver_.shift(), std::move(solution.joints));
   if constexpr (D == B)
     if (solution.summary.converged()) {
       refuse_pulling(nodes(), model_, results_.contact);
@@ -262,6 +262,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty())
     add_once(warning<"undetermined-motion">(model_.origin, fmt::join(solution.undetermined, "; ")), warnings);
+  if (solution.pressed_shut > 0) add_once(warning<"pressed-shut">(model_.origin, solution.pressed_shut), warnings);
   if (solution.slides_on) add_once(warning<"slides-on">(model_.origin), warnings);
   const double rounding = rounding_of_forces(solution.discretization.problem.A, results_.u);
   for (Warning& warning :

@@ -57,6 +57,7 @@ struct ContactReport {
 struct ForceReport {
   int number = 0;  ///< of the scene's [[load]], [[fix]] or [[spring]], from 0
   std::vector<double> force;
+  std::optional<double> open_area = {};  ///< of a load with `where_open`: what it acts on
 };
 
 /// How a rigid part has moved, and what moves it.

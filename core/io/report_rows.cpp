@@ -305,7 +305,10 @@ template <>
 struct Table<Applied> {
   static constexpr const char* name = "applied";
   static std::vector<Row<Applied>> rows() {
-    return force_rows<Applied>("load", "number of the scene's `[[load]]`, from 0", "its sum");
+    auto rows = force_rows<Applied>("load", "number of the scene's `[[load]]`, from 0", "its sum");
+    rows.push_back({{"open_area", Kind::number, "that it acts on; loads with `where_open`", false, true},
+                    [](const Applied& a) { return a.of.open_area ? Json(*a.of.open_area) : left_out(); }});
+    return rows;
   }
 };
 

@@ -132,6 +132,10 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: within a step the bodies slide past each other by more than part of an element, and after each "
      "new pairing they do so again: take shorter steps",
      "each time the faces of the bodies are paired anew, the bodies slide on to other faces", "shorter steps"},
+    {WarningKind::About::result, "pressed-shut",
+     "{}: at {} nodes the pressure of a load with 'where_open' closes what it opens: it is left there; expected "
+     "smaller elements",
+     "where the pressure acts a joint closes, and where it does not it opens", "smaller elements there"},
     {WarningKind::About::result, "friction-turned",
      "step {}: at t = {} the direction of friction is in doubt: {}, and {}; expected shorter steps ([steps])",
      "nodes that have just come into contact carry most of the friction, and it turned round within the step, or "

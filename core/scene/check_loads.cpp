@@ -26,6 +26,26 @@ void check_one_way(const Scene::Load& load) {
     input_error(load.source.of("about"), "'about' has no meaning without 'force' or 'torque'");
 }
 
+/// What a pressure that acts where contact is open needs.
+void check_where_open(const Scene& scene, const Scene::Load& load) {
+  if (!load.where_open) {
+    if (!load.from.empty()) input_error(load.source.of("from"), "'from' has no meaning without 'where_open'");
+    return;
+  }
+  const std::string& place = load.source.of("where_open");
+  if (!load.pressure)
+    input_error(place, "'where_open' belongs to 'pressure', which is not given: other loads act whatever is open");
+  const auto touches = [&](const Scene::Obstacle& obstacle) {
+    return obstacle.body == load.body || obstacle.other == load.body;
+  };
+  if (std::ranges::none_of(scene.obstacles, touches) && !scene.looks_for_pairs(scene.body(load.body)))
+    input_error(place, fmt::format("no obstacle acts on body '{}', so that all of it is open; expected an obstacle, or "
+                                   "no 'where_open'",
+                                   load.body));
+  if (scene.solver.bodies == "dirichlet-neumann")
+    input_error(place, "is not available with solver.bodies = 'dirichlet-neumann'; expected 'jumps'");
+}
+
 void check_fits_body(const Scene& scene, const Scene::Load& load) {
   const Scene::Body& body = scene.body(load.body);
   const auto forbid = [&](const char* key, bool given, const char* why) {
@@ -88,6 +108,7 @@ void check_loads(const Scene& scene) {
     if (load.frame == Frame::normal && !load.on)
       input_error(load.source.of("frame"), "frame 'normal' needs faces: neither 'on' nor 'where' is given");
     check_fits_body(scene, load);
+    check_where_open(scene, load);
     for (const Field& component : load.value) expect_finite(component, load.source.of("value"));
     for (const Field& component : load.force) expect_finite(component, load.source.of("force"));
     for (const Field& component : load.torque) expect_finite(component, load.source.of("torque"));

@@ -85,6 +85,8 @@ Scene::Load read_load(const RawTable& table, const std::filesystem::path& folder
       load.value.push_back(*component);
     }
   if (reader.given("pressure")) load.pressure = reader.field("pressure");
+  load.where_open = reader.flag("where_open");
+  if (reader.given("from")) load.from = reader.text("from");
   load.force = reader.totals("force");
   load.torque = reader.totals("torque");
   if (reader.given("about")) load.about = reader.point("about");

@@ -103,6 +103,8 @@ struct Scene {
     std::vector<double> about = {};  ///< the point that it is about; empty: the centroid
     Frame frame = Frame::global;     ///< of `value`
     FrameAxis axis = {};
+    bool where_open = false;  ///< `pressure` acts only where the faces touch nothing
+    std::string from = {};    ///< then a part that it comes from; empty: it acts wherever that is
 
     bool is_total() const { return !force.empty() || !torque.empty(); }
   };

@@ -118,6 +118,13 @@ constexpr KeySpec load[] = {
      "force "
      "(a source); either this, `pressure`, or what the load is in total"},
     {"pressure", field, "", "", "", "with `on` or `where`: a traction against the outer normal"},
+    {"where_open", boolean, "false", "", "",
+     "`pressure` acts only where the faces touch neither obstacles nor other bodies, as far as that is found to go, "
+     "and "
+     "on the other body in front of them too. See docs/seals.md"},
+    {"from", text, "", "", "",
+     "with `where_open`: a part of the body that meets these faces. The pressure comes from there, and acts on what is "
+     "open in connection with it; by default on all that is open"},
     {"force", totals, "", "", "",
      "in total (scalar bodies: a flux or a source), spread evenly over what the load acts on: area, length or volume"},
     {"torque", moment, "", "", "",

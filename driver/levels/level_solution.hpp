@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/constraints/own_numbers.hpp"
+#include "core/fem/recovery/joint_pressure.hpp"
 
 namespace signorini {
 
@@ -11,6 +12,7 @@ struct LevelSolution {
   std::vector<double> u;  ///< global coordinates; of the last solve on the finest mesh, not accepted yet: none
   OwnNumbers<B> numbers;
   std::vector<double> pressure;
+  Wetted wetted;  ///< by pressure in joints; on the finest mesh only
 };
 
 }  // namespace signorini

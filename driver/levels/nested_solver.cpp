@@ -258,6 +258,7 @@ bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution)
   make_admissible(next.discretization.problem, next.x);
   next.summary = std::move(solution.summary);
   next.pressure = std::move(solution.pressure);
+  next.joints = std::move(solution.joints);
   solution = std::move(next);
   return true;
 }
@@ -526,13 +527,71 @@ void NestedSolver<D, B>::rest_on_springs(const Model<B>& model, const SolverOpti
   }
 }
 
+/// Makes what pressure exerts in joints part of the load on the finest mesh, in place of what it exerted before.
+/// @param discretization there; null: it is yet to come, and takes the load then
+template <int D, int B>
+JointLoad<B> NestedSolver<D, B>::fill_joints(const JointPressure<D, B>& joints, const Wetted& wetted,
+                                             Discretization<B>* discretization) {
+  MeshLevel<D, B>& finest = levels_.finest();
+  JointLoad<B> out = joints.load(wetted, finest.all_pairs.get());
+  if (discretization) {
+    add_force(finest.force, -1, discretization->load);
+    add_force(out.force, 1, discretization->load);
+    place_loads(*discretization);
+  } else if (finest.kept) {
+    add_force(finest.force, -1, finest.kept->discretization.load);  // back to the model's own
+  }
+  finest.force = out.force;
+  return out;
+}
+
+/// Pressure spreads in joints as far as they are open, which they are where it acts. Each solve begins where the last
+/// one ended, and is a rough one as long as what is reached changes.
+template <int D, int B>
+void NestedSolver<D, B>::solve_open(const Model<B>& model, const JointPressure<D, B>& joints, Spreading& spreading,
+                                    Solution<B>& solution) {
+  constexpr double roughly = 1e-3;
+  constexpr int enough = 100;
+  SolverOptions options = options_;
+  options.tolerance = std::max(options.tolerance, roughly);
+  std::vector<Stage> before;
+  const auto solve = [&] {
+    try {
+      solve_finest(model, options, solution);
+    } catch (const Error& error) {
+      const std::string origin = joints.origin(spreading.now());
+      if (error.status() != Exit::no_solution || origin.empty()) throw;
+      throw Error(error.status(),
+                  fmt::format("{}; the pressure of {} acts where contact is open", error.what(), origin));
+    }
+    solution.summary.put_in_front(std::exchange(before, {}));
+  };
+  for (int k = 0; k < enough; ++k) {
+    solve();
+    if (!solution.summary.converged() || progress_.is_ended()) return;
+    const bool moved = spreading.take(joints.wetted(solution.discretization, solution.x, solution.joints));
+    if (!moved && options.tolerance <= options_.tolerance) {
+      solution.pressed_shut = spreading.shut();
+      return;
+    }
+    before = std::move(solution.summary.stages);
+    if (moved)
+      solution.joints = fill_joints(joints, spreading.now(), &solution.discretization);
+    else
+      options.tolerance = options_.tolerance;
+  }
+  solution.summary.put_in_front(std::move(before));
+  solution.summary.outcome = Outcome::stuck;
+  solution.summary.reason = fmt::format("after {} solves the pressure of {} still spreads in what is open", enough,
+                                        joints.origin(spreading.now()));
+}
+
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
-void NestedSolver<D, B>::solve_finest(const Model<B>& model, Solution<B>& solution) {
+void NestedSolver<D, B>::solve_finest(const Model<B>& model, SolverOptions options, Solution<B>& solution) {
   const LooseBody<D, B> body(nodes(), model, solution.discretization);
   const bool moves = solution.discretization.functional.empty();  // else friction may hold what bounds alone do not
   if (moves) body.require_minimum();
-  SolverOptions options = options_;
   if (may_fall_back())
     options.max_iterations =
         std::min(options.max_iterations, moves ? automatic::attempt(automatic::Kind::levels_of_matrix).most_steps
@@ -588,6 +647,10 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   if (spared_) restore_elements(*spared_);  // the last solve may have left some without them
   for (MeshLevel<D, B>& level : levels_) level.now = {};
   pair_levels(model);
+  const JointPressure<D, B> joints(nodes(), model);
+  Spreading spreading(levels_[finest].before.wetted.empty() ? joints.nowhere() : levels_[finest].before.wetted);
+  JointLoad<B> in_joints;
+  if (!pairs_.given()) in_joints = fill_joints(joints, spreading.now(), nullptr);
   std::optional<Solution<B>> begun;
   const bool near = begin_near(model, begun);
   Solution<B> coarse;
@@ -596,7 +659,12 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
   Solution<B> solution = near ? std::move(*begun) : begin_level(model, finest, coarse, std::move(begun));
   coarse = {};
   if (finest == first_) come_near(model, solution);
-  solve_finest(model, solution);
+  solution.joints = std::move(in_joints);
+  if (joints.none())
+    solve_finest(model, options_, solution);
+  else
+    solve_open(model, joints, spreading, solution);
+  levels_[finest].now.wetted = spreading.now();
   levels_[finest].now.numbers = {solution.discretization.problem, solution.discretization.functional, solution.x};
   levels_[finest].now.pressure = solution.pressure;
   solution.summary.put_in_front(std::exchange(dropped_, {}));

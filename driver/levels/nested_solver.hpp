@@ -31,6 +31,8 @@ struct Solution {
   std::vector<double> pressure;  ///< of NestedSolver::pressure_space()
   Summary summary;
   std::vector<std::string> undetermined;  ///< motions that nothing decides, see LooseBody
+  JointLoad<B> joints;                    ///< what pressure in joints exerts, counted in the discretization's load
+  Index pressed_shut = 0;                 ///< nodes that it acts on, and that are in contact
   bool slides_on = false;                 ///< bodies have slid past each other since they were last paired
 };
 
@@ -125,7 +127,10 @@ class NestedSolver {
   void choose_levels_below(const Model<B>& model);
   void rest_on_springs(const Model<B>& model, const SolverOptions& options, const LooseBody<D, B>& body,
                        Solution<B>& solution);
-  void solve_finest(const Model<B>& model, Solution<B>& solution);
+  JointLoad<B> fill_joints(const JointPressure<D, B>& joints, const Wetted& wetted, Discretization<B>* discretization);
+  void solve_finest(const Model<B>& model, SolverOptions options, Solution<B>& solution);
+  void solve_open(const Model<B>& model, const JointPressure<D, B>& joints, Spreading& spreading,
+                  Solution<B>& solution);
   void solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options, const LooseBody<D, B>* body,
                    Solution<B>& solution);  // without a body it is not moved first
   Solution<B> solve_coarser_meshes(const Model<B>& model);

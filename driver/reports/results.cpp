@@ -22,13 +22,14 @@
 #include "driver/reports/contact_report.hpp"
 #include "driver/scene/materials.hpp"
 #include "driver/scene/numbers.hpp"
+#include "driver/scene/part_nodes.hpp"
 
 namespace signorini {
 
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
                       std::vector<double> x, std::vector<double> pressure, std::vector<SlaveChoice> slaves,
-                      std::vector<Point<B>> shift) {
+                      std::vector<Point<B>> shift, JointLoad<B> joints) {
   const bool global = discretization.problem.frames.slot.empty() && !discretization.problem.jumps;
   Results<D, B> out;
   out.u = to_global(discretization.problem, global ? std::exchange(x, {}) : x);
@@ -56,6 +57,9 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discre
     }
   out.forces = forces(model, discretization, out.contact, local);
   out.forces.springs = spring_forces(nodes, model, out.u);
+  out.joints = std::move(joints);
+  for (std::size_t k = 0; k < out.joints.total.size(); ++k)
+    for (int i = 0; i < B; ++i) out.forces.applied[k][i] += out.joints.total[k][i];
   for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
     if (model.obstacles[k].tied) {
       out.deformed.emplace_back();
@@ -141,10 +145,26 @@ void add_forces(const std::vector<std::array<double, B>>& forces, const std::vec
       if (tables[numbers[k]].*of == body) total[i] += forces[k][i];
 }
 
+/// What pressure in joints exerts on the part of another load's body: what it exerts there beside its own faces.
+template <int D, int B>
+void add_in_joints(const Scene& scene, const Scene::Body& body, std::size_t part, const Nodes<D>& nodes,
+                   const Results<D, B>& results, std::vector<double>& total) {
+  const std::vector<double>& force = results.joints.force;
+  if (force.empty()) return;
+  const std::vector<char> inside = nodes_of_part(scene, body, part, nodes);
+  for (std::size_t p = 0; p < inside.size(); ++p)
+    for (std::size_t i = 0; i < B && inside[p]; ++i) total[i] += force[p * B + i];
+  const std::vector<int> loads = numbers_of(scene.loads, body);
+  for (std::size_t k = 0; k < loads.size(); ++k)  // counted there already
+    for (std::size_t i = 0; i < B && scene.loads[loads[k]].body == (body.parts.empty() ? body : body.parts[part]).name;
+         ++i)
+      total[i] -= results.joints.total[k][i];
+}
+
 /// Of a body, or of its parts: what touches one of them pushes the other one back.
 template <int D, int B>
-std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Results<D, B>& results,
-                                    const Whole& whole) {
+std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body, const Nodes<D>& nodes,
+                                    const Results<D, B>& results, const Whole& whole) {
   const Forces<B>& forces = results.forces;
   const ContactForces<B> contact = contact_forces(results);
   std::vector<std::string> names{body.name};
@@ -156,6 +176,7 @@ std::vector<BalanceReport> balances(const Scene& scene, const Scene::Body& body,
     BalanceReport& balance = out.emplace_back(BalanceReport{name, {}, {}, {}});
     add_forces<B>(forces.applied, numbers_of(scene.loads, body), scene.loads, &Scene::Load::body, name,
                   balance.applied);
+    add_in_joints(scene, body, out.size() - 1, nodes, results, balance.applied);
     add_forces<B>(forces.reactions, numbers_of(scene.fixes, body), scene.fixes, &Scene::Fix::body, name,
                   balance.reactions);
     add_forces<B>(forces.springs, numbers_of(scene.springs, body), scene.springs, &Scene::Spring::body, name,
@@ -206,13 +227,16 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   report.summary = of_whole(summary, whole);
   const Forces<B>& forces = results.forces;
   report.applied = force_reports<B>(numbers_of(scene.loads, body), forces.applied, mirrors, results.across.loads);
+  for (std::size_t k = 0; k < report.applied.size(); ++k)
+    if (ForceReport& load = report.applied[k]; scene.loads[load.number].where_open && !results.joints.area.empty())
+      load.open_area = results.joints.area[k] * Whole(mirrors, results.across.loads[k]).copies();
   report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
   report.springs = force_reports<B>(numbers_of(scene.springs, body), forces.springs, mirrors, results.across.springs);
   report.rigid = rigid_reports(numbers_of(scene.rigids, body), results.rigid);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,
                     plane_names(mirrors), whole.copies(), body.order, body.order_chosen}};
-  report.balance = balances(scene, body, results, whole);
+  report.balance = balances(scene, body, nodes, results, whole);
   report.contact = contact_reports(scene, nodes, results, t, number);
   for (std::size_t k = 0; k < probes.names.size(); ++k) {
     const auto value = evaluate<B>(nodes, probes.places[k], results.u);
@@ -325,7 +349,7 @@ Warnings model_warnings(const Scene& scene, const Nodes<D>& nodes, const Model<B
 #define SIGNORINI_RESULTS(D, B)                                                                                  \
   template Results<D, B> results<D, B>(const Nodes<D>&, const Model<B>&, const Discretization<B>&,               \
                                        std::vector<double>, std::vector<double>, std::vector<SlaveChoice>,       \
-                                       std::vector<Point<B>>);                                                   \
+                                       std::vector<Point<B>>, JointLoad<B>);                                     \
   template StepReport step_report(const Scene&, const Nodes<D>&, const Probes<D>&, const Results<D, B>&, double, \
                                   const Summary&, std::size_t);                                                  \
   template Warnings model_warnings(const Scene&, const Nodes<D>&, const Model<B>&, std::size_t);

@@ -32,6 +32,7 @@ struct Results {
   std::vector<ContactNode<B>> masters;                   ///< master_side()
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
   std::vector<Point<B>> shift;                           ///< of slaves, see NestedSolver
+  JointLoad<B> joints;                                   ///< see Solution
   ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
 };
 
@@ -41,10 +42,10 @@ struct Results {
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
                       std::vector<double> x, std::vector<double> pressure, std::vector<SlaveChoice> slaves,
-                      std::vector<Point<B>> shift);
+                      std::vector<Point<B>> shift, JointLoad<B> joints = {});
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Solution<B>& solution) {
-  return results<D, B>(nodes, model, solution.discretization, solution.x, solution.pressure, {}, {});
+  return results<D, B>(nodes, model, solution.discretization, solution.x, solution.pressure, {}, {}, solution.joints);
 }
 
 /// Probes with the places where they lie.

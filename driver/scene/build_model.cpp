@@ -184,6 +184,9 @@ Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& giv
   if (given.pressure) result.value = against_normal<B>(*given.pressure);
   if (given.is_total()) result.total = resultant<B>(given);
   if (given.on) result.on = on_mesh_of(body, given.body, *given.on);
+  if (given.where_open) result.where_open.emplace();
+  if (!given.from.empty())
+    result.where_open->from = on_mesh_of(body, given.body, {given.from, {}, given.source.of("from")});
   if (given.on || body.parts.empty()) return result;
   const auto part = std::ranges::find(body.parts, given.body, &Scene::Body::name) - body.parts.begin();
   const auto [first, count] = regions_of_part(scene, body, static_cast<std::size_t>(part));
@@ -194,6 +197,16 @@ Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& giv
 /// Or one of its parts.
 bool is_heated(const Scene::Body& body) {
   return body.temperature.constant() != 0.0 || std::ranges::any_of(body.parts, is_heated);
+}
+
+/// Where pressure enters a joint, contact has to be known at the faces that the scene names.
+Slave slave_of(const Scene& scene, const Scene::Obstacle& obstacle) {
+  if (obstacle.slave != Slave::automatic || obstacle.body == obstacle.other) return obstacle.slave;
+  const auto enters = [&](const std::string& body) {
+    return std::ranges::any_of(scene.loads, [&](const auto& load) { return load.where_open && load.body == body; });
+  };
+  if (enters(obstacle.body)) return Slave::body;
+  return enters(obstacle.other) ? Slave::other : Slave::automatic;
 }
 
 template <int B>
@@ -233,7 +246,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     if (obstacle.other.empty()) continue;
     term.other =
         on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
-    term.slave = obstacle.slave;
+    term.slave = slave_of(scene, obstacle);
     term.pairing = obstacle.pairing;
     term.resolve = obstacle.resolve;
     term.renew = obstacle.renew;

@@ -8,25 +8,10 @@
 #include "core/base/dot.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/sdk/block.hpp"
-#include "driver/scene/touching_bodies.hpp"
+#include "driver/scene/part_nodes.hpp"
 
 namespace signorini {
 namespace {
-
-/// Whether each node is one of a part of the body; all are where it has none.
-template <int D>
-std::vector<char> nodes_of_part(const Scene& scene, const Scene::Body& body, std::size_t part, const Nodes<D>& nodes) {
-  std::vector<char> inside(static_cast<std::size_t>(nodes.size()), body.parts.empty());
-  if (body.parts.empty()) return inside;
-  const auto [first, count] = regions_of_part(scene, body, part);
-  with_order(nodes, [&, first = first, count = count](auto order) {
-    const auto& elements = nodes.template elements<order>();
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      if (nodes.region(e) >= first && nodes.region(e) < first + count)
-        for (const Index p : nodes.of(elements[e])) inside[p] = true;
-  });
-  return inside;
-}
 
 /// The sum of their sizes, node by node: loads that balance each other count.
 template <int B>

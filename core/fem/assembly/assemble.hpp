@@ -20,7 +20,7 @@ BlockMatrix<B> stiffness(const Nodes<D>& nodes, const Model<B>& model, const Jum
 /// Load vector, B per node: body forces or sources by a rule exact for linear fields, tractions or fluxes by one
 /// exact for quartic fields; for quadratic elements both by one exact for cubic fields. An Error(Exit::input) names the
 /// origin of a selection without faces. Thermal strains add the stress that holds them back times the strains of basis
-/// functions, by the rule of the stiffness.
+/// functions, by the rule of the stiffness. Loads with Load::where_open count as zero.
 /// @param totals where there are any, becomes the integral of each load
 template <int D, int B>
 std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,

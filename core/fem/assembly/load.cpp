@@ -66,6 +66,10 @@ std::vector<double> load_vector(const Nodes<D>& nodes, const Model<B>& model,
   for (const Load<B>& given : model.loads) {
     const Load<B> load = distributed(nodes, model, given);
     out.total = {};
+    if (load.where_open) {
+      if (totals) totals->push_back(out.total);
+      continue;
+    }
     if (load.on || !is_zero(load)) add(nodes, model, load, out);
     if (totals) totals->push_back(out.total);
   }

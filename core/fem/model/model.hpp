@@ -62,6 +62,11 @@ struct Resultant {
   std::string origin;
 };
 
+/// Of a pressure that acts only where its faces touch nothing.
+struct JointSource {
+  std::optional<Selection> from;  ///< a part that it comes from: it acts where openings are connected with that
+};
+
 /// A traction or flux (with `on`), or a body force or source (without).
 template <int B>
 struct Load {
@@ -69,6 +74,8 @@ struct Load {
   std::array<Field, B> value;
   std::array<Index, 2> regions = {-1, -1};  ///< of a body force: the first and the last that it acts in; -1: all
   std::optional<Resultant<B>> total = {};   ///< in place of `value`: see distributed()
+  /// Of a traction: see JointPressure, which knows where it acts; load_vector() leaves it out. Nothing: everywhere.
+  std::optional<JointSource> where_open = {};
 };
 
 /// A traction -k u on faces: an elastic foundation, or a spring.

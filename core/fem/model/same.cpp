@@ -26,6 +26,7 @@ bool same(const Resultant<B>& a, double ta, const Resultant<B>& b, double tb) {
 
 template <int B>
 bool same(const Load<B>& a, double ta, const Load<B>& b, double tb) {
+  if (a.where_open || b.where_open) return a.where_open.has_value() == b.where_open.has_value();  // no part of b
   if (a.on.has_value() != b.on.has_value() || (a.on && !same(*a.on, ta, *b.on, tb))) return false;
   if (a.regions != b.regions) return false;
   if (a.total.has_value() != b.total.has_value() || (a.total && !same(*a.total, ta, *b.total, tb))) return false;
