@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "core/fem/recovery/joint_pressure.hpp"
 #include "tests/bodies/scenes.hpp"
 
 namespace signorini::test {
@@ -22,6 +23,21 @@ StepReport solved(const std::string& text) {
   Driver driver(scene_of(text + exact));
   EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
   return driver.report().last();
+}
+
+// Nodes that come and go would do so for ever: from the first time on that they come back, what is wetted only grows.
+TEST(Spreading, ComesToRest) {
+  Spreading spreading(Wetted{{0, 0, 0}});
+  EXPECT_TRUE(spreading.take({{1, 0, 0}}));
+  EXPECT_TRUE(spreading.take({{1, 1, 0}}));
+  EXPECT_EQ(spreading.now(), (Wetted{{1, 1, 0}}));
+  EXPECT_TRUE(spreading.take({{1, 0, 0}}));
+  EXPECT_EQ(spreading.shut(), 1);
+  EXPECT_TRUE(spreading.take({{1, 1, 0}}));
+  EXPECT_EQ(spreading.shut(), 0);
+  EXPECT_FALSE(spreading.take({{1, 0, 0}}));
+  EXPECT_EQ(spreading.now(), (Wetted{{1, 1, 0}}));
+  EXPECT_EQ(spreading.shut(), 1);
 }
 
 struct Case {

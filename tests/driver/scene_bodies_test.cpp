@@ -7,6 +7,7 @@
 #include "core/mesh/structured.hpp"
 #include "driver/scene/materials.hpp"
 #include "driver/scene/numbers.hpp"
+#include "driver/scene/part_nodes.hpp"
 #include "driver/scene/progress.hpp"
 #include "driver/scene/touching_bodies.hpp"
 
@@ -125,6 +126,19 @@ TEST(Materials, AreCountedFromPartToPart) {
     site.region = region;
     EXPECT_EQ(young(site), wanted[region]) << region;
   }
+}
+
+// Of two triangles the first is of a, whose materials are the first three, the other one of b.
+TEST(PartNodes, AreThoseOfItsElements) {
+  const Scene scene = with_materials();
+  Mesh<2> mesh;
+  mesh.points = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {3, 0}, {2, 1}};
+  mesh.elements = {{0, 1, 2}, {3, 4, 5}};
+  mesh.region = {2, 3};
+  const Nodes<2> nodes(mesh);
+  EXPECT_THAT(nodes_of_part(scene, scene.bodies[0], 0, nodes), ElementsAre(1, 1, 1, 0, 0, 0));
+  EXPECT_THAT(nodes_of_part(scene, scene.bodies[0], 1, nodes), ElementsAre(0, 0, 0, 1, 1, 1));
+  EXPECT_THAT(nodes_of_part(scene, scene.bodies[0].parts[0], 0, nodes), ElementsAre(1, 1, 1, 1, 1, 1));
 }
 
 TEST(Materials, OfABodyAloneCountFromItsOwn) {
