@@ -182,10 +182,10 @@ Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coar
 template <int B>
 Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
   const StrengthGraph graph = strong_couplings(A, off);
-  const CoarseVectors coarse(split(graph, Part::fine));  // the smoother solves for what is coupled to nothing
+  const CoarseVectors coarse(split(graph, VectorKind::fine));  // the smoother solves for what is coupled to nothing
   if (coarse.size() <= many * graph.size()) return interpolation(graph, coarse);
   const StrengthGraph further = couplings_among(coarse, graph);
-  return interpolation(graph, coarse, interpolation(further, CoarseVectors(split(further, Part::coarse))));
+  return interpolation(graph, coarse, interpolation(further, CoarseVectors(split(further, VectorKind::coarse))));
 }
 
 template Prolongation classical_interpolation(const BlockMatrix<1>&, const std::vector<Flags>&);

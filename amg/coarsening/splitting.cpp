@@ -61,13 +61,13 @@ class Stacks {
 
 }  // namespace
 
-std::vector<Part> split(const StrengthGraph& needs, Part alone) {
+std::vector<VectorKind> split(const StrengthGraph& needs, VectorKind alone) {
   // Where both are the same, one that stays in the cache.
   const bool one = is_symmetric(needs);
   const StrengthGraph backwards = one ? StrengthGraph{} : reversed(needs);
   const StrengthGraph& serves = one ? needs : backwards;
   const Index n = needs.size();
-  std::vector<Part> part(static_cast<std::size_t>(n), Part::fine);
+  std::vector<VectorKind> part(static_cast<std::size_t>(n), VectorKind::fine);
   // No vector can be worth more than by all that it serves turning fine.
   Stacks open(part.size(), 2 * longest_row(serves));
   for (Index p = n - 1; p >= 0; --p) {
@@ -79,7 +79,7 @@ std::vector<Part> split(const StrengthGraph& needs, Part alone) {
   }
   std::vector<Index> turned;  // fine by the last choice
   for (Index p = open.best(); p >= 0; p = open.best()) {
-    part[p] = Part::coarse;
+    part[p] = VectorKind::coarse;
     open.remove(p);
     turned.clear();
     for (const Index q : serves.neighbours(p)) {
@@ -98,9 +98,9 @@ std::vector<Part> split(const StrengthGraph& needs, Part alone) {
   return part;
 }
 
-CoarseVectors::CoarseVectors(const std::vector<Part>& part) : number(part.size(), -1) {
+CoarseVectors::CoarseVectors(const std::vector<VectorKind>& part) : number(part.size(), -1) {
   for (std::size_t p = 0; p < part.size(); ++p)
-    if (part[p] == Part::coarse) {
+    if (part[p] == VectorKind::coarse) {
       number[p] = size();
       vector.push_back(static_cast<Index>(p));
     }

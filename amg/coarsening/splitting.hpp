@@ -5,19 +5,19 @@
 
 namespace signorini {
 
-enum class Part : std::uint8_t { coarse, fine };
+enum class VectorKind : std::uint8_t { coarse, fine };
 
 /// The first pass of Ruge and Stueben (Multigrid Methods, SIAM 1987, ch. 4.6), in linear time: vectors become coarse in
 /// the order of how many open ones would interpolate from them, most first, and those then are fine. Vectors without
 /// any coupling are `alone`.
-std::vector<Part> split(const StrengthGraph& needs, Part alone);
+std::vector<VectorKind> split(const StrengthGraph& needs, VectorKind alone);
 
 /// The coarse ones among the vectors of a graph.
 struct CoarseVectors {
   std::vector<Index> number;  ///< per vector, -1: fine
   std::vector<Index> vector;  ///< per coarse vector, ascending
 
-  explicit CoarseVectors(const std::vector<Part>& part);
+  explicit CoarseVectors(const std::vector<VectorKind>& part);
   Index size() const { return static_cast<Index>(vector.size()); }
 };
 
