@@ -12,7 +12,7 @@ inline constexpr double unknown_gap = std::numeric_limits<double>::quiet_NaN();
 
 /// Of a node of an elastic body: friction, and the other body's part in contact.
 template <int B>
-struct ElasticContact {
+struct BodyContact {
   bool friction = false;               ///< what slips here is held back: a bound, or in contact a coefficient, is not 0
   bool sticks = false;                 ///< with friction: no motion along the surface
   std::array<double, B> tangential{};  ///< what the obstacle exerts along the surface, global; counted in `force`
@@ -27,7 +27,7 @@ struct ElasticContact {
 };
 /// A scalar has none of that, and often a bound at each of its nodes.
 template <>
-struct ElasticContact<1> {
+struct BodyContact<1> {
   static constexpr bool friction = false, sticks = false;
   static constexpr double dissipated = 0, covered = 1, taken = 0, start = unknown_gap;
   static constexpr std::array<double, 1> tangential{}, traction{};
@@ -36,7 +36,7 @@ struct ElasticContact<1> {
 
 /// One bounded direction of a node after the solve.
 template <int B>
-struct ContactNode : ElasticContact<B> {
+struct ContactNode : BodyContact<B> {
   Index vertex;    ///< the node
   Index obstacle;  ///< number in Model::obstacles of the active bound, without contact of the nearer one
   bool contact;    ///< the unknown lies on the bound
