@@ -22,7 +22,10 @@ std::string content(const std::filesystem::path& file) {
 TEST(Warning, HasTheIdOfItsKindAndItsTextWithTheValues) {
   const Warning one = warning<"tied-apart">("obstacle.0", 0.12345);
   EXPECT_EQ(one.id, "tied-apart");
-  EXPECT_EQ(one.text, "obstacle.0: 'a' and 'b' never touch; at the end a distance of 0.123 is left between them");
+  EXPECT_EQ(
+      one.text,
+      "obstacle.0: the bodies do not touch exactly: they are up to 0.123 apart, or overlap by as much. They are tied "
+      "as they are: the tie carries forces across this distance as if it were zero");
   EXPECT_EQ(one, warning<"tied-apart">("obstacle.0", 0.12345));
 }
 
