@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "amg/registration.hpp"
 #include "apps/signorini/commands.hpp"
 #include "apps/signorini/option_text.hpp"
 #include "apps/signorini/text.hpp"
