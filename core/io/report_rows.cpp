@@ -280,6 +280,7 @@ struct SpringForce {
 template <class T>
 std::vector<T> each(const std::vector<ForceReport>& forces) {
   std::vector<T> all;
+  all.reserve(forces.size());
   for (const ForceReport& force : forces) all.push_back({force});
   return all;
 }
@@ -689,7 +690,7 @@ struct Table<QpReport> {
   static constexpr const char* name = "qp";
   static std::vector<Row<QpReport>> rows() {
     using Q = QpReport;
-    const auto of_summary = [](std::vector<Row<Summary>> part) {
+    const auto of_summary = [](const std::vector<Row<Summary>>& part) {
       return of_part<Q>(part, [](const Q& q) -> const Summary& { return q.summary; });
     };
     std::vector<Row<Q>> all{

@@ -109,6 +109,7 @@ Row<T> object(const char* name, V T::*of, const char* help) {
 template <class T, class Part, class Find>
 std::vector<Row<T>> of_part(const std::vector<Row<Part>>& part, Find find) {
   std::vector<Row<T>> all;
+  all.reserve(part.size());
   for (const Row<Part>& row : part)
     all.push_back({row.key, [value = row.value, find](const T& whole) { return value(find(whole)); }});
   return all;
