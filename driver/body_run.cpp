@@ -125,7 +125,7 @@ void BodyRun<D, B>::add_result_warnings(const Report& report, Warnings& warnings
   append(warnings, apart_warnings(scene_, body_, report, results_));
   append(warnings, chord_warnings<D, B>(model_, hierarchy_, nodes(), results_));
   if constexpr (D == B) {
-    append(warnings, turn_warnings(model_, nodes(), results_.u));
+    append(warnings, turn_warnings(model_, nodes(), results_));
     append(warnings, strain_warnings(model_, strains_));
   }
 }

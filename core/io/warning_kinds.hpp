@@ -110,11 +110,9 @@ inline constexpr WarningKind warning_kinds[] = {
      "holds at nodes only; expected smaller elements there",
      "the obstacle is small in comparison with the elements", "smaller elements there"},
     {WarningKind::About::result, "unresolved-contact",
-     "{}: {} in contact, and too few of them are inside the contact zone to find its pressures: the largest pressure "
-     "and "
-     "the size of the contact may be wrong by a third or more, or depend on the mesh where an edge or a corner "
-     "touches; expected smaller elements "
-     "there",
+     "{}: {} in contact, and too few of them have contact all around to find pressures: the largest pressure and the "
+     "size of the contact may be wrong by a third or more, or depend on the mesh where an edge or a corner touches; "
+     "expected smaller elements there",
      "the largest pressure and the area may be wrong by a third or more",
      "smaller elements there: [pressures.md](pressures.md#is-it-fine-enough)"},
     {WarningKind::About::result, "peak-at-edge",
@@ -162,7 +160,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "that comes from the machine's precision cannot be removed"},
     {WarningKind::About::result, "large-turn",
      "{}: {} turns by {:.2g} degrees. Linear elasticity and contact are meant for small turns: this turn adds "
-     "false strains of {:.1g}",
+     "false strains of {:.1g}{}",
      "linear elasticity counts part of the turn as strain", "smaller displacements, or turn the model instead"},
     {WarningKind::About::result, "large-strain",
      "{}: strains are up to {}, and beyond {:g} in {:.3g} % of the body: linear elasticity and contact are meant for "

@@ -137,9 +137,16 @@ std::string LimitAnalysis<D, B>::describe_fall(const Ends& ends, const Eigen::Ve
         "friction does not hold the body against the loads: of their work along this motion friction takes at most "
         "{:.6g} %: {}",
         100 * taken, body_.motions.describe(body_.free * slide));
+  const double part = body_.work.dot(motion) / (body_.most_work * motion.norm());
   return fmt::format(
-      "the energy is unbounded below: nothing holds the body against the loads, which do work along this motion: {}",
-      body_.motions.describe(body_.free * motion));
+      "the energy is unbounded below: nothing holds the body against the loads, which do work along this motion: {}{}",
+      body_.motions.describe(body_.free * motion),
+      part < std::sqrt(Free::decided)
+          ? fmt::format(
+                "; it is a part of {:.1g} of what they could do: if only the mesh's lack of symmetry makes them "
+                "do any, expected loads that act about the axis itself, a fix, or some friction",
+                part)
+          : "");
 }
 
 // What functionals, such as friction, take of the work along a motion that goes on.

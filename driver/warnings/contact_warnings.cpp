@@ -209,12 +209,27 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
 
 namespace {
 
-/// The largest turn of a body as a whole, in radians.
+template <int D, int B>
+double along_normal(const Results<D, B>& results, const ContactNode<B>& node) {
+  double along = 0;
+  for (int i = 0; i < B; ++i) along += node.direction[i] * results.u[Offset{node.vertex} * B + i];
+  return along;
+}
+
+/// Each body turns as a whole.
 template <int D>
-double turned(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
-  if (model.plane == Plane::axisymmetric) return 0;
-  return std::ranges::max(
-      mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u));
+std::vector<MeanTurn> turns(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
+  if (model.plane == Plane::axisymmetric) return {{}};
+  return mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u);
+}
+
+/// The largest motion of vertices in contact along the obstacles' normals.
+template <int D>
+double pressed_in(const Results<D, D>& results) {
+  double most = 0;
+  for (const ContactNode<D>& node : results.contact.nodes)
+    if (node.contact) most = std::max(most, std::fabs(along_normal(results, node)));
+  return most;
 }
 
 template <int D>
@@ -227,7 +242,7 @@ const char* what_turns(const Model<D>& model) {
 template <int D>
 void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u) {
   constexpr double nonsense = std::numbers::pi;
-  const double turn = turned(model, nodes, u);
+  const double turn = std::ranges::max(turns(model, nodes, u), {}, &MeanTurn::angle).angle;
   if (model.obstacles.empty() || !(turn > nonsense)) return;
   input_error(
       model.origin,
@@ -238,19 +253,26 @@ void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vect
 }
 
 template <int D>
-Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u) {
+Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const Results<D, D>& results) {
   constexpr double noticeable_turn = 0.1;
-  const double turn = turned(model, nodes, u);
-  if (!(turn > noticeable_turn)) return {};
-  return {warning<"large-turn">(model.origin, what_turns(model), turn * 180 / std::numbers::pi, 0.5 * turn * turn)};
+  const std::vector<MeanTurn> all = turns(model, nodes, results.u);
+  const MeanTurn turn = std::ranges::max(all, {}, &MeanTurn::off_circle);
+  const double most = std::ranges::max(all, {}, &MeanTurn::angle).angle, pressed = pressed_in(results);
+  if (!(most > noticeable_turn || (pressed > 0 && turn.off_circle() > noticeable * pressed))) return {};
+  return {warning<"large-turn">(
+      model.origin, what_turns(model), turn.angle * 180 / std::numbers::pi, 0.5 * turn.angle * turn.angle,
+      pressed > 0 ? fmt::format(", and moves points outwards by up to {:.2g}, where contact moves along its normals by "
+                                "up to {:.2g}",
+                                turn.off_circle(), pressed)
+                  : "")};
 }
 
 template void refuse_turned(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
 template void refuse_turned(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
 template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&);
 template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&);
-template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const std::vector<double>&);
-template Warnings turn_warnings(const Model<3>&, const Nodes<3>&, const std::vector<double>&);
+template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const Results<2, 2>&);
+template Warnings turn_warnings(const Model<3>&, const Nodes<3>&, const Results<3, 3>&);
 
 namespace {
 
@@ -261,8 +283,7 @@ double flattened(const Results<D, B>& results, Index obstacle) {
   double least = infinity, most = -infinity;
   for (const ContactNode<B>& node : results.contact.nodes) {
     if (!node.contact || node.obstacle != obstacle) continue;
-    double along = 0;
-    for (int i = 0; i < B; ++i) along += node.direction[i] * results.u[Offset{node.vertex} * B + i];
+    const double along = along_normal(results, node);
     least = std::min(least, along);
     most = std::max(most, along);
   }

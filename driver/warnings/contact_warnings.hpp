@@ -35,9 +35,10 @@ Warnings contact_warnings(const Scene& scene, const Report& report);
 template <int D>
 void refuse_turned(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u);
 
-/// A body that turns, in the end, by more than a tenth of a radian as a whole.
+/// A body that turns, in the end, by more than a tenth of a radian as a whole, or so that linear kinematics moves it
+/// outwards by more than a hundredth of what contact moves it by along its normals.
 template <int D>
-Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const std::vector<double>& u);
+Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const Results<D, D>& results);
 
 /// Bodies and obstacles whose flat faces seem to stand for curved surfaces where they touch each other, on a refined
 /// mesh: with a distance between both that counts beside the displacements there. One sentence per obstacle and kind.

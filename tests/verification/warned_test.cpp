@@ -38,6 +38,21 @@ TEST(Warned, RoundsBetweenNodesAreNoticed) {
   EXPECT_THAT(fine.warnings, Not(Contains(HasSubstr("between its nodes"))));
 }
 
+// A turn of one degree moves the rim of a disk outwards by a fiftieth of what presses it.
+TEST(Warned, SmallTurnsCountBesideWhatContactMoves) {
+  for (const double angle : {0.02, 0.002}) {
+    const Report r = solved(
+        "[[body]]\nname = \"b\"\nshape = \"disk\"\ncenter = [0, 0]\nradius = 1\nsize = 0.3\nyoung = 1\npoisson = 0.3\n"
+        "[[fix]]\nbody = \"b\"\nwhere = \"y > 0.2\"\n" +
+        fmt::format("value = [\"-{0} * y\", \"{0} * x - 0.02\"]\n", angle) +
+        tables::plane("b", "boundary", "[0, -1.01]", "[0, 1]"));
+    EXPECT_GT(r.last().contact[0].nodes, 0);
+    EXPECT_EQ(std::ranges::count_if(r.warnings, [](const auto& w) { return w.text.find("turns by") != w.text.npos; }),
+              angle > 0.01)
+        << angle;
+  }
+}
+
 // A tip guided in a symmetric groove: what holds it sideways may be either wall, or the guide.
 TEST(Warned, ObstaclesThatShareAGuidedNodeAreSaid) {
   std::string text =

@@ -29,17 +29,18 @@ struct Sums {
   }
 
   // Of the linear displacement next to u the part that is a rotation.
-  double turn() const {
+  MeanTurn turn() const {
     const Square inertia = xx - x * x.transpose() / count, moment = ux - u * x.transpose() / count;
     const Square gradient = SymmetricFactors(inertia).solve(moment.transpose()).transpose();
-    return 0.5 * (gradient - gradient.transpose()).norm() / std::sqrt(2.0);
+    return {0.5 * (gradient - gradient.transpose()).norm() / std::sqrt(2.0), std::sqrt(inertia.trace() / count)};
   }
 };
 
 }  // namespace
 
 template <int D>
-std::vector<double> mean_turns(const Nodes<D>& nodes, const std::vector<Index>& of_node, const std::vector<double>& u) {
+std::vector<MeanTurn> mean_turns(const Nodes<D>& nodes, const std::vector<Index>& of_node,
+                                 const std::vector<double>& u) {
   const Index bodies = of_node.empty() ? 1 : *std::max_element(of_node.begin(), of_node.end()) + 1;
   std::vector<Sums<D>> sums(static_cast<std::size_t>(bodies));
   const Point<D> origin = nodes.at(0);  // positions far from zero would leave nothing of the differences
@@ -49,12 +50,12 @@ std::vector<double> mean_turns(const Nodes<D>& nodes, const std::vector<Index>& 
     for (int i = 0; i < D; ++i) r[i] -= origin[i];
     sums[of_node.empty() ? 0 : of_node[p]].add(r, u.data() + Offset{p} * D);
   }
-  std::vector<double> out(sums.size());
+  std::vector<MeanTurn> out(sums.size());
   std::ranges::transform(sums, out.begin(), [](const Sums<D>& of) { return of.turn(); });
   return out;
 }
 
-template std::vector<double> mean_turns(const Nodes<2>&, const std::vector<Index>&, const std::vector<double>&);
-template std::vector<double> mean_turns(const Nodes<3>&, const std::vector<Index>&, const std::vector<double>&);
+template std::vector<MeanTurn> mean_turns(const Nodes<2>&, const std::vector<Index>&, const std::vector<double>&);
+template std::vector<MeanTurn> mean_turns(const Nodes<3>&, const std::vector<Index>&, const std::vector<double>&);
 
 }  // namespace signorini

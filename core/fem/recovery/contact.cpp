@@ -94,7 +94,6 @@ class NodeReader {
     const double* Q = problem_.frames.at(p);
     node.friction = law.bound > 0 || (law.coefficient > 0 && node.contact);
     node.law = law;
-    if (!node.friction) return;
     bool sticks = true;
     double work = 0, limits = 0;
     for (int k = 0; k < B; ++k) {
@@ -107,11 +106,16 @@ class NodeReader {
       sticks = sticks && std::fabs(moved) <= at_rest * size_;
       work += force * moved;
       limits += before_.empty() ? 0 : before_[Offset{slot} * B + k] * moved;
-      for (int i = 0; i < B; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
+      for (int i = 0; i < B && node.friction; ++i) node.tangential[i] += force * (Q ? Q[i * B + k] : i == k ? 1 : 0);
+    }
+    // What slips does so at the limit, which goes from that of the last step to this one's. That is zero where contact
+    // opens.
+    if (!node.friction) {
+      node.dissipated = sticks ? 0 : limits / 2;
+      return;
     }
     node.sticks = sticks;
-    // What slips does so at the limit, which goes from that of the last step to this one's. A given one has been there
-    // before the first step, which knows no last one.
+    // A given one has been there before the first step, which knows no last one.
     const bool first = law.bound > 0 && limits == 0;
     node.dissipated = sticks ? 0 : (std::max(-work, 0.0) + (first ? std::max(-work, 0.0) : limits)) / 2;
     if (has_facets(slot) && sticks) node.tangential = sticking_force(slot);

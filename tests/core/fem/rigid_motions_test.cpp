@@ -159,14 +159,26 @@ void expect_turn() {
   Eigen::Matrix<double, D, D> stretch = Eigen::Matrix<double, D, D>::Random();
   stretch = (stretch + stretch.transpose()).eval();
   const double angle = 0.03;
-  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle))).at(0)), angle, 1e-9);
-  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle) + stretch)).at(0)), angle, 1e-9);
-  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, stretch)).at(0)), 0, 1e-9);
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle))).at(0).angle), angle, 1e-9);
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, turn_by<D>(angle) + stretch)).at(0).angle), angle, 1e-9);
+  EXPECT_NEAR((mean_turns<D>(nodes, {}, turning<D>(mesh, stretch)).at(0).angle), 0, 1e-9);
 }
 
 TEST(MeanTurn, IsTheAngleWhateverElseABodyDoes) {
   expect_turn<2>();
   expect_turn<3>();
+}
+
+// A point on a circle about the mean of the vertices would stay on it; linear kinematics leads it along the tangent.
+TEST(MeanTurn, LeadsPointsOffTheirCircles) {
+  Mesh<2> mesh;
+  mesh.points = {{2, 0}, {0, 2}, {-2, 0}, {0, -2}};
+  mesh.elements = {{0, 1, 2}, {0, 2, 3}};
+  const Nodes<2> nodes(mesh);
+  const double angle = 0.01;
+  const MeanTurn turn = mean_turns<2>(nodes, {}, turning<2>(mesh, turn_by<2>(angle))).at(0);
+  EXPECT_NEAR(turn.radius, 2, 1e-12);
+  EXPECT_NEAR(turn.off_circle(), 2 * (std::sqrt(1 + angle * angle) - 1), 1e-8);
 }
 
 // Each body has its own: the second one, which is the first one elsewhere, turns the other way and by more.
@@ -180,8 +192,8 @@ TEST(MeanTurn, IsThatOfEachBody) {
   u.insert(u.end(), more.begin(), more.end());
   const auto turns = mean_turns<2>(Nodes<2>(both), body, u);
   ASSERT_EQ(turns.size(), 2u);
-  EXPECT_NEAR(turns[0], 0.1, 1e-12);
-  EXPECT_NEAR(turns[1], 0.2, 1e-12);
+  EXPECT_NEAR(turns[0].angle, 0.1, 1e-12);
+  EXPECT_NEAR(turns[1].angle, 0.2, 1e-12);
 }
 
 }  // namespace

@@ -33,5 +33,28 @@ TEST(Dissipated, UnderAConstantPressureItIsForceTimesWay) {
     EXPECT_NEAR(dissipated("min(2 * t, 1)", "max(2 * t - 1, 0)", at), 8.4e-5, 1e-10) << at;
 }
 
+/// A block slides by 1 under a force of 25, and by 1 more while it is lifted.
+Report lifted(double by) {
+  const std::string scene =
+      SceneText{.body = "shape = \"rectangle\"\nfrom = [0, 0]\nto = [10, 4]\ncells = [5, 2]\nyoung = 1000\npoisson = 0",
+                .fixes = {fmt::format("on = \"top\"\nvalue = [\"max(4 * t - 1, 0)\", \"t <= 0.5 ? "
+                                      "-0.01 * min(4 * t, 1) : -0.01 + {} * (4 * t - 2)\"]",
+                                      by)},
+                .obstacle =
+                    "type = \"coulomb\"\nfriction = 0.2\non = \"bottom\"\nshape = \"plane\"\npoint = [0, 0]\n"
+                    "normal = [0, 1]"};
+  return Driver(parse_scene(scene + "[steps]\ncount = 4\n", "test.toml", ".")).solve();
+}
+
+// Half of the force by the way, and shear of 0.005 that goes back, whether contact opens at the end of the step or a
+// little before.
+TEST(Dissipated, CountsWhatOpensInTheStep) {
+  for (const double by : {0.00999, 0.0101, 0.011}) {
+    const Report report = lifted(by);
+    EXPECT_EQ(report.steps.at(2).contact[0].nodes > 0, by < 0.01) << by;
+    EXPECT_NEAR(report.steps.at(2).contact[0].dissipated_in_step, 0.5 * 5 * 1.005, 0.01) << by;
+  }
+}
+
 }  // namespace
 }  // namespace signorini::test
