@@ -11,8 +11,10 @@ namespace {
 
 constexpr std::string_view to_be_converted =
     "which is not read; expected a file that Gmsh or meshio has converted: `gmsh OLD -save -o NEW.msh`, `meshio "
-    "convert "
-    "OLD NEW.msh`";
+    "convert OLD NEW.vtu`";
+// Gmsh cannot read these, and meshio's first format for names in .msh is that of another program.
+constexpr std::string_view for_meshio =
+    "which is not read; expected a file that meshio has converted: `meshio convert OLD NEW.vtu`, one for each part";
 constexpr std::string_view surface =
     "a surface without elements inside; expected a mesh, or shape = \"solid\" and file = this one in place of 'mesh'";
 
@@ -27,7 +29,7 @@ struct Format {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all = {
       {"a Nastran file", {"nas", "bdf", "nastran", "fem"}, {"BEGIN BULK", "GRID ", "GRID,", "GRID*"}, false},
-      {"an Abaqus or CalculiX file", {"inp"}, {"*HEADING", "*NODE", "*PART"}, false},
+      {"an Abaqus or CalculiX file", {"inp"}, {"*HEADING", "*NODE", "*PART"}, false, for_meshio},
       {"a Universal (I-DEAS) file", {"unv", "uff"}, {}},
       {"a legacy VTK file", {"vtk"}, {"# vtk DataFile"}},
       {"a MEDIT file", {"mesh", "meshb"}, {"MeshVersionFormatted"}},

@@ -83,12 +83,11 @@ std::vector<Point<2>> flatten(const MeshFileData& data, std::string_view place) 
       extent = std::max({extent, std::abs(p[0] - origin[0]), std::abs(p[1] - origin[1]), std::abs(p[2])});
     }
   if (high - low > 1e-10 * extent)
-    input_error(
-        place,
-        fmt::format("found a surface in space, its triangles with z from {} to {}, and no tetrahedra; "
-                    "expected its volume meshed (Gmsh saves only what is in a physical group, once there is one: "
-                    "then the volume needs one, too), or triangles in a plane z = const",
-                    low, high));
+    input_error(place,
+                fmt::format("found a surface in space, its triangles with z from {} to {}, and no tetrahedra; "
+                            "expected its volume meshed, and in a physical group where faces are in one (Gmsh saves "
+                            "what is in groups only), or triangles in a plane z = const",
+                            low, high));
   return points;
 }
 

@@ -22,11 +22,14 @@ constexpr OptionRow<S> table[] = {
      "limit on the steps of all methods together; a step is a cycle, or a linear solve of other methods", always,
      "With `pdas` and `newton`, and where `auto` goes on with other methods, each step solves a linear system."},
     {"method", &S::method, "auto | monotone | tnnmg | pgs | pdas | newton",
-     "monotone: monotone multigrid; tnnmg: truncated nonsmooth Newton multigrid; pgs: projected Gauss-Seidel alone; "
-     "pdas: primal-dual active sets with a direct solver; newton: the same with friction and the pressures of nearly "
-     "incompressible material, a semismooth Newton method; auto: monotone, tnnmg while phases rest, pdas where cycles "
-     "are slow and unknowns are scalar or at most 150000; newton where friction does not come to rest, and where such "
-     "pressures do not and unknowns are at most 100000, in space 20000",
+     "auto: multigrid, `monotone` and `tnnmg` in turns. Where this is slow, `pdas` goes on, for scalar unknowns or at "
+     "most 150000 others. Where friction does not come to rest, `newton` goes on. So it does where the pressures of "
+     "nearly incompressible material do not, for at most 100000 unknowns, in space 20000. "
+     "monotone: monotone multigrid, whose coarse corrections keep to bounds. "
+     "tnnmg: truncated nonsmooth Newton multigrid, with bounds on the finest level only. "
+     "pgs: projected Gauss-Seidel alone, without coarser levels. "
+     "pdas: primal-dual active sets, each step with a direct solver. "
+     "newton: a semismooth Newton method for contact, also with friction and such pressures",
      always, "See docs/theory/auto.md."},
     {"cycle", &S::cycle, "V | W | F", "shape of the cycle", always,
      "With `start = \"nested\"`, the default, any of them is full multigrid."},

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 std::string complaint(const std::string& content, const std::string& place) {
   return test::input_error_of([&] { parse_mesh(content, place); });
@@ -20,8 +21,10 @@ TEST(ParseMesh, FormatsOfOtherProgramsAreNamedWithWhatToDo) {
   const std::string free = "GRID*                  1                              0.\nCTRIA3,1,1,1,2,3\n";
   for (const auto& [content, name] : {std::pair{nastran, "a.bdf"}, {nastran, "a"}, {free, "a.txt"}, {"x", "a.NAS"}})
     EXPECT_THAT(complaint(content, name),
-                AllOf(HasSubstr(std::string(name) + ": a Nastran file"), HasSubstr("meshio convert OLD NEW.msh")));
-  EXPECT_THAT(complaint("*Heading\n*Node\n1, 0, 0, 0\n", "a.inp"), HasSubstr("an Abaqus or CalculiX file"));
+                AllOf(HasSubstr(std::string(name) + ": a Nastran file"), HasSubstr("meshio convert OLD NEW.vtu")));
+  EXPECT_THAT(
+      complaint("*Heading\n*Node\n1, 0, 0, 0\n", "a.inp"),  // which Gmsh cannot read
+      AllOf(HasSubstr("an Abaqus or CalculiX file"), HasSubstr("meshio convert OLD NEW.vtu"), Not(HasSubstr("gmsh"))));
   EXPECT_THAT(complaint("# vtk DataFile Version 3.0\n", "a.vtk"), HasSubstr("a legacy VTK file"));
   EXPECT_THAT(complaint("OFF\n3 1 0\n", "a.off"), AllOf(HasSubstr("an OFF file"), HasSubstr("shape = \"solid\"")));
   EXPECT_THAT(complaint("\x1f\x8b\x08", "a.msh.gz"), HasSubstr("packed by gzip"));
