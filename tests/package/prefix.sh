@@ -105,4 +105,33 @@ build_with signorini_matrix amg/outside/string.cpp string
 build_with signorini_driver driver/outside/press.cpp press
 "$scratch/press" >>"$scratch/printed" || wrong "press ends with $?"
 test "$(grep -c 'cycles on\|plane at' "$scratch/printed")" = 6 || wrong "$(cat "$scratch/printed")"
+
+# docs/embedding.md: its CMake finds the package, its commands build, and the libraries and headers that it names are
+# there.
+page=$source/docs/embedding.md
+# shellcheck disable=SC2016
+shown() { sed -n '/^```'"$1"'/,/^```/{/^```/!p}' "$page"; }  # the lines of the blocks of this kind
+mkdir -p "$scratch/page"
+cp "$source"/tests/{c/outside/membrane.c,amg/outside/string.cpp,obstacles/outside/slot.cpp} "$scratch/page"
+shown sh | grep 'pkg-config' | sed 's/ -O3 / -O1 /' >"$scratch/page/commands"  # what is built is not what is measured
+test "$(wc -l <"$scratch/page/commands")" = 3 || wrong "docs/embedding.md has not three commands: $(cat "$scratch/page/commands")"
+(cd "$scratch/page" && bash -eu commands) || wrong "docs/embedding.md, Without CMake"
+LD_LIBRARY_PATH=$folder "$scratch/page/a.out" >"$scratch/printed" || wrong "the program of docs/embedding.md ends with $?"
+shown cpp >"$scratch/page.cpp"
+configure page_cmake "project(page_cmake LANGUAGES CXX)
+add_library(my_program OBJECT ../page.cpp)
+$(shown cmake)" || wrong "docs/embedding.md, find_package: $(cat "$scratch/page_cmake/log")"
+"$cmake" --build "$scratch/page_cmake/build" >"$scratch/page_cmake/log" 2>&1 ||
+  wrong "docs/embedding.md, #include: $(cat "$scratch/page_cmake/log")"
+named() { # named WHAT PATTERN FOLDER: what a row of a table of the page names is in the folder
+  sed -n "s/$2/\\1/p" "$page" >"$scratch/named"
+  test -s "$scratch/named" || wrong "docs/embedding.md names no $1"
+  while read -r name; do
+    test -e "$3/$name" || wrong "docs/embedding.md names $name, and there is none"
+  done <"$scratch/named"
+}
+# shellcheck disable=SC2016
+named libraries '^| `\(lib[^`]*\.so[^`]*\)` .*' "$folder"
+# shellcheck disable=SC2016
+named headers '^| `.*`<\(signorini[^>]*\)>`.*' "$prefix/include"
 exit "$failed"
