@@ -52,6 +52,8 @@ class Smoother {
       for (int i = 0; i < D; ++i) normals[i] = side_normal_[side_[f * D + i]];
     }
     for (const Index part : flats_.part) out_.flat.push_back(part >= 0 ? 1 : 0);
+    out_.shape = shapes_.part.empty() ? std::vector<Index>(faces_.size(), -1) : std::move(shapes_.part);
+    out_.shapes = std::move(shapes_.shapes);
     return std::move(out_);
   }
 

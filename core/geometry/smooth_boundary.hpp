@@ -6,6 +6,7 @@
 
 #include "core/geometry/edges.hpp"
 #include "core/mesh/cubic_patch.hpp"
+#include "core/mesh/mesh.hpp"
 
 namespace signorini::geometry {
 
@@ -31,6 +32,8 @@ struct SmoothBoundary {
   std::vector<std::uint8_t> flat;                ///< per face whether it is of a flat part
   std::vector<double> turn;                      ///< per face the largest angle to a neighbour on its side of creases
   std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
+  std::vector<Index> shape;                      ///< per face the number of the shape that it is on, or -1
+  std::vector<Curve<D>> shapes;                  ///< see find_shape_parts()
 };
 
 /// @param faces oriented alike: normals to the left hand (D = 2: to the right) of the order of the corners

@@ -80,7 +80,9 @@ Point<D> project(const Curve<D>& curve, const Point<D>& p) {
     return distance > 0 ? along<D>(curve.center, curve.radius / distance, radial) : p;
   }
   const auto off = height<D>(curve, p);
-  return off ? along<D>(p, -off->distance, off->normal) : p;
+  const Point<D> foot = off ? along<D>(p, -off->distance, off->normal) : p;
+  const bool beyond_tip = curve.kind == CurveKind::cone && dot(difference<D>(foot, curve.center), curve.axis) < 0;
+  return beyond_tip ? curve.center : foot;
 }
 
 template <int D>

@@ -11,10 +11,12 @@
 #include "core/base/error.hpp"
 #include "core/geometry/cgal/nearest.hpp"
 #include "core/geometry/cgal/patch_foot.hpp"
+#include "core/geometry/cgal/shape_foot.hpp"
 #include "core/geometry/cgal/triangle_surface.hpp"
 #include "core/geometry/faceted_distance.hpp"
 #include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/chords.hpp"
+#include "core/mesh/curve.hpp"
 #include "core/mesh/simplex.hpp"
 
 namespace signorini::geometry {
@@ -48,8 +50,8 @@ struct Foot {
 /// nearest, on the bisector of a valley, -u'n_k <= d for each of them, and so for the mean: with its unit vector n the
 /// distance is that along n, longer than d. What is within rounding counts as the same.
 ///
-/// On a smooth surface the same holds for its patches. Next to it, where the triangles do not tell the inside, signs
-/// are those of an open surface.
+/// On a smooth surface the same holds for its patches, and for shapes that these stand for. Next to it, where the
+/// triangles do not tell the inside, signs are those of an open surface.
 class SurfaceDistance : public FacetedDistance {
  public:
   SurfaceDistance(const std::string& file, std::optional<double> crease)
@@ -159,17 +161,37 @@ class SurfaceDistance : public FacetedDistance {
 
   bool is_flat(Index t) const { return patches_.empty() || bulge_[t] <= rounding_; }
 
-  /// On the patch, from that on its triangle.
+  /// On the patch or the shape that it is of, from that on its triangle.
   Foot curved_foot(const Point<3>& p, const Foot& flat) const {
-    const PatchFoot on = nearest_on_patch(patches_[flat.triangle], p, flat.weights);
+    const PatchFoot on = shape_[flat.triangle] >= 0 ? nearest_on_shape(shape_patch(flat.triangle), p, flat.weights)
+                                                    : nearest_on_patch(patches_[flat.triangle], p, flat.weights);
     const Point<3> offset = difference<3>(p, on.at);
     return {flat.triangle, on.at, offset, length<3>(offset), on.inside, unit(on.normal), on.weights};
+  }
+
+  ShapePatch shape_patch(Index t) const {
+    ShapePatch out{patches_[t], shapes_[shape_[t]], side_of(t), bulge_[t]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index beyond = surface_.neighbours()[t][k];
+      out.goes_on[k] = beyond >= 0 && shape_[beyond] == shape_[t];
+    }
+    return out;
+  }
+
+  /// Whether a triangle looks out of its shape (1) or into it.
+  double side_of(Index t) const {
+    Point<3> middle{};
+    for (const Point<3>& p : corners(t)) add(middle, 1.0 / 3, p);
+    const auto off = signorini::height<3>(shapes_[shape_[t]], middle);
+    return off && dot(off->normal, face_normals_[t]) < 0 ? -1 : 1;
   }
 
   void smooth(double crease) {
     SmoothBoundary<3> smooth = smooth_boundary<3>(surface_.points(), surface_.triangles(), crease);
     patches_ = std::move(smooth.patches);
     turn_ = std::move(smooth.turn);
+    shape_ = std::move(smooth.shape);
+    shapes_ = std::move(smooth.shapes);
     for (const CubicPatch<3>& patch : patches_) bulge_.push_back(bulge<3>(patch));
     most_bulge_ = bulge_.empty() ? 0 : *std::ranges::max_element(bulge_);
   }
@@ -235,8 +257,10 @@ class SurfaceDistance : public FacetedDistance {
   double rounding_, same_;  ///< lengths up to which positions are one: computed, and on the surface
   std::vector<Point<3>> face_normals_;
   std::vector<CubicPatch<3>> patches_;  ///< per triangle of a smooth surface
-  std::vector<double> turn_;            ///< of each the largest angle that was smoothed over
-  std::vector<double> bulge_;           ///< of each, and the largest
+  std::vector<Index> shape_;            ///< of each the number of the shape that it stands for, or -1
+  std::vector<Curve<3>> shapes_;
+  std::vector<double> turn_;   ///< of each the largest angle that was smoothed over
+  std::vector<double> bulge_;  ///< of each, and the largest
   double most_bulge_ = 0;
 };
 
