@@ -35,10 +35,10 @@ inline constexpr WarningKind warning_kinds[] = {
      "a plane, sphere or cylinder that moves drags the body"},
     {WarningKind::About::scene, "starts-inside",
      "{}: the body starts {}inside the obstacle: it reaches {:.3g} deep, and is {:.3g} thick along the obstacle's "
-     "normal there; is that normal reversed?",
+     "normal there; is its place right, or its normal reversed?",
      "before anything moves, the body is inside the obstacle: by more than a tenth of its thickness there, or "
      "completely",
-     "turn `normal` around, if it points away from the body"},
+     "move the obstacle, or turn `normal` around if it points away from the body"},
     {WarningKind::About::scene, "not-facing",
      "{}: no face of one body is in front of the other one's and turned towards it: these bodies never touch; is "
      "another side meant?",
