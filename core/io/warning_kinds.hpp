@@ -35,10 +35,12 @@ inline constexpr WarningKind warning_kinds[] = {
      "a plane, sphere or cylinder that moves drags the body"},
     {WarningKind::About::scene, "starts-inside",
      "{}: the body starts {}inside the obstacle: it reaches {:.3g} deep, and is {:.3g} thick along the obstacle's "
-     "normal there; is its place right, or its normal reversed?",
+     "normal there; is the obstacle on the wrong side ('normal', 'inside')?",
      "before anything moves, the body is inside the obstacle: by more than a tenth of its thickness there, or "
      "completely",
-     "move the obstacle, or turn `normal` around if it points away from the body"},
+     "turn `normal` around, if it points away from the body; set `inside`, if the body is meant to lie inside the "
+     "shape; "
+     "nothing, if the obstacle is meant to press from the start"},
     {WarningKind::About::scene, "not-facing",
      "{}: no face of one body is in front of the other one's and turned towards it: these bodies never touch; is "
      "another side meant?",

@@ -256,7 +256,7 @@ TEST_F(Solve, NamesAReversedNormalWhereItLeavesNoSolution) {
   const auto ended = signorini({"solve", "block.toml", "--out", "o", "--set", "obstacle.0.normal=[0, 0, -1]"});
   EXPECT_EQ(ended.status, 4);
   EXPECT_THAT(ended.err, HasSubstr("starts completely inside the obstacle: it reaches 1 deep, and is 1 thick along"));
-  EXPECT_THAT(ended.err, HasSubstr("normal reversed?"));
+  EXPECT_THAT(ended.err, HasSubstr("on the wrong side ('normal', 'inside')?"));
 }
 
 TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
