@@ -70,9 +70,9 @@ std::vector<Bends<D>> find_bends(const RawMesh<D>& raw, std::string_view place) 
   return out;
 }
 
-/// Gives the faces that are not flat a curve.
+/// Gives the faces that are not flat a curve, and says which ones have straight edges at the file's word.
 template <int D>
-void mark_curved_faces(Mesh<D>& mesh) {
+void mark_faces(Mesh<D>& mesh, const RawMesh<D>& raw) {
   if (mesh.bends.empty()) return;
   constexpr auto edges = simplex_edges<D>();
   mesh.curves.push_back({.kind = Curve<D>::Kind::elements});
@@ -85,10 +85,13 @@ void mark_curved_faces(Mesh<D>& mesh) {
       normal = {u[1], -u[0]};
     else
       normal = cross(u, difference<D>(mesh.points[face.vertices[2]], mesh.points[face.vertices[0]]));
-    for (std::size_t k = 0; k < edges.size(); ++k)
-      if (on_face(edges[k][0]) && on_face(edges[k][1]) &&
-          std::abs(dot(mesh.bends[face.element][k], normal)) > straight * length<D>(u) * length<D>(normal))
-        face.curve = 0;
+    face.straight = std::ranges::all_of(raw.middle[face.element], [](Index v) { return v >= 0; });
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      if (!on_face(edges[k][0]) || !on_face(edges[k][1])) continue;
+      const Point<D>& bend = mesh.bends[face.element][k];
+      if (bend != Point<D>{}) face.straight = false;
+      if (std::abs(dot(bend, normal)) > straight * length<D>(u) * length<D>(normal)) face.curve = 0;
+    }
   }
 }
 
@@ -129,7 +132,7 @@ Mesh<D> build_mesh(RawMesh<D> raw, std::string_view place) {
   validate(mesh, place, raw.label);
   mesh.boundary = find_boundary<D>(mesh.vertices(), mesh.elements);
   attach_parts(mesh, raw.groups);
-  mark_curved_faces(mesh);
+  mark_faces(mesh, raw);
   return mesh;
 }
 

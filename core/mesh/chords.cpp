@@ -178,7 +178,7 @@ Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked
     const Face<D>&one = mesh.boundary[a.face], &other = mesh.boundary[b.face];
     const auto is_patch = [&](Index curve) { return curve >= 0 && mesh.curves[curve].kind == CurveKind::patches; };
     const bool smoothed = one.curve == other.curve && is_patch(one.curve);
-    if (!smoothed && (one.curve >= 0 || other.curve >= 0)) return;
+    if (!smoothed && (one.curve >= 0 || other.curve >= 0 || (one.straight && other.straight))) return;
     const Point<D> here = across(mesh, one, a.tip), there = across(mesh, other, b.tip);
     const double size = std::min(length<D>(here), length<D>(there)), angle = turn(mesh, a, b);
     if (smoothed) {

@@ -30,8 +30,9 @@ struct Chords {
 
 /// The largest sagitta of the coarsest mesh where vertices are marked: between faces that have a marked edge (2D: a
 /// vertex) in common and are not on a curve that the mesh knows, unless both are of flat parts of several rows: an edge
-/// is meant there. Faces at more than largest_turn and up to 60 degrees count where
-/// they look like a round: five and more directions, one angle between them.
+/// is meant there, as it is where the nodes of a second-order file say so (Face::straight). Faces at more than
+/// largest_turn and up to 60 degrees count where they look like a round: five and more directions, one angle between
+/// them.
 /// @param marked vertices of the finest mesh; on coarser ones those are that they were made from
 template <int D>
 Chords chord_sagitta(const MeshHierarchy<D>& hierarchy, std::vector<bool> marked);

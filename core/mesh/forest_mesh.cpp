@@ -66,7 +66,7 @@ MadeMesh<D> Forest<D>::mesh() const {
       if (face[i] < 0) continue;
       for (const Index p : parts_of[face[i]]) mesh.parts[p].faces.push_back(static_cast<Index>(mesh.boundary.size()));
       const Face<D>& whole = coarsest.boundary[face[i]];
-      mesh.boundary.push_back({outward_face<D>(element, i), e, whole.curve});
+      mesh.boundary.push_back({outward_face<D>(element, i), e, whole.curve, whole.straight});
       if (!coarsest.patches) continue;
       patches.emplace_back();
       if (whole.curve < 0 || coarsest.curves[whole.curve].kind != CurveKind::patches) continue;

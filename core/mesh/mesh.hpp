@@ -43,8 +43,9 @@ struct Curve {
 template <int D>
 struct Face {
   std::array<Index, D> vertices;
-  Index element;     ///< the element it bounds
-  Index curve = -1;  ///< index into Mesh::curves, or -1 where it is flat
+  Index element;          ///< the element it bounds
+  Index curve = -1;       ///< index into Mesh::curves, or -1 where it is flat
+  bool straight = false;  ///< at the word of a file: it has nodes in the middle of all edges, and these are straight
 };
 
 /// The vertices of an element and the midpoints of its edges, in the order of simplex_edges: the vertices of the

@@ -194,7 +194,7 @@ class Refiner {
       for (std::size_t k = 0; k < face_ends.size(); ++k)
         node[D + k] = midpoint_vertex(face.element, face.vertices[face_ends[k][0]], face.vertices[face_ends[k][1]]);
       for (const auto& child : face_children) {
-        Face<D> fine{.vertices = {}, .element = -1, .curve = face.curve};
+        Face<D> fine{.vertices = {}, .element = -1, .curve = face.curve, .straight = face.straight};
         for (int i = 0; i < D; ++i) fine.vertices[i] = node[child[i]];
         fine.element = child_with(face.element, fine.vertices);
         fine_.boundary.push_back(fine);

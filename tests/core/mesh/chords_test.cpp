@@ -4,10 +4,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "core/geometry/body_geometry.hpp"
 #include "core/mesh/boundary.hpp"
+#include "core/mesh/build.hpp"
+#include "core/mesh/join.hpp"
 #include "core/mesh/refine.hpp"
+#include "core/mesh/simplex.hpp"
 #include "core/mesh/structured.hpp"
 
 namespace signorini {
@@ -101,6 +105,66 @@ TEST(Chords, OfWideAnglesCountWhereTheyGoAround) {
     EXPECT_NEAR(sagitta_everywhere(arch_3d(n, 4), 1), exact, 0.03 * exact);
   }
   EXPECT_EQ(sagitta_everywhere(arch(4, 4), 1), 0);
+}
+
+/// With nodes in the middle of all edges, where `middle` puts them.
+template <int D, class Middle>
+Mesh<D> second_order(const Mesh<D>& mesh, const Middle& middle) {
+  RawMesh<D> raw;
+  raw.points = mesh.points;
+  raw.elements = mesh.elements;
+  for (const auto& element : mesh.elements) {
+    auto& through = raw.middle.emplace_back();
+    for (std::size_t k = 0; k < through.size(); ++k) {
+      const auto [a, b] = simplex_edges<D>()[k];
+      through[k] = static_cast<Index>(raw.points.size());
+      raw.points.push_back(middle(midpoint<D>(mesh.points[element[a]], mesh.points[element[b]])));
+    }
+  }
+  return build_mesh<D>(std::move(raw), "test");
+}
+
+/// Turned about the first axis, or about the origin, moved and scaled.
+template <int D>
+Point<D> placed(double scale, Point<D> p) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  double &x = p[D - 2], &y = p[D - 1];
+  std::tie(x, y) = std::pair(c * x - s * y, s * x + c * y);
+  for (int k = 0; k < D; ++k) p[k] = scale * (p[k] + 3 - k);
+  return p;
+}
+
+// A prism of many sides is one at the word of a file of second order with straight edges. A file of first order says
+// nothing, nor does one with curved edges where the user asks for facets.
+template <int D>
+void expect_polyhedra_at_their_word(const Mesh<D>& arch) {
+  using geometry::Surfaces;
+  const double exact = 2 * (1 - std::cos(pi / 32));
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    Mesh<D> first = arch;
+    for (Point<D>& p : first.points) p = placed<D>(scale, p);
+    Mesh<D> straight = second_order(first, [](const Point<D>& p) { return p; });
+    for (const Face<D>& face : straight.boundary) EXPECT_TRUE(face.straight);
+    for (const Surfaces surfaces : {Surfaces::automatic, Surfaces::facets}) {
+      Mesh<D> mesh = straight;
+      geometry::give_geometry(mesh, surfaces);
+      EXPECT_EQ(sagitta_everywhere(mesh, 1), 0);
+      EXPECT_EQ(sagitta_everywhere(join<D>({mesh, first}, {"a", "b"}, {0, 0}), 0), sagitta_everywhere(first, 0));
+    }
+    EXPECT_NEAR(sagitta_everywhere(first, 1), scale * exact, 0.01 * scale * exact);
+  }
+  Mesh<D> curved = second_order(arch, [](Point<D> p) {
+    const double r = std::hypot(p[0], p[1]), right = r > 1.5 ? 2 : 1;
+    for (int k = 0; k < 2 && std::abs(r - right) < 0.02; ++k) p[k] *= right / r;  // not of edges across
+    return p;
+  });
+  geometry::give_geometry(curved, Surfaces::facets);
+  EXPECT_NEAR(sagitta_everywhere(curved, 1), exact, 0.01 * exact);
+}
+
+TEST(Chords, StraightEdgesOfSecondOrderAreMeant) {
+  expect_polyhedra_at_their_word(arch(8));
+  expect_polyhedra_at_their_word(arch_3d(8));
 }
 
 TEST(Chords, CountWhereVerticesAreMarked) {
