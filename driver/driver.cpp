@@ -121,7 +121,7 @@ void Driver::build_bodies() {
     std::as_const(*this).visit(body, [&](const auto& run) {
       const auto& meshes = run.hierarchy();
       if (const auto& pieces = meshes.levels.front().pieces; !pieces.empty())
-        report_.geometry.push_back({solved_.bodies[body].name, pieces, meshes.straightened});
+        report_.geometry.push_back({solved_.bodies[body].name, pieces, static_cast<Index>(meshes.straightened.size())});
     });
 }
 

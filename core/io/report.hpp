@@ -144,7 +144,7 @@ struct FailedStep {
 struct GeometryReport {
   std::string body;
   std::vector<SurfacePiece> pieces;
-  Index straightened = 0;  ///< see MeshHierarchy
+  Index straightened = 0;  ///< how many, see MeshHierarchy
 };
 
 /// A mesh of a run that refines where its error is.

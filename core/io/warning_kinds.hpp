@@ -83,7 +83,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "a `solid` has flat faces where the surface is curved. Refinement does not correct this", "a smaller `size`"},
     {WarningKind::About::mesh, "straight-edges",
      "{}: {} midpoints of edges are not moved onto the curved surface to which they belong: there they would turn "
-     "elements inside out; a finer mesh follows the surface",
+     "elements inside out, at ({}){}; a finer mesh follows the surface",
      "edges stay straight at these midpoints, though the surface is curved", "a finer mesh, which follows the surface"},
     {WarningKind::About::mesh, "flat-faces",
      "{}: if the flat faces of the {} stand for a curved surface where they touch, they are up to {:.3g} off it, where "

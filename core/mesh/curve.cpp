@@ -125,8 +125,8 @@ double least_radius(const Curve<D>& curve, const Point<D>& p) {
 }
 
 template <int D>
-Index move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
-  if (moves.empty()) return 0;
+std::vector<Index> move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
+  if (moves.empty()) return {};
   std::vector<Index> move_of(mesh.points.size(), -1);
   std::vector<Point<D>> start;
   for (std::size_t m = 0; m < moves.size(); ++m) {
@@ -159,7 +159,10 @@ Index move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
         }
     }
   }
-  return static_cast<Index>(std::ranges::count_if(step, [](double s) { return s < 1; }));
+  std::vector<Index> short_of;
+  for (std::size_t m = 0; m < moves.size(); ++m)
+    if (step[m] < 1) short_of.push_back(moves[m].vertex);
+  return short_of;
 }
 
 #define SIGNORINI_INSTANTIATE(D)                                                                                     \
@@ -167,7 +170,7 @@ Index move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves) {
   template Point<D> project<D>(const Curve<D>&, const Point<D>&);                                                    \
   template Point<D> project<D>(std::span<const Curve<D>* const>, std::span<const Flat<D>>, const Point<D>&, double); \
   template double least_radius<D>(const Curve<D>&, const Point<D>&);                                                 \
-  template Index move_vertices(Mesh<D>&, const std::vector<Move<D>>&);
+  template std::vector<Index> move_vertices(Mesh<D>&, const std::vector<Move<D>>&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
 #undef SIGNORINI_INSTANTIATE

@@ -48,8 +48,8 @@ struct Move {
 
 /// Moves vertices of a valid mesh to their targets. Where that would take more than nine tenths of an element's volume
 /// the move is halved, and in the end left undone: all elements stay positively oriented.
-/// @return how many have not come to their targets
+/// @return those that have not come to their targets
 template <int D>
-Index move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves);
+std::vector<Index> move_vertices(Mesh<D>& mesh, const std::vector<Move<D>>& moves);
 
 }  // namespace signorini

@@ -59,8 +59,8 @@ double least_determinant(const Mesh<D>& mesh, const Family<D>& family) {
 }  // namespace
 
 template <int D>
-Index straighten_families(Mesh<D>& mesh) {
-  Index count = 0;
+std::vector<Index> straighten_families(Mesh<D>& mesh) {
+  std::vector<Index> straightened;
   for (bool settled = false; !settled;) {
     settled = true;
     for (const Family<D>& family : mesh.families) {
@@ -69,12 +69,12 @@ Index straighten_families(Mesh<D>& mesh) {
         if (bend(mesh, family, k) == Point<D>{}) continue;
         const auto [a, b] = edges<D>[k];
         mesh.points[family[D + 1 + k]] = midpoint<D>(mesh.points[family[a]], mesh.points[family[b]]);
-        ++count;
+        straightened.push_back(family[D + 1 + k]);
         settled = false;
       }
     }
   }
-  return count;
+  return straightened;
 }
 
 namespace {
@@ -176,7 +176,7 @@ ElementsAside<D>::~ElementsAside() {
 }
 
 #define SIGNORINI_INSTANTIATE(D)                                         \
-  template Index straighten_families(Mesh<D>&);                          \
+  template std::vector<Index> straighten_families(Mesh<D>&);             \
   template void restore_elements(MeshHierarchy<D>&);                     \
   template void restore_ends(MeshHierarchy<D>&);                         \
   template std::vector<Simplex<D>> elements_of_families(const Mesh<D>&); \

@@ -9,7 +9,7 @@ namespace signorini {
 /// element's.
 /// @return how many
 template <int D>
-Index straighten_families(Mesh<D>& mesh);
+std::vector<Index> straighten_families(Mesh<D>& mesh);
 
 /// The elements of a refined mesh, in their order, as its families and the layers of its vertices tell them.
 template <int D>

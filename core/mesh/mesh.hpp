@@ -104,7 +104,7 @@ struct Refinement {
   std::vector<std::array<Index, 2>> parents;  ///< per fine vertex
   std::vector<Index> father;                  ///< per fine element, the coarse element it lies in
   bool uniform = true;                        ///< every coarse edge is cut
-  Index straightened = 0;  ///< midpoints that are off the curve they belong to, or their elements would be inverted
+  std::vector<Index> straightened;  ///< midpoints off the curve they belong to, where elements would be inverted
 };
 
 /// Conforming meshes, coarsest first; refinements[k] leads from levels[k] to levels[k + 1].
@@ -112,7 +112,7 @@ template <int D>
 struct MeshHierarchy {
   std::vector<Mesh<D>> levels;
   std::vector<Refinement> refinements;
-  Index straightened = 0;  ///< of all refinements
+  std::vector<Point<D>> straightened;  ///< of all refinements, where they are
 
   const Mesh<D>& finest() const { return levels.back(); }
 };

@@ -321,7 +321,7 @@ MeshHierarchy<D> hierarchy(Mesh<D> coarsest, int uniform) {
   for (int k = 0; k < uniform; ++k) {
     Mesh<D> fine;
     result.refinements.push_back(refine_uniformly(result.levels.back(), fine));
-    result.straightened += result.refinements.back().straightened;
+    for (const Index v : result.refinements.back().straightened) result.straightened.push_back(fine.points[v]);
     release(result.refinements.back().father);
     if (k + 1 == uniform) release(fine.bends);
     result.levels.push_back(std::move(fine));

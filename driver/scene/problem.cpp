@@ -1,5 +1,7 @@
 #include "driver/scene/problem.hpp"
 
+#include <fmt/ranges.h>
+
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/families.hpp"
 
@@ -14,9 +16,12 @@ MeshHierarchy<D> hierarchy_of(Mesh<D> coarsest, int uniform, const Scene& scene,
                         : scene.refine.source.of("uniform"),
                promised, order == 1 ? 0 : D);
   MeshHierarchy<D> meshes = hierarchy(std::move(coarsest), refinements);
-  if (order == 2) meshes.straightened += straighten_families(meshes.levels.back());
-  if (warnings && meshes.straightened > 0)
-    warnings->push_back(warning<"straight-edges">(scene.bodies[body].source.table, meshes.straightened));
+  if (order == 2)
+    for (const Index v : straighten_families(meshes.levels.back()))
+      meshes.straightened.push_back(meshes.finest().points[v]);
+  if (const auto& at = meshes.straightened; warnings && !at.empty())
+    warnings->push_back(warning<"straight-edges">(scene.bodies[body].source.table, at.size(), fmt::join(at[0], ", "),
+                                                  at.size() > 1 ? fmt::format(" and at {} more", at.size() - 1) : ""));
   return meshes;
 }
 

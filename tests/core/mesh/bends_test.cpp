@@ -77,28 +77,47 @@ TEST(Bends, OfElementsNumberedTheOtherWayRoundAreTurnedWithThem) {
   const Mesh<2> mesh = build_mesh<2>(triangle({0.6, 0.6}), "test");
   ASSERT_EQ(mesh.points.size(), 3u);
   Mesh<2> fine;
-  EXPECT_EQ(refine_uniformly(mesh, fine).straightened, 0);
+  EXPECT_TRUE(refine_uniformly(mesh, fine).straightened.empty());
   EXPECT_EQ(std::ranges::count(fine.points, Point<2>{0.6, 0.6}), 1);
   EXPECT_EQ(std::ranges::count_if(mesh.boundary, [](const auto& f) { return f.curve == 0; }), 1);
   // The triangle and the parabola's segment on its longest side: two thirds of chord times height.
   EXPECT_NEAR(test::volume(hierarchy(mesh, 8).finest()), 0.5 + 2.0 / 3 * std::sqrt(2) * 0.1 * std::sqrt(2), 1e-5);
 }
 
-TEST(Bends, WhatWouldBeTurnedInsideOutStaysStraightAndIsCounted) {
-  const Mesh<2> mesh = build_mesh<2>(triangle({-0.2, -0.2}), "test");
-  const MeshHierarchy<2> fine = hierarchy(mesh, 2);
-  EXPECT_GT(fine.straightened, 0);
+/// Turned by 0.7, moved and scaled.
+Point<2> placed(double scale, const Point<2>& p) {
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  return {scale * (c * p[0] - s * p[1] + 2), scale * (s * p[0] + c * p[1] - 5)};
+}
+
+TEST(Bends, WhatWouldBeTurnedInsideOutStaysStraightAndIsToldWithItsPlace) {
+  const MeshHierarchy<2> fine = hierarchy(build_mesh<2>(triangle({-0.2, -0.2}), "test"), 2);
+  ASSERT_FALSE(fine.straightened.empty());
   test::expect_consistent(fine.finest());
+  // Half of the way to (-0.2, -0.2) twice: a quarter of it from the middle of the edge.
+  EXPECT_NEAR(fine.straightened[0][0], fine.straightened[0][1], 1e-15);
+  EXPECT_GT(fine.straightened[0][0], -0.2);
+  EXPECT_LT(fine.straightened[0][0], 0.5);
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    RawMesh<2> raw = triangle({-0.2, -0.2});
+    for (Point<2>& p : raw.points) p = placed(scale, p);
+    const MeshHierarchy<2> there = hierarchy(build_mesh<2>(raw, "test"), 2);
+    ASSERT_EQ(there.straightened.size(), fine.straightened.size());
+    for (std::size_t k = 0; k < fine.straightened.size(); ++k)
+      EXPECT_LT(length<2>(difference<2>(there.straightened[k], placed(scale, fine.straightened[k]))), 1e-12 * scale);
+  }
 }
 
 // The linear children are all right, the quadratic element is not.
 TEST(Bends, QuadraticElementsThatWouldBeTurnedInsideOutAreStraightened) {
   MeshHierarchy<2> fine = hierarchy(build_mesh<2>(triangle({0.8, 0.2}), "test"), 1);
-  EXPECT_EQ(fine.straightened, 0);
-  EXPECT_EQ(straighten_families(fine.levels.back()), 1);
+  EXPECT_TRUE(fine.straightened.empty());
+  const std::vector<Index> at = straighten_families(fine.levels.back());
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_EQ(fine.finest().points[at[0]], (Point<2>{0.5, 0.5}));
   EXPECT_EQ(std::ranges::count(fine.finest().points, Point<2>{0.5, 0.5}), 1);
   fine = hierarchy(build_mesh<2>(triangle({0.6, 0.4}), "test"), 1);
-  EXPECT_EQ(straighten_families(fine.levels.back()), 0);
+  EXPECT_TRUE(straighten_families(fine.levels.back()).empty());
 }
 
 TEST(Bends, NodesTooFarAwayToCountAreRefused) {
