@@ -159,6 +159,7 @@ void add_rigid(const Scene& scene, std::vector<std::string>& out) {
     const Scene::Body* one = body_named(scene, scene.obstacles[k].body);
     const Scene::Body* other = body_named(scene, scene.obstacles[k].other);
     if (!one || !other || one == other) continue;
+    if (one->orthotropic || other->orthotropic) continue;  // how stiff is a matter of direction
     if (one->temperature.constant() != 0.0 || other->temperature.constant() != 0.0)
       continue;  // what is rigid grows not
     const auto soft = one->young.constant(), stiff = other->young.constant();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/input/expression.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/scene/check_parts.hpp"
@@ -55,6 +56,44 @@ void check_expansion(const Scene& scene, const Scene::Material& m) {
   if (m.expansion) expect_finite(*m.expansion, m.source.of("expansion"));
 }
 
+/// Of a direction of any length.
+void check_direction(const std::vector<double>& direction, int dimension, const std::string& place) {
+  expect_length(direction.size(), static_cast<std::size_t>(dimension), place, "coordinate");
+  for (const double x : direction) expect_finite(x, place);
+  if (std::ranges::all_of(direction, [](double x) { return x == 0; }))
+    input_error(place, "this vector is zero, expected a direction");
+}
+
+bool are_parallel(const std::vector<double>& a, const std::vector<double>& b) {
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) ab += a[i] * b[i], aa += a[i] * a[i], bb += b[i] * b[i];
+  return ab * ab >= (1 - rounding_of_differences) * aa * bb;
+}
+
+/// The directions of an orthotropic material.
+void check_orthotropic(const Scene::Body& body, int dimension) {
+  if (!body.orthotropic) return;
+  const auto& [constants, axes, center, axis] = *body.orthotropic;
+  const auto place = [&](const char* key) { return body.source.of(key); };
+  if (!axes.empty()) {
+    expect_length(axes.size(), static_cast<std::size_t>(dimension - 1), place("material_axes"), "direction");
+    for (const std::vector<double>& direction : axes) check_direction(direction, dimension, place("material_axes"));
+    if (dimension == 3 && are_parallel(axes[0], axes[1]))
+      input_error(place("material_axes"), "both directions are the same, expected two");
+  }
+  if (center.empty()) return;
+  expect_length(center.size(), static_cast<std::size_t>(dimension), place("material_center"), "coordinate");
+  for (const double x : center) expect_finite(x, place("material_center"));
+  if (body.plane == Plane::axisymmetric)
+    input_error(place("material_center"),
+                "direction 3 of an axisymmetric body is around its axis already: expected no 'material_center'");
+  if (dimension == 2 && !axis.empty())
+    input_error(place("material_axis"), "the axis is across the plane: expected no 'material_axis'");
+  if (dimension == 3 && axis.empty())
+    input_error(place("material_center"), "'material_axis' is missing, the direction of the axis");
+  if (dimension == 3) check_direction(axis, dimension, place("material_axis"));
+}
+
 // What the equation takes, and nothing else.
 void check_materials(const Scene& scene) {
   for (const Scene::Material& m : scene.materials) {
@@ -68,6 +107,9 @@ void check_materials(const Scene& scene) {
         input_error(m.source.table, fmt::format("missing key '{}', required for equation = '{}'", key, equation));
       if (given) expect_finite(*value, m.source.of(key));
     };
+    if (scene.body(m.body).orthotropic)
+      input_error(m.source.table,
+                  fmt::format("body '{}' is orthotropic, and has one material in this version", m.body));
     check("young", m.young, !diffusion);
     check("poisson", m.poisson, !diffusion);
     check("diffusion", m.diffusion, diffusion);
@@ -274,6 +316,7 @@ void check_dimension(const Scene& scene, int dimension) {
   for (const Scene::Body& body : scene.bodies)
     if (dimension == 3 && body.source.given("plane"))
       input_error(body.source.of("plane"), "'plane' is for 2D bodies, this one is 3D");
+  for (const Scene::Body& body : scene.bodies) check_orthotropic(body, dimension);
   for (const Mirror& mirror : scene.symmetry.planes)
     if (mirror.axis >= dimension)
       input_error(scene.symmetry.source.of(axis_name(mirror.axis)),

@@ -74,18 +74,46 @@ void cut_at_axis(Scene::Body& body) {
   if (disk && body.plane == Plane::axisymmetric) disk->right_half = disk->center[0] == 0;
 }
 
+Scene::Orthotropic orthotropic(const TableReader& reader) {
+  const std::string& place = reader.origin("orthotropic");
+  for (const char* key : {"young", "poisson"}) reader.forbid(key, "beside 'orthotropic'");
+  Scene::Orthotropic out{
+      exactly<double, 9>(reader.point("orthotropic"), place, "numbers (E1, E2, E3, nu12, nu13, nu23, G12, G13, G23)"),
+      {},
+      {},
+      {}};
+  if (const std::string wrong = complaint(out.constants); !wrong.empty()) input_error(place, wrong);
+  if (reader.given("material_center"))
+    for (const char* key : {"material_axes"}) reader.forbid(key, "beside 'material_center'");
+  else
+    reader.forbid("material_axis", "without 'material_center'");
+  if (reader.given("material_axes")) out.axes = reader.points("material_axes");
+  if (reader.given("material_center")) out.center = reader.point("material_center");
+  if (reader.given("material_axis")) out.axis = reader.point("material_axis");
+  return out;
+}
+
 void read_material(const TableReader& reader, Scene::Body& body) {
   const std::string where = fmt::format("for equation = '{}'", reader.text("equation"));
   if (body.equation == Scene::Equation::diffusion) {
-    for (const char* key : {"young", "poisson", "expansion", "temperature"}) reader.forbid(key, where);
+    for (const char* key : {"young", "poisson", "expansion", "temperature", "orthotropic", "material_axes",
+                            "material_center", "material_axis"})
+      reader.forbid(key, where);
     if (body.plane != Plane::axisymmetric) reader.forbid("plane", where + ", unless it is 'axisymmetric'");
     body.diffusion = reader.field("diffusion");
     return;
   }
   reader.forbid("diffusion", where);
-  for (const char* key : {"young", "poisson"}) reader.require(key, where);
-  body.young = reader.field("young");
-  body.poisson = reader.field("poisson");
+  if (reader.given("orthotropic")) {
+    body.orthotropic = orthotropic(reader);
+    body.young = mean_constants(body.orthotropic->constants).young;
+  } else {
+    for (const char* key : {"material_axes", "material_center", "material_axis"})
+      reader.forbid(key, "without 'orthotropic'");
+    for (const char* key : {"young", "poisson"}) reader.require(key, where + ", or 'orthotropic'");
+    body.young = reader.field("young");
+    body.poisson = reader.field("poisson");
+  }
   if (reader.given("temperature")) reader.require("expansion", "by 'temperature'");
   if (reader.given("expansion")) body.expansion = reader.field("expansion");
   body.temperature = reader.field("temperature");
@@ -98,6 +126,8 @@ void read_pressure(const TableReader& reader, Scene::Body& body) {
   if (kind == "none") body.pressure = Pressure::none;
   if (kind != "linear" && kind != "constant") return;
   const std::string& origin = reader.origin("pressure");
+  if (reader.given("orthotropic"))
+    input_error(origin, fmt::format("'{}' is for isotropic bodies, this one is orthotropic", kind));
   if (body.plane == Plane::stress)
     input_error(origin, fmt::format("'{}' is for plane strain and 3D: in plane stress elements do not lock", kind));
   if (body.order == 1)

@@ -50,18 +50,26 @@ struct Scene {
   using BodyShape = std::variant<MeshFile, Block<2>, geometry::Disk, geometry::Polygon, Block<3>, geometry::Ball,
                                  geometry::Cylinder, geometry::Solid>;
 
+  /// In place of a body's young and poisson.
+  struct Orthotropic {
+    EngineeringConstants constants;
+    std::vector<std::vector<double>> axes;  ///< its directions 1 and 2, in 2D 1 alone; empty: x and y
+    std::vector<double> center, axis;       ///< of a cylindrical frame, in place of these; empty: none
+  };
+
   struct Body {
     std::string name;
     BodyShape shape;
     std::optional<Field> size;  ///< target edge length; for the shapes that are meshed freely
     Equation equation = Equation::elasticity;
-    Field young = 1, poisson = 0;          ///< elasticity
-    Field expansion = 0, temperature = 0;  ///< elasticity
-    Field diffusion = 1;                   ///< diffusion
-    Plane plane = Plane::strain;           ///< 2D
-    int order = 0;                         ///< of the elements, 1 or 2; 0: what choose_elements() takes
-    bool order_chosen = false;             ///< by it, and not by the scene
-    std::optional<Pressure> pressure;      ///< where material is nearly incompressible; the reader leaves none empty
+    Field young = 1, poisson = 0;            ///< elasticity
+    std::optional<Orthotropic> orthotropic;  ///< elasticity; then young and poisson stand for it
+    Field expansion = 0, temperature = 0;    ///< elasticity
+    Field diffusion = 1;                     ///< diffusion
+    Plane plane = Plane::strain;             ///< 2D
+    int order = 0;                           ///< of the elements, 1 or 2; 0: what choose_elements() takes
+    bool order_chosen = false;               ///< by it, and not by the scene
+    std::optional<Pressure> pressure;        ///< where material is nearly incompressible; the reader leaves none empty
     Source source;
     std::vector<Body> parts;  ///< bodies that may touch each other, as one: see driver/scene/touching_bodies.hpp
 

@@ -248,6 +248,27 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   return report;
 }
 
+namespace {
+
+constexpr double too_incompressible = 0.45;  // Poisson's ratio
+
+/// Of bodies without pressures of their own, whatever the scene says.
+Warnings orthotropic_locking(const Scene::Body& body) {
+  Warnings warnings;
+  for (const Scene::Body& part : body.parts) std::ranges::move(orthotropic_locking(part), std::back_inserter(warnings));
+  if (!body.orthotropic) return warnings;
+  const double poisson = mean_constants(body.orthotropic->constants).poisson;
+  if (poisson < too_incompressible) return warnings;
+  warnings.push_back(
+      warning<"locking">(poisson, "elements are too stiff for",
+                         fmt::format("which orthotropic body '{}' is in the mean of all directions: pressures as "
+                                     "unknowns of their own are for isotropic bodies",
+                                     body.name)));
+  return warnings;
+}
+
+}  // namespace
+
 template <int D>
 Warnings scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t number) {
   const Scene::Body& body = scene.bodies[number];
@@ -256,16 +277,21 @@ Warnings scene_warnings(const Scene& scene, const Mesh<D>& mesh, std::size_t num
   double poisson = ratio.constant().value_or(0);
   if (!ratio.constant())
     for (std::size_t e = 0; e < mesh.elements.size(); ++e) poisson = std::max(poisson, ratio(site_in(mesh, e, 1)));
-  if (poisson < 0.45 || (body.order == 2 && body.pressure != Pressure::none)) return {};
+  Warnings warnings = orthotropic_locking(body);
+  if (poisson < too_incompressible || (body.order == 2 && body.pressure != Pressure::none)) return warnings;
   if (body.order == 2)
-    return {warning<"locking">(poisson, "quadratic elements of displacements alone lose accuracy in",
-                               "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not")};
-  return {warning<"locking">(
-      poisson, "linear elements are too stiff for",
-      fmt::format("and refinement helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at "
-                  "0.49, and 290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not "
-                  "lock",
-                  2 * poisson / (1 - 2 * poisson)))};
+    warnings.push_back(
+        warning<"locking">(poisson, "quadratic elements of displacements alone lose accuracy in",
+                           "pressures most of all (docs/rubber.md); pressure = \"linear\", the default, does not"));
+  else
+    warnings.push_back(warning<"locking">(
+        poisson, "linear elements are too stiff for",
+        fmt::format(
+            "and refinement helps slowly: the largest pressure of a ball on a plane is 7 % off at 0.45, 43 % at "
+            "0.49, and 290 % at 0.499, about 0.8 % for each unit of lambda / mu, here {:.3g}; order = 2 does not "
+            "lock",
+            2 * poisson / (1 - 2 * poisson))));
+  return warnings;
 }
 
 namespace {

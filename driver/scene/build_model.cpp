@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <span>
 
@@ -194,6 +195,39 @@ Load<B> load(const Scene& scene, const Scene::Body& body, const Scene::Load& giv
   return result;
 }
 
+template <int B>
+Orthotropy<B> orthotropy(const Scene::Orthotropic& given) {
+  using Vector = Eigen::Vector3d;
+  const auto vector = [](const std::vector<double>& x) {
+    return Vector(x[0], x[1], x.size() > 2 ? x[2] : 0).normalized();
+  };
+  Vector first = Vector::UnitX(), second = Vector::UnitY();
+  if (!given.axes.empty()) {
+    first = vector(given.axes[0]);
+    second = B == 3 ? vector(given.axes[1]) : Vector(-first[1], first[0], 0);
+    second = (second - first.dot(second) * first).normalized();
+  }
+  const Vector third = first.cross(second);
+  Orthotropy<B> out{given.constants, {}, {}};
+  const std::array<Vector, 3> axes{first, second, third};
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(axes[k].data(), 3, out.axes[k].begin());
+  if (!given.center.empty()) out.frame = frame<B>(Frame::cylindrical, {given.center, given.axis});
+  return out;
+}
+
+/// Per region of a body; empty where all is isotropic.
+template <int B>
+std::vector<std::shared_ptr<const Orthotropy<B>>> orthotropies(const Scene& scene, const Scene::Body& body) {
+  std::vector<std::shared_ptr<const Orthotropy<B>>> out;
+  const std::span<const Scene::Body> bodies = body.parts.empty() ? std::span(&body, 1) : std::span(body.parts);
+  if (std::ranges::none_of(bodies, [](const Scene::Body& part) { return part.orthotropic.has_value(); })) return out;
+  for (const Scene::Body& part : bodies) {
+    out.push_back(part.orthotropic ? std::make_shared<const Orthotropy<B>>(orthotropy<B>(*part.orthotropic)) : nullptr);
+    out.resize(out.size() + numbers_of(scene.materials, part).size());
+  }
+  return out;
+}
+
 /// Or one of its parts.
 bool is_heated(const Scene::Body& body) {
   return body.temperature.constant() != 0.0 || std::ranges::any_of(body.parts, is_heated);
@@ -226,6 +260,8 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
   model.diffusion = coefficient(scene, body, &Scene::Body::diffusion, &Scene::Material::diffusion);
   model.young = coefficient(scene, body, &Scene::Body::young, &Scene::Material::young);
   model.poisson = coefficient(scene, body, &Scene::Body::poisson, &Scene::Material::poisson);
+  if constexpr (B > 1) model.orthotropic = orthotropies<B>(scene, body);
+  model.first_region = body.parts.empty() ? -1 : 0;
   if (is_heated(body)) {
     model.expansion = coefficient(scene, body, &Scene::Body::expansion, &Scene::Material::expansion);
     model.temperature = coefficient(scene, body, &Scene::Body::temperature);

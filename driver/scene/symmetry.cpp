@@ -11,6 +11,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/component/failure.hpp"
+#include "core/fem/assembly/elastic_matrix.hpp"
 #include "core/fem/assembly/resultant.hpp"
 #include "core/fem/assembly/springs.hpp"
 #include "core/fem/conditions/directions.hpp"
@@ -147,8 +148,30 @@ class SymmetryCheck {
     if (B == 1) return compare(model_.diffusion, "'diffusion'");
     compare(model_.young, "'young'");
     compare(model_.poisson, "'poisson'");
+    check_orthotropic();
     compare(model_.expansion, "'expansion'");
     compare(model_.temperature, "'temperature'");
+  }
+
+  /// In the plane of the mirror its stiffness has no coupling between what is symmetric and what is not.
+  void check_orthotropic() const {
+    if constexpr (B == D) {
+      const OrthotropicLaw<D> law(model_);
+      if (law.none()) return;
+      constexpr std::array<std::array<int, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+      const auto sign_of = [&](std::size_t k) { return sign(axes[k][0]) * sign(axes[k][1]); };
+      Comparison<D> comparison(mirror_, model_.origin);
+      constexpr std::size_t n = strain_components<D>;
+      for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+        const Point<D> x = centroid<D>(mesh_, mesh_.elements[e]);
+        const Site here = site_in<D>(mesh_, e, x, model_.t);
+        if (!law.acts_in(here.region)) continue;
+        const ElasticMatrix<D> own = law.at(here),
+                               other = law.at(site_in<D>(mesh_, e, reflected<D>(mirror_, x), model_.t));
+        for (std::size_t k = 0; k < n * n; ++k) comparison.add(x, own[k], sign_of(k / n) * sign_of(k % n) * other[k]);
+      }
+      comparison.refuse("the orthotropic material");
+    }
   }
 
   void check_fix(const Fix<B>& fix) const {

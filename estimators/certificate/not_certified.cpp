@@ -10,6 +10,7 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
   std::vector<std::string> reasons;
   if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
   if (B > 1 && !ThermalStrain<B>(model).none()) reasons.emplace_back("thermal strains are not covered");
+  if (!model.orthotropic.empty()) reasons.emplace_back("orthotropic material is not covered");
   if (std::ranges::any_of(model.loads, [](const Load<B>& load) { return load.where_open.has_value(); }))
     reasons.emplace_back("pressures that act where contact is open are not covered");
   if (!model.rigid.empty()) reasons.emplace_back("rigid parts are not covered");

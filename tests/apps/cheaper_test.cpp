@@ -95,6 +95,11 @@ TEST_F(Cheaper, BodiesThatMightBeRigid) {
   };
   EXPECT_THAT(check(stack("1e6")), HasSubstr("'lower' is 1e+06 times as stiff as the other body"));
   EXPECT_THAT(check(stack("100")), Not(HasSubstr("times as stiff as the other body: a rigid")));
+  std::string orthotropic = stack("1e6");
+  const std::string isotropic = "poisson = 0.3\nyoung = 1e6";
+  orthotropic.replace(orthotropic.find(isotropic), isotropic.size(),
+                      "orthotropic = [1e6, 1e6, 1e6, 0.3, 0.3, 0.3, 4e5, 4e5, 4e5]");
+  EXPECT_THAT(check(orthotropic), Not(HasSubstr("times as stiff as the other body: a rigid")));
 }
 
 }  // namespace

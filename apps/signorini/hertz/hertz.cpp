@@ -59,6 +59,7 @@ double obstacle_curvature(const Scene::Obstacle& obstacle) {
 Bodies bodies(const Scene& scene) {
   const Scene::Body& body = scene.bodies.front();
   if (scene.obstacles.empty()) input_error(scene.file.string(), "the scene has no obstacle to compare with Hertz");
+  if (body.orthotropic) input_error(body.source.of("orthotropic"), "Hertz's formulas are for isotropic bodies");
   const double young = constant(body.young, body.source.of("young"));
   const double poisson = constant(body.poisson, body.source.of("poisson"));
   return {1 / (1 / body_radius(body) + obstacle_curvature(scene.obstacles.front())), young / (1 - poisson * poisson)};

@@ -28,7 +28,9 @@ void check_lengths(const Mesh<D>& mesh, const Model<B>& model) {
 
 template <int D, int B>
 void check_stiffness(const Nodes<D>& nodes, const Model<B>& model, const BlockMatrix<B>& A) {
-  const char* moduli = B == 1 ? "lengths and 'diffusion'" : "lengths and 'young'";
+  const char* moduli = B == 1                      ? "lengths and 'diffusion'"
+                       : model.orthotropic.empty() ? "lengths and 'young'"
+                                                   : "lengths and moduli";
   for (Index p = 0; p < A.size(); ++p) {
     bool good = A.row[p] < A.row[p + 1] && A.column[A.row[p]] == p;
     for (int k = 0; good && k < B; ++k) {

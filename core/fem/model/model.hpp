@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fem/model/orthotropy.hpp"
 #include "core/input/field.hpp"
 #include "core/mortar/pairing.hpp"
 #include "core/sdk/obstacle.hpp"
@@ -38,6 +39,16 @@ struct LocalFrame {
   std::array<double, B> center{}, axis{};  ///< of a cylindrical one: a point of the axis, and in 3D its direction
 
   bool operator==(const LocalFrame&) const = default;
+};
+
+/// An orthotropic material.
+template <int B>
+struct Orthotropy {
+  EngineeringConstants constants;
+  std::array<std::array<double, 3>, 3> axes;  ///< unit vectors in space: its directions 1, 2, 3; 3 is across the plane
+  LocalFrame<B> frame = {};                   ///< a cylindrical one gives the directions in place of these
+
+  bool operator==(const Orthotropy&) const = default;
 };
 
 /// Of nearly incompressible material: whether its pressure has unknowns of its own, see
@@ -131,8 +142,12 @@ struct ObstacleTerm {
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
 template <int B>
 struct Model {
-  Field diffusion = 1;                 ///< B = 1
-  Field young = 1, poisson = 0;        ///< B > 1
+  Field diffusion = 1;           ///< B = 1
+  Field young = 1, poisson = 0;  ///< B > 1
+  /// B > 1: per region, from `first_region` on; null: the material is isotropic, else young and poisson stand for it
+  /// where one number has to do. Empty: all are isotropic.
+  std::vector<std::shared_ptr<const Orthotropy<B>>> orthotropic;
+  Index first_region = -1;
   Field expansion = 0;                 ///< B > 1: strain per change of temperature, in all directions
   Field temperature = 0;               ///< B > 1: its change, from where the body has no stress
   Plane plane = Plane::strain;         ///< D = 2; of B = 1 only whether it is axisymmetric

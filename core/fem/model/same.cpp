@@ -54,10 +54,16 @@ bool same(const RigidPart<B>& a, double ta, const RigidPart<B>& b, double tb) {
 }
 
 template <int B>
+bool same_orthotropy(const Model<B>& a, const Model<B>& b) {
+  return std::ranges::equal(a.orthotropic, b.orthotropic,
+                            [](const auto& x, const auto& y) { return x == y || (x && y && *x == *y); });
+}
+
+template <int B>
 bool same_material(const Model<B>& a, const Model<B>& b) {
   const auto same = [&](Field Model<B>::*field) { return (a.*field).same(a.t, b.*field, b.t); };
-  return same(&Model<B>::young) && same(&Model<B>::poisson) && (B == 3 || a.plane == b.plane) &&
-         a.pressure == b.pressure;
+  return same_orthotropy(a, b) && same(&Model<B>::young) && same(&Model<B>::poisson) &&
+         (B == 3 || a.plane == b.plane) && a.pressure == b.pressure;
 }
 
 /// Thermal stress is a load, and depends on the material.

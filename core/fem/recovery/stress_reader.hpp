@@ -1,6 +1,7 @@
 #pragma once
 #include <cassert>
 
+#include "core/fem/assembly/elastic_matrix.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/gradient.hpp"
 #include "core/fem/elements/revolution.hpp"
@@ -24,6 +25,20 @@ inline Stress stress(const Material<D>& material, const Gradient<D, D>& g, doubl
   return s;
 }
 
+/// Of an orthotropic material.
+template <int D>
+inline Stress stress(const ElasticMatrix<D>& C, const Gradient<D, D>& g, double hoop, double thermal) {
+  StrainVector<D> strain = expansion<D>(-thermal);
+  for (int i = 0; i < D; ++i) {
+    const StrainVector<D> along = strain_of<D>(g[i], i == 0 ? hoop : 0, i);
+    for (std::size_t k = 0; k < along.size(); ++k) strain[k] += along[k];
+  }
+  const StrainVector<D> found = product<D>(C, strain);
+  Stress s{};
+  std::ranges::copy(found, s.begin());
+  return s;
+}
+
 /// Of a linear element.
 template <int D>
 double hoop_strain(const Nodes<D>& nodes, const Model<D>& model, std::size_t e, const std::vector<double>& u) {
@@ -40,7 +55,7 @@ class StressReader {
 
   StressReader(const Nodes<D>& nodes, const Model<D>& model, const std::vector<double>& u,
                const OwnPressure<D>& pressure)
-      : nodes_(nodes), model_(model), law_(model), thermal_(model), u_(u), pressure_(pressure) {
+      : nodes_(nodes), model_(model), law_(model), orthotropic_(model), thermal_(model), u_(u), pressure_(pressure) {
     assert(P == 2 || !pressure.space);
   }
 
@@ -55,6 +70,8 @@ class StressReader {
     const Gradient<D, D> g = gradient<D, D>(basis_gradients<P>(flat.gradient, barycentric), node, u_);
     const Site where = P == 1 ? site_in(nodes_.mesh(), e, model_.t) : site_in<D>(nodes_, e, map(barycentric), model_.t);
     const double hoop = P == 1 ? hoop_strain(nodes_, model_, e, u_) : hoop_at(node, map(barycentric), barycentric);
+    if (orthotropic_.acts_in(where.region))
+      return {stress<D>(orthotropic_.at(where), g, hoop, thermal_.at(where)), flat.measure};
     const bool own = pressure_.space && pressure_.space->unknown[e][0] >= 0;
     Material<D> material = law_.at(where);
     if (own) material = of_displacements(material);
@@ -79,6 +96,7 @@ class StressReader {
   const Nodes<D>& nodes_;
   const Model<D>& model_;
   const MaterialLaw<D> law_;
+  const OrthotropicLaw<D> orthotropic_;
   const ThermalStrain<D> thermal_;
   const std::vector<double>& u_;
   const OwnPressure<D>& pressure_;
