@@ -25,35 +25,78 @@ std::array<Index, 2> Bubbles<D, B>::ends(Index edge) const {
   return {v[a], v[b]};
 }
 
-/// Of `direction . c`: see Gaps.
 template <int D, int B>
-std::array<double, 2> Bubbles<D, B>::range(Index edge, Index a, Index b) const {
-  const auto* bound = problem_.gaps.at_edge(edge);
-  const auto from = distances(problem_, a), to = distances(problem_, b);
-  const double lower = bound->lower - (from[0] + to[0]) / 4, upper = bound->upper + (from[1] + to[1]) / 4;
-  return {std::isnan(lower) ? -infinity : lower, std::isnan(upper) ? infinity : upper};
+const FixedDirections<B>* Bubbles<D, B>::fixed(Index edge) const {
+  const Index number = problem_.edge_fix[edge];
+  return number < 0 ? nullptr : &problem_.edge_fixes[number];
+}
+
+template <int D, int B>
+std::array<double, B> Bubbles<D, B>::at(Index edge) const {
+  std::array<double, B> c;
+  std::copy_n(c_.begin() + Offset{edge} * B, B, c.begin());
+  return c;
+}
+
+/// Of obstacles: the range of `direction . c`, see Gaps. Along fixed directions c stays. Without obstacles none.
+template <int D, int B>
+void Bubbles<D, B>::gather_facets(Index edge) {
+  facets_.clear();
+  const auto add = [&](const std::array<double, B>& normal, double lower, double upper, double tolerated) {
+    Facet<B>& facet = facets_.emplace_back();
+    std::ranges::copy(normal, facet.normal);
+    facet.lower = lower, facet.upper = upper, facet.tolerated = tolerated;
+  };
+  for (const Gaps<D, B>& gaps : problem_.gaps) {
+    const auto* bound = gaps.at_edge(edge);
+    if (!bound) continue;
+    const auto [a, b] = ends(edge);
+    const auto from = distances(problem_, gaps, a), to = distances(problem_, gaps, b);
+    const double lower = bound->lower - (from[0] + to[0]) / 4, upper = bound->upper + (from[1] + to[1]) / 4;
+    add(bound->direction, std::isnan(lower) ? -infinity : lower, std::isnan(upper) ? infinity : upper, gaps.rounding);
+  }
+  const FixedDirections<B>* held = fixed(edge);
+  if (facets_.empty() || !held) return;
+  for (int k = 0; k < held->count; ++k) {
+    std::array<double, B> direction;
+    std::copy_n(held->direction[k], B, direction.begin());
+    const double there = dot(direction, at(edge));
+    add(direction, there, there, facets_.front().tolerated);
+  }
+}
+
+/// The admissible coefficient that is nearest to c in the norm of M. False: there is none.
+template <int D, int B>
+bool Bubbles<D, B>::nearest(const std::array<double, B * B>& M, std::array<double, B>& c) const {
+  if (facets_.empty()) return true;
+  std::array<double, B> lower, upper, y;
+  lower.fill(-infinity);
+  upper.fill(infinity);
+  const Facet<B>* first = facets_.data();
+  if (!Polyhedron<B>(lower.data(), upper.data(), first, first + facets_.size()).nearest(M.data(), c.data(), y.data()))
+    return false;
+  c = y;
+  return true;
 }
 
 template <int D, int B>
 bool Bubbles<D, B>::lift() {
+  std::array<double, B * B> identity{};
+  for (int i = 0; i < B; ++i) identity[i * (B + 1)] = 1;
+  double rounding = 0;
+  for (const Gaps<D, B>& gaps : problem_.gaps) rounding = std::max(rounding, gaps.rounding);
   bool possible = true;
-  for (Index e = 0; e < problem_.incidence.edges && problem_.gaps.any(); ++e) {
-    const auto* bound = problem_.gaps.at_edge(e);
-    if (!bound) continue;
-    const auto [a, b] = ends(e);
-    const auto [lower, upper] = range(e, a, b);
-    double there = 0;
-    for (int i = 0; i < B; ++i) there += bound->direction[i] * c_[Offset{e} * B + i];
-    const double by = std::clamp(there, std::min(lower, upper), std::max(lower, upper)) - there;
-    if (std::fabs(by) <= problem_.gaps.rounding) continue;
-    std::array<double, B> n = bound->direction;
-    if (problem_.edge_fix[e] >= 0) project(problem_.edge_fixes[problem_.edge_fix[e]], n);
-    const double along = dot(n, bound->direction);
-    if (!(along > same_direction) || lower > upper) {
+  for (Index e = 0; e < problem_.incidence.edges && !problem_.gaps.empty(); ++e) {
+    gather_facets(e);
+    std::array<double, B> c = at(e);
+    if (!nearest(identity, c)) {
       possible = false;
       continue;
     }
-    for (int i = 0; i < B; ++i) c_[Offset{e} * B + i] += n[i] * by / along;
+    double by = 0;
+    for (int i = 0; i < B; ++i) by = std::max(by, std::fabs(c[i] - c_[Offset{e} * B + i]));
+    if (by <= rounding) continue;
+    std::ranges::copy(c, c_.begin() + Offset{e} * B);
     lifted_[e] = any_lifted_ = any_ = true;
   }
   return possible;
@@ -110,30 +153,24 @@ typename Bubbles<D, B>::Local Bubbles<D, B>::local(Index edge) const {
   return out;
 }
 
-/// The change that the local problem asks for: the free minimiser, moved to the bound along A^-1 n where it is beyond.
+/// The change that the local problem asks for: to the admissible coefficient nearest to the free minimiser, in the norm
+/// of the energy. None where nothing is admissible.
 template <int D, int B>
-std::array<double, B> Bubbles<D, B>::minimiser(Index edge, const Local& local, Index a, Index b) const {
+std::array<double, B> Bubbles<D, B>::minimiser(Index edge, const Local& local) {
   std::array<double, B> r = local.residual;
   std::array<double, B* B> A = local.stiffness;
-  const FixedDirections<B>* fixed =
-      problem_.edge_fix[edge] >= 0 ? &problem_.edge_fixes[problem_.edge_fix[edge]] : nullptr;
-  if (fixed) {
-    project(*fixed, r);
-    keep_free<B>(*fixed, A);
+  if (const FixedDirections<B>* held = fixed(edge)) {
+    project(*held, r);
+    keep_free<B>(*held, A);
   }
   std::array<double, B> step = solved(A, r);
-  const auto* bound = problem_.gaps.at_edge(edge);
-  if (!bound) return step;
-  std::array<double, B> n = bound->direction, now;
-  if (fixed) project(*fixed, n);
-  if (!(dot(n, n) > same_direction * same_direction)) return step;
-  std::copy_n(c_.begin() + Offset{edge} * B, B, now.begin());
-  const auto [lower, upper] = range(edge, a, b);
-  const double there = dot(bound->direction, now) + dot(bound->direction, step);
-  const double back = std::clamp(there, std::min(lower, upper), std::max(lower, upper)) - there;
-  if (back == 0) return step;
-  const std::array<double, B> way = solved(A, n);
-  for (int i = 0; i < B; ++i) step[i] += back / dot(bound->direction, way) * way[i];
+  gather_facets(edge);
+  if (facets_.empty()) return step;
+  const std::array<double, B> now = at(edge);
+  std::array<double, B> c = now;
+  for (int i = 0; i < B; ++i) c[i] += step[i];
+  if (!nearest(A, c)) return {};
+  for (int i = 0; i < B; ++i) step[i] = c[i] - now[i];
   return step;
 }
 
@@ -144,9 +181,8 @@ double Bubbles<D, B>::sweep(bool lifted_only) {
   for (Index e = 0; e < problem_.incidence.edges; ++e) {
     if (lifted_only && !lifted_[e]) continue;
     if (problem_.edge_fix[e] >= 0 && problem_.edge_fixes[problem_.edge_fix[e]].count == B) continue;
-    const auto [a, b] = ends(e);
     const Local here = local(e);
-    const std::array<double, B> step = minimiser(e, here, a, b);
+    const std::array<double, B> step = minimiser(e, here);
     for (int i = 0; i < B; ++i) {
       double slope = here.residual[i];
       for (int j = 0; j < B; ++j) slope -= here.stiffness[i * B + j] * step[j] / 2;

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "core/sdk/polyhedron.hpp"
 #include "estimators/certificate/flux.hpp"
 #include "estimators/certificate/true_problem.hpp"
 
@@ -36,8 +37,11 @@ class Bubbles {
     std::array<double, B * B> stiffness{};
   };
   Local local(Index edge) const;
-  std::array<double, B> minimiser(Index edge, const Local& local, Index a, Index b) const;
-  std::array<double, 2> range(Index edge, Index a, Index b) const;
+  std::array<double, B> minimiser(Index edge, const Local& local);
+  std::array<double, B> at(Index edge) const;
+  void gather_facets(Index edge);
+  bool nearest(const std::array<double, B * B>& M, std::array<double, B>& c) const;
+  const FixedDirections<B>* fixed(Index edge) const;
   std::array<Index, 2> ends(Index edge) const;
 
   const TrueProblem<D, B>& problem_;
@@ -45,12 +49,13 @@ class Bubbles {
   std::vector<double> c_;
   std::vector<bool> lifted_;
   bool any_lifted_ = false;
+  std::vector<Facet<B>> facets_;  // what obstacles and fixes demand of the edge looked at
 };
 
-/// Distances of u from the bounds of its vertices along their direction: direction . u - lower, upper - direction . u.
+/// Distances of u from the bounds of one obstacle along their direction: direction . u - lower, upper - direction . u.
 template <int D, int B>
-std::array<double, 2> distances(const TrueProblem<D, B>& problem, Index p) {
-  const auto* bound = problem.gaps.at_vertex(p);
+std::array<double, 2> distances(const TrueProblem<D, B>& problem, const Gaps<D, B>& gaps, Index p) {
+  const auto* bound = gaps.at_vertex(p);
   if (!bound) return {infinity, infinity};
   double v = 0;
   for (int i = 0; i < B; ++i) v += bound->direction[i] * problem.u.at_vertex[Offset{p} * B + i];

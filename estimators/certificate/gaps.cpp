@@ -201,16 +201,19 @@ class Asked {
 }  // namespace
 
 template <int D, int B>
-Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons) {
+Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const ObstacleTerm<B>& term,
+                const Incidence<D>& incidence, Reasons& reasons) {
   Gaps<D, B> out;
-  if (model.obstacles.empty()) return out;
-  Asked<D, B>(nodes, model, model.obstacles.front(), incidence).ask(out, reasons);
+  Asked<D, B>(nodes, model, term, incidence).ask(out, reasons);
   return out;
 }
 
-template Gaps<2, 1> gaps(const Nodes<2>&, const Model<1>&, const Incidence<2>&, Reasons&);
-template Gaps<3, 1> gaps(const Nodes<3>&, const Model<1>&, const Incidence<3>&, Reasons&);
-template Gaps<2, 2> gaps(const Nodes<2>&, const Model<2>&, const Incidence<2>&, Reasons&);
-template Gaps<3, 3> gaps(const Nodes<3>&, const Model<3>&, const Incidence<3>&, Reasons&);
+#define SIGNORINI_INSTANTIATE(D, B) \
+  template Gaps<D, B> gaps(const Nodes<D>&, const Model<B>&, const ObstacleTerm<B>&, const Incidence<D>&, Reasons&);
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

@@ -10,7 +10,7 @@
 
 namespace signorini {
 
-/// What obstacles demand of a function: lower <= direction . v <= upper in the body, or on the faces they act on.
+/// What one obstacle demands of a function: lower <= direction . v <= upper in the body, or on the faces it acts on.
 /// Bounds between vertices are quadratic in each element: their values at vertices, and coefficients of the bubbles b =
 /// 4 phi_a phi_b of edges. A quadratic function is not negative where no Bernstein coefficient is: those of an edge are
 /// (w_a + w_b) / 2 + 2 w_ab, with w_ab that of the bubble.
@@ -34,10 +34,11 @@ struct Gaps {
   const Bound* at_edge(Index e) const { return any() && of_edge[e] >= 0 ? &bounds[of_edge[e]] : nullptr; }
 };
 
-/// Of a model with no more than one obstacle.
+/// Of one obstacle of a model.
 /// @param reasons is told where bounds are not quadratic, bounds of friction not linear, or directions not one and the
 /// same
 template <int D, int B>
-Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const Incidence<D>& incidence, Reasons& reasons);
+Gaps<D, B> gaps(const Nodes<D>& nodes, const Model<B>& model, const ObstacleTerm<B>& term,
+                const Incidence<D>& incidence, Reasons& reasons);
 
 }  // namespace signorini

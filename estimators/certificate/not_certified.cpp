@@ -25,7 +25,6 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
   for (const ObstacleTerm<B>& term : model.obstacles)
     if (term.obstacle->functional() && !term.obstacle->friction())
       reasons.push_back(fmt::format("the energy that an obstacle adds ({}) is not covered", term.origin));
-  if (model.obstacles.size() > 1) reasons.emplace_back("several obstacles of one body are not covered");
   if (nodes.size() != nodes.mesh().vertices()) reasons.emplace_back("meshes that are glued together are not covered");
   return reasons;
 }

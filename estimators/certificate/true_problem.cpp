@@ -110,9 +110,11 @@ class Builder {
     add_fixes();
     add_mirrors();
     fix_edges();
-    out_.gaps = gaps(nodes_, model_, out_.incidence, out_.reasons);
-    for (const Index f : out_.gaps.faces) out_.outer[of_boundary_[f]].contact = true;
-    if (out_.gaps.friction) keep_slip();
+    for (const ObstacleTerm<B>& term : model_.obstacles) {
+      Gaps<D, B>& of_term = out_.gaps.emplace_back(gaps(nodes_, model_, term, out_.incidence, out_.reasons));
+      for (Index& f : of_term.faces) f = of_boundary_[f];
+      if (of_term.friction) keep_slip(of_term);
+    }
   }
 
  private:
@@ -328,12 +330,12 @@ class Builder {
   }
 
   /// Bubbles with friction move along the obstacle's direction alone: what friction takes stays what it is.
-  void keep_slip() {
-    for (const OuterFace<D, B>& outer : out_.outer) {
-      if (!outer.contact) continue;
+  void keep_slip(const Gaps<D, B>& gaps) {
+    for (const Index number : gaps.faces) {
+      const OuterFace<D, B>& outer = out_.outer[number];
       if (!outer.open()) out_.reasons.add("friction on faces where something is prescribed is not covered");
       fix_edges(outer, [&](FixedDirections<B>& fixes, Index edge) {
-        const auto* bound = out_.gaps.at_edge(edge);
+        const auto* bound = gaps.at_edge(edge);
         for (int k = 0; bound && k < B; ++k) {
           std::array<double, B> along{};
           along[k] = 1;
@@ -364,7 +366,7 @@ TrueProblem<D, B>::TrueProblem(const Nodes<D>& nodes, const Model<B>& model, con
                                const std::vector<double>& rest)
     : mesh(nodes.mesh()), linear(mesh), incidence(mesh), u(quadratic_function<D, B>(nodes, incidence, u)) {
   Builder<D, B>(model, *this).build();
-  if (!gaps.friction) return;
+  if (!friction()) return;
   std::vector<double> moved = u;
   for (std::size_t i = 0; i < rest.size(); ++i) moved[i] -= rest[i];
   slip = quadratic_function<D, B>(nodes, incidence, moved);

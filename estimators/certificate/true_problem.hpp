@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,7 +22,6 @@ struct OuterFace {
   Index face;                                   ///< in Incidence::sides
   Point<D> normal{};                            ///< outward, as long as the face is large
   FixedDirections<B> fixed;                     ///< directions along which the solution is prescribed
-  bool contact = false;                         ///< an obstacle acts on it
   std::array<std::array<double, B>, D> load{};  ///< integrals of the given flux times the face's hat functions
 
   bool held() const { return fixed.count == B; }
@@ -53,9 +53,12 @@ struct TrueProblem {
   std::vector<Index> outer_of_face;            ///< per face, -1: inside
   std::vector<FixedDirections<B>> edge_fixes;  ///< directions in which bubbles of edges on faces may not move
   std::vector<Index> edge_fix;                 ///< per edge: which of them, -1: none
-  Gaps<D, B> gaps;
+  std::vector<Gaps<D, B>> gaps;                ///< per obstacle; their faces are numbers in `outer`
   Reasons reasons;
 
+  bool friction() const {
+    return std::ranges::any_of(gaps, [](const auto& of_one) { return of_one.friction; });
+  }
   Index elements() const { return static_cast<Index>(element.size()); }
   /// Integral of the source times the hat function of vertex a of an element.
   std::array<double, B> moment(Index e, int a) const {

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-
-#include "tests/estimators/estimates.hpp"
+#include "tests/estimators/generated.hpp"
 
 namespace signorini::test {
 namespace {
@@ -61,23 +56,6 @@ class Generated {
   std::mt19937 random_;
   std::string order_;
 };
-
-/// Upper over lower bound. The true gap is known up to the upper bound of a finer mesh.
-double checked(const std::string& scene, int refinements, int finer) {
-  const Estimated found = estimated(scene, refinements, "1e-9"), fine = estimated(scene, refinements + finer, "1e-9");
-  const double gap = found.lifted() - fine.lifted();
-  EXPECT_TRUE(found.estimate.guaranteed) << scene << (found.estimate.reasons.empty() ? "" : found.estimate.reasons[0]);
-  EXPECT_LT(found.estimate.imbalance, 1e-12) << scene;
-  EXPECT_LE(found.estimate.lower, gap + fine.estimate.upper) << scene;
-  EXPECT_GE(found.estimate.upper, gap) << scene;
-  return found.estimate.energy > 0 ? found.estimate.upper / found.estimate.lower : 1;
-}
-
-/// The one that a part of them does not exceed.
-double quantile(std::vector<double> ratios, double part) {
-  std::ranges::sort(ratios);
-  return ratios[static_cast<std::size_t>(part * static_cast<double>(ratios.size() - 1))];
-}
 
 TEST(GeneratedProblems, HaveTheirErrorsWithinTheBounds) {
   std::vector<double> scalar, elastic;
