@@ -287,6 +287,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
 template <int D, int B>
 Estimate BodyRun<D, B>::estimate(bool cheap) const {
   EstimateOptions<B> options{{}, algebraic_error_, rest_};
+  options.paired_anew = std::ranges::any_of(solver_.shift(), [](const auto& by) { return dot(by, by) > 0; });
   if (nodes().order() > 1 || (B > 1 && !cheap)) options.solve = rough_solve<B>(registry_);
   const auto estimator = registry_.create<Estimator<D, B>>("estimator", "certificate");
   return estimator->estimate(nodes(), model_, results_.u, options);

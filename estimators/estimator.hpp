@@ -20,6 +20,7 @@ struct EstimateOptions {
   LinearSolve<B> solve;        ///< for a sharper bound of elastic bodies; none: they do without
   double algebraic_error = 0;  ///< of the solution, relative, in the energy norm: for parts.algebra alone
   std::vector<double> rest{};  ///< where friction holds back nothing, as u; empty: at zero
+  bool paired_anew = false;    ///< faces of bodies find each other where load steps have moved them
 };
 
 /// How far a discrete solution is from the solution of its model. D is the dimension of the mesh, B the components of

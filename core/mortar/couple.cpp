@@ -10,6 +10,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/mesh/quadrature.hpp"
+#include "core/mortar/boxes.hpp"
 #include "core/mortar/face_integrals.hpp"
 #include "core/mortar/node_seats.hpp"
 
@@ -47,28 +48,6 @@ void check(const CoupleOptions& options, std::string_view place) {
   require(options.least_cover >= 0 && options.least_cover < 1, "expected a least cover from 0 to less than 1; it",
           options.least_cover);
 }
-
-/// The boxes around faces.
-template <int D>
-struct Boxes {
-  std::vector<Point<D>> middle, half;
-
-  explicit Boxes(const mortar::Side<D>& side) {
-    middle.reserve(side.corner.size());
-    half.reserve(side.corner.size());
-    for (const auto& corner : side.corner) {
-      Point<D> low = corner[0], high = corner[0], m, h;
-      for (const Point<D>& x : corner)
-        for (int k = 0; k < D; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
-      for (int k = 0; k < D; ++k) {
-        m[k] = 0.5 * low[k] + 0.5 * high[k];
-        h[k] = std::max(high[k] - m[k], m[k] - low[k]);
-      }
-      middle.push_back(m);
-      half.push_back(h);
-    }
-  }
-};
 
 /// Turns what slave faces see into what slave nodes do.
 template <int D, int P>
@@ -354,7 +333,7 @@ class Gathering {
 template <int D, int P>
 std::vector<mortar::FaceIntegrals<D, P>> integrate(const mortar::Side<D>& slave, const mortar::Creases<D>& creases,
                                                    const CoupleOptions& options, bool one_numbering, Crew* crew) {
-  const Boxes<D> boxes(creases.side());
+  const mortar::Boxes<D> boxes(creases.side());
   const mortar::Planes<D> own(mortar::Creases<D>(slave, P)), planes(creases);
   std::vector<Index> all(creases.side().faces.size());
   std::iota(all.begin(), all.end(), Index{0});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimators/certificate/small_solve.hpp"
+#include "estimators/certificate/vertex_moves.hpp"
 
 namespace signorini {
 
@@ -12,8 +13,12 @@ Bubbles<D, B>::Bubbles(const TrueProblem<D, B>& problem)
     : problem_(problem),
       any_(!problem.u.of_edge.empty()),
       c_(problem.u.of_edge),
+      at_vertex_(problem.u.at_vertex),
       lifted_(static_cast<std::size_t>(problem.incidence.edges)) {
   c_.resize(lifted_.size() * B);
+  if (problem.jumps.none()) return;
+  left_ = problem.jumps.left(at_vertex_, c_);
+  find_ways();
 }
 
 template <int D, int B>
@@ -55,6 +60,14 @@ void Bubbles<D, B>::gather_facets(Index edge) {
     const double lower = bound->lower - (from[0] + to[0]) / 4, upper = bound->upper + (from[1] + to[1]) / 4;
     add(bound->direction, std::isnan(lower) ? -infinity : lower, std::isnan(upper) ? infinity : upper, gaps.rounding);
   }
+  const auto [first, last] = problem_.jumps.parts(vertices() + edge);
+  for (auto part = first; part != last; ++part) {  // rows with one normal follow each other
+    const std::array<double, B>& n = problem_.jumps.normal(part->row);
+    if (part != first && problem_.jumps.normal((part - 1)->row) == n) continue;
+    const auto [back, forth] = range(vertices() + edge, n);
+    const double there = dot(n, at(edge));
+    add(n, there + back, there + forth, 0);
+  }
   const FixedDirections<B>* held = fixed(edge);
   if (facets_.empty() || !held) return;
   for (int k = 0; k < held->count; ++k) {
@@ -88,6 +101,7 @@ bool Bubbles<D, B>::lift() {
   bool possible = true;
   for (Index e = 0; e < problem_.incidence.edges && !problem_.gaps.empty(); ++e) {
     gather_facets(e);
+    if (facets_.empty()) continue;
     std::array<double, B> c = at(e);
     if (!nearest(identity, c)) {
       possible = false;
@@ -99,7 +113,9 @@ bool Bubbles<D, B>::lift() {
     std::ranges::copy(c, c_.begin() + Offset{e} * B);
     lifted_[e] = any_lifted_ = any_ = true;
   }
-  return possible;
+  if (problem_.jumps.none()) return possible;
+  left_ = problem_.jumps.left(at_vertex_, c_);
+  return lift_jumps() && possible;
 }
 
 /// H_x with the gradient sum over x of phi_x H_x: b_xy = 4 phi_x phi_y adds 4 c (x) grad phi_y to H_x.
@@ -108,7 +124,7 @@ std::array<Gradient<D, B>, D + 1> Bubbles<D, B>::gradients(Index e) const {
   constexpr auto local = simplex_edges<D>();
   const auto& g = problem_.element[e].gradient;
   std::array<Gradient<D, B>, D + 1> out;
-  out.fill(gradient<D, B>(g, problem_.mesh.elements[e], problem_.u.at_vertex));
+  out.fill(gradient<D, B>(g, problem_.mesh.elements[e], at_vertex_));
   if (!any_) return out;
   const Index* edge = problem_.incidence.edge.data() + Offset{e} * static_cast<Offset>(local.size());
   for (std::size_t k = 0; k < local.size(); ++k) {
@@ -176,7 +192,7 @@ std::array<double, B> Bubbles<D, B>::minimiser(Index edge, const Local& local) {
 
 template <int D, int B>
 double Bubbles<D, B>::sweep(bool lifted_only) {
-  double won = 0;
+  double won = sweep_jumps();
   any_ = true;
   for (Index e = 0; e < problem_.incidence.edges; ++e) {
     if (lifted_only && !lifted_[e]) continue;
@@ -189,6 +205,7 @@ double Bubbles<D, B>::sweep(bool lifted_only) {
       won += step[i] * slope;
       c_[Offset{e} * B + i] += step[i];
     }
+    change_left(vertices() + e, step);
   }
   return won;
 }
@@ -204,12 +221,22 @@ double Bubbles<D, B>::energy() const {
     for (int i = 0; i < B; ++i) c[i] = c_[Offset{e} * B + i] - of_u.c_[Offset{e} * B + i];
     if (dot(c, c) > 0) sum -= (dot(c, of_u.local(e).residual) + dot(c, local(e).residual)) / 2;
   }
+  for (const Movable& here : movable_) {
+    std::array<double, B> way;
+    for (int i = 0; i < B; ++i) {
+      const Offset k = Offset{here.vertex} * B + i;
+      way[i] = at_vertex_[k] - of_u.at_vertex_[k];
+    }
+    sum -= (dot(way, of_u.residual_at(here)) + dot(way, residual_at(here))) / 2;
+  }
   return sum;
 }
 
-template class Bubbles<2, 1>;
-template class Bubbles<3, 1>;
-template class Bubbles<2, 2>;
-template class Bubbles<3, 3>;
+#define SIGNORINI_INSTANTIATE(D, B) template class Bubbles<D, B>;
+SIGNORINI_INSTANTIATE(2, 1)
+SIGNORINI_INSTANTIATE(3, 1)
+SIGNORINI_INSTANTIATE(2, 2)
+SIGNORINI_INSTANTIATE(3, 3)
+#undef SIGNORINI_INSTANTIATE
 
 }  // namespace signorini

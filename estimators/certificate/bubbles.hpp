@@ -9,7 +9,8 @@ namespace signorini {
 
 /// The bubbles b = 4 phi_a phi_b of edges, B coefficients for each, of a function with the values of the finite element
 /// function u at vertices: those of u to begin with, changed so that it keeps to what is prescribed and, between nodes,
-/// to the right side of obstacles.
+/// to the right side of obstacles. Where bodies may touch each other values at vertices are changed, too, along the
+/// normal.
 template <int D, int B>
 class Bubbles {
  public:
@@ -27,6 +28,8 @@ class Bubbles {
 
   const std::vector<double>& coefficients() const { return c_; }
   bool lifted() const { return any_lifted_; }
+  /// What is left of the distances between bodies, per row of TrueProblem::jumps.
+  const std::vector<double>& left() const { return left_; }
 
   /// The coefficients of the function's gradient: sum over vertices x of phi_x out[x].
   std::array<Gradient<D, B>, D + 1> gradients(Index e) const;
@@ -43,10 +46,29 @@ class Bubbles {
   bool nearest(const std::array<double, B * B>& M, std::array<double, B>& c) const;
   const FixedDirections<B>* fixed(Index edge) const;
   std::array<Index, 2> ends(Index edge) const;
+  Index vertices() const { return problem_.mesh.vertices(); }
+
+  /// A vertex at an interface of bodies, and how it may move.
+  struct Movable {
+    Index vertex;
+    std::array<double, B> way;
+    double stiffness;            // along that
+    std::array<double, B> load;  // on its hat function, from outside
+  };
+  void find_ways();
+  bool lift_jumps();
+  double sweep_jumps();
+  double lack_at(Index vertex) const;
+  void move(const Movable& here, double by);
+  void change_left(Index dof, const std::array<double, B>& step);
+  std::array<double, 2> range(Index dof, const std::array<double, B>& way) const;
+  std::array<double, B> residual_at(const Movable& here) const;
 
   const TrueProblem<D, B>& problem_;
   bool any_;
-  std::vector<double> c_;
+  std::vector<double> c_, at_vertex_;
+  std::vector<double> left_;  // see left()
+  std::vector<Movable> movable_;
   std::vector<bool> lifted_;
   bool any_lifted_ = false;
   std::vector<Facet<B>> facets_;  // what obstacles and fixes demand of the edge looked at

@@ -121,7 +121,8 @@ class Certificate {
   void add_up(std::vector<double> misfit, const Contact<D, B>& contact) {
     double of_misfit = 0, with_oscillation = 0;
     for (std::size_t e = 0; e < misfit.size(); ++e) {
-      const double oscillation = problem_.oscillation.empty() ? 0 : problem_.oscillation[e];
+      double oscillation = problem_.oscillation.empty() ? 0 : problem_.oscillation[e];
+      if (!contact.oscillation.empty()) oscillation += contact.oscillation[e];
       const double d = std::sqrt(2 * std::max(0.0, misfit[e])) + oscillation;
       of_misfit += misfit[e];
       with_oscillation += d * d / 2;
@@ -153,6 +154,7 @@ template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                      const EstimateOptions<B>& options) {
   std::vector<std::string> reasons = not_certified<D, B>(nodes, model);
+  if (options.paired_anew) reasons.emplace_back("bodies that load steps have moved past each other are not covered");
   if (!reasons.empty()) return no_numbers(std::move(reasons));
   return Certificate<D, B>(nodes, model, u, options).compute();
 }

@@ -1,6 +1,7 @@
 #include "estimators/certificate/contact_forces.hpp"
 
 #include "estimators/certificate/friction_tractions.hpp"
+#include "estimators/certificate/pair_pressure.hpp"
 
 namespace signorini {
 namespace {
@@ -112,7 +113,7 @@ void press_on_faces(const TrueProblem<D, B>& problem, const Gaps<D, B>& gaps, co
     for (int k = 0; k < D; ++k)
       for (int m = 0; m < D; ++m)
         for (int i = 0; i < B; ++i) out.forces.on_face[n][k][i] += measure * (1 + (k == m)) / (D * (D + 1)) * t[m][i];
-    const double work = friction.work(outer, v, edges_of<D, B>(problem, outer, v), t);
+    const double work = friction.work(outer, v, edges_of_face(problem.mesh, problem.incidence, outer.face), t);
     out.work[sides.element[0]] += work;
     out.friction += work;
   }
@@ -124,7 +125,7 @@ template <int D, int B>
 Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const Bubbles<D, B>& bubbles) {
   Contact<D, B> out;
   out.work.assign(problem.element.size(), 0);
-  if (problem.gaps.empty()) return out;
+  if (!problem.in_contact()) return out;
   const AtVertices<D, B> at(problem);
   const auto forces = forces_at_vertices(problem, at);
   for (std::size_t k = 0; k < problem.gaps.size(); ++k) {
@@ -136,6 +137,7 @@ Contact<D, B> contact_of(const TrueProblem<D, B>& problem, const Bubbles<D, B>& 
     else
       press_on_faces(problem, gaps, at, forces[k], distance, out);
   }
+  if constexpr (B == D) press_between(problem, at, bubbles, out);
   return out;
 }
 

@@ -15,6 +15,9 @@ struct Contact {
   /// traction t and the slip v_t; what contact adds to the bound.
   std::vector<double> work;
   double friction = 0;  ///< its part of `work`
+  /// Per element: the energy norm of a stress that the part of a pressure between bodies needs which is not linear on a
+  /// face; empty: none.
+  std::vector<double> oscillation;
 };
 
 /// @param bubbles of v, as lift() and sweep() leave them

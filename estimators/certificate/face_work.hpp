@@ -48,29 +48,11 @@ double integral_over_face(const std::array<double, D>& p, const std::array<doubl
   return sum;
 }
 
-/// In the order of simplex_edges of its vertices.
-template <int D, int B>
-std::array<Index, D*(D - 1) / 2> edges_of(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer,
-                                          const std::array<Index, D>& v) {
-  constexpr auto of_face = simplex_edges<D - 1>();
-  constexpr auto of_element = simplex_edges<D>();
-  const Index e = problem.incidence.sides[outer.face].element[0];
-  const Simplex<D>& corner = problem.mesh.elements[e];
-  std::array<Index, D*(D - 1) / 2> out{};
-  for (std::size_t k = 0; k < of_face.size(); ++k)
-    for (std::size_t m = 0; m < of_element.size(); ++m) {
-      const std::array ends{corner[of_element[m][0]], corner[of_element[m][1]]};
-      if (sorted(ends) == sorted(std::array{v[of_face[k][0]], v[of_face[k][1]]}))
-        out[k] = problem.incidence.edge[static_cast<std::size_t>(e) * of_element.size() + m];
-    }
-  return out;
-}
-
 /// What a linear pressure does on the way to the obstacle.
 template <int D, int B>
 double work_on_face(const TrueProblem<D, B>& problem, const OuterFace<D, B>& outer, const std::array<Index, D>& v,
                     const std::array<double, D>& p, const Bounded<D, B>& distance) {
-  const auto edges = edges_of<D, B>(problem, outer, v);
+  const auto edges = edges_of_face(problem.mesh, problem.incidence, outer.face);
   double work = 0;
   for (const bool upper : {false, true}) {
     std::array<double, D> pushes, vertex;

@@ -49,6 +49,23 @@ Incidence<D>::Incidence(const Mesh<D>& mesh) {
 }
 
 template <int D>
+std::array<Index, D*(D - 1) / 2> edges_of_face(const Mesh<D>& mesh, const Incidence<D>& incidence, Index face) {
+  constexpr auto of_face = simplex_edges<D - 1>();
+  constexpr auto of_element = simplex_edges<D>();
+  const auto v = face_vertices<D>(mesh, incidence.sides[face]);
+  const Index e = incidence.sides[face].element[0];
+  const Simplex<D>& corner = mesh.elements[e];
+  std::array<Index, D*(D - 1) / 2> out{};
+  for (std::size_t k = 0; k < of_face.size(); ++k)
+    for (std::size_t m = 0; m < of_element.size(); ++m) {
+      const std::array ends{corner[of_element[m][0]], corner[of_element[m][1]]};
+      if (sorted(ends) == sorted(std::array{v[of_face[k][0]], v[of_face[k][1]]}))
+        out[k] = incidence.edge[static_cast<std::size_t>(e) * of_element.size() + m];
+    }
+  return out;
+}
+
+template <int D>
 std::vector<Index> boundary_faces(const Mesh<D>& mesh, const Incidence<D>& incidence) {
   std::vector<Index> out;
   out.reserve(mesh.boundary.size());
@@ -63,6 +80,8 @@ std::vector<Index> boundary_faces(const Mesh<D>& mesh, const Incidence<D>& incid
 
 template struct Incidence<2>;
 template struct Incidence<3>;
+template std::array<Index, 1> edges_of_face(const Mesh<2>&, const Incidence<2>&, Index);
+template std::array<Index, 3> edges_of_face(const Mesh<3>&, const Incidence<3>&, Index);
 template std::vector<Index> boundary_faces(const Mesh<2>&, const Incidence<2>&);
 template std::vector<Index> boundary_faces(const Mesh<3>&, const Incidence<3>&);
 

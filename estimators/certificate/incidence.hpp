@@ -59,6 +59,10 @@ std::array<Index, D> face_vertices(const Mesh<D>& mesh, const typename Incidence
   return sorted(out);
 }
 
+/// The edges of a face, in the order of simplex_edges of its vertices.
+template <int D>
+std::array<Index, D*(D - 1) / 2> edges_of_face(const Mesh<D>& mesh, const Incidence<D>& incidence, Index face);
+
 /// The face of the mesh that each of its boundary faces is.
 template <int D>
 std::vector<Index> boundary_faces(const Mesh<D>& mesh, const Incidence<D>& incidence);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/fem/model/material.hpp"
+#include "core/fem/pairs/paired_sides.hpp"
 #include "estimators/certificate/certificate.hpp"
 
 namespace signorini {
@@ -8,7 +9,13 @@ namespace signorini {
 template <int D, int B>
 std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& model) {
   std::vector<std::string> reasons;
-  if (is_paired(model)) reasons.emplace_back("bodies that may touch each other are not covered");
+  for (const ObstacleTerm<B>& term : model.obstacles) {
+    if (!term.other) continue;
+    if (term.tied) reasons.emplace_back("bodies that are tied to each other are not covered");
+    if (!term.tied && term.obstacle->friction()) reasons.emplace_back("friction between bodies is not covered");
+    if constexpr (B == D)
+      if (of_one_body(term)) reasons.emplace_back("a body that touches itself is not covered");
+  }
   if (B > 1 && !ThermalStrain<B>(model).none()) reasons.emplace_back("thermal strains are not covered");
   if (!model.orthotropic.empty()) reasons.emplace_back("orthotropic material is not covered");
   if (std::ranges::any_of(model.loads, [](const Load<B>& load) { return load.where_open.has_value(); }))
@@ -23,7 +30,7 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
     reasons.emplace_back("fixes in cylindrical frames are not covered");
   if (!model.springs.empty()) reasons.emplace_back("springs are not covered");
   for (const ObstacleTerm<B>& term : model.obstacles)
-    if (term.obstacle->functional() && !term.obstacle->friction())
+    if (!term.tied && term.obstacle->functional() && !term.obstacle->friction())
       reasons.push_back(fmt::format("the energy that an obstacle adds ({}) is not covered", term.origin));
   if (nodes.size() != nodes.mesh().vertices()) reasons.emplace_back("meshes that are glued together are not covered");
   return reasons;

@@ -111,10 +111,18 @@ class Builder {
     add_mirrors();
     fix_edges();
     for (const ObstacleTerm<B>& term : model_.obstacles) {
+      if (term.other) {
+        add_interface(term);
+        continue;
+      }
       Gaps<D, B>& of_term = out_.gaps.emplace_back(gaps(nodes_, model_, term, out_.incidence, out_.reasons));
       for (Index& f : of_term.faces) f = of_boundary_[f];
       if (of_term.friction) keep_slip(of_term);
     }
+    if (out_.interfaces.empty()) return;
+    std::vector<Index> sides;
+    for (const OuterFace<D, B>& outer : out_.outer) sides.push_back(outer.face);
+    out_.jumps.build(mesh_, out_.incidence, sides, out_.interfaces);
   }
 
  private:
@@ -326,6 +334,17 @@ class Builder {
         out_.edge_fixes.emplace_back();
       }
       add(out_.edge_fixes[number], edge);
+    }
+  }
+
+  void add_interface(const ObstacleTerm<B>& term) {
+    if constexpr (B == D) {
+      ContactInterface<D>& added =
+          out_.interfaces.emplace_back(contact_interface<D>(mesh_, model_, term, out_.reasons));
+      for (FacingPiece<D>& piece : added.pieces) {
+        piece.slave = of_boundary_[piece.slave];
+        piece.master = of_boundary_[piece.master];
+      }
     }
   }
 

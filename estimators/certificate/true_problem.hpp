@@ -11,6 +11,7 @@
 #include "core/fem/model/model.hpp"
 #include "estimators/certificate/gaps.hpp"
 #include "estimators/certificate/incidence.hpp"
+#include "estimators/certificate/jump_conditions.hpp"
 #include "estimators/certificate/quadratic_function.hpp"
 #include "estimators/certificate/reasons.hpp"
 
@@ -50,16 +51,19 @@ struct TrueProblem {
   std::vector<std::array<double, B>> edge_load;  ///< per edge: integral of all loads times its bubble
   std::vector<double> oscillation;  ///< per element: its part of the oscillation in the energy norm; empty: none
   std::vector<OuterFace<D, B>> outer;
-  std::vector<Index> outer_of_face;            ///< per face, -1: inside
-  std::vector<FixedDirections<B>> edge_fixes;  ///< directions in which bubbles of edges on faces may not move
-  std::vector<Index> edge_fix;                 ///< per edge: which of them, -1: none
-  std::vector<Gaps<D, B>> gaps;                ///< per obstacle; their faces are numbers in `outer`
+  std::vector<Index> outer_of_face;             ///< per face, -1: inside
+  std::vector<FixedDirections<B>> edge_fixes;   ///< directions in which bubbles of edges on faces may not move
+  std::vector<Index> edge_fix;                  ///< per edge: which of them, -1: none
+  std::vector<Gaps<D, B>> gaps;                 ///< per rigid obstacle; their faces are numbers in `outer`
+  std::vector<ContactInterface<D>> interfaces;  ///< of bodies that may touch each other; likewise
+  JumpConditions<D, B> jumps;                   ///< at the interfaces
   Reasons reasons;
 
   bool friction() const {
     return std::ranges::any_of(gaps, [](const auto& of_one) { return of_one.friction; });
   }
   Index elements() const { return static_cast<Index>(element.size()); }
+  bool in_contact() const { return !gaps.empty() || !interfaces.empty(); }
   /// Integral of the source times the hat function of vertex a of an element.
   std::array<double, B> moment(Index e, int a) const {
     if (!source_moment.empty()) return source_moment[Offset{e} * (D + 1) + a];
