@@ -104,6 +104,10 @@ class Certificate {
 
   void bound_from_above(const Bubbles<D, B>& swept) {
     const Contact<D, B> contact = contact_of(problem_, lifted_);
+    if (contact.computed_constant)
+      problem_.reasons.add(
+          "pressures between bodies whose meshes do not match are bounded by a computed constant, which "
+          "is not proven");
     FaceNumbers values = moments(swept, contact.forces);
     moments_to_values<D, B>(values);
     if constexpr (B == D) balance_whole(problem_, contact.forces, values);

@@ -18,6 +18,7 @@ struct Contact {
   /// Per element: the energy norm of a stress that the part of a pressure between bodies needs which is not linear on a
   /// face; empty: none.
   std::vector<double> oscillation;
+  bool computed_constant = false;  ///< that norm is by a constant of which no proof is known
 };
 
 /// @param bubbles of v, as lift() and sweep() leave them

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/base/dense.hpp"
 #include "core/constraints/own_numbers.hpp"
 #include "core/fem/assembly/springs.hpp"
 #include "core/mesh/refine.hpp"
@@ -149,7 +150,7 @@ void expect_moved() {
   Discretization<D> discretization = discretize<D, D>(mesh, model);
   const DiscreteProblem<D>& problem = discretization.problem;
   const auto solution = [&] {  // without the bounds
-    const Eigen::VectorXd x = dense(problem.A).ldlt().solve(vector(problem.b));
+    const Eigen::VectorXd x = SymmetricFactors(dense(problem.A)).solve(vector(problem.b));
     return std::vector<double>(x.begin(), x.end());
   };
   const DiscreteProblem<D> before = problem;

@@ -33,10 +33,11 @@ class Chance {
 };
 
 /// Upper over lower bound. The true gap is known up to the upper bound of a finer mesh.
-inline double checked(const std::string& scene, int refinements, int finer) {
+inline double checked(const std::string& scene, int refinements, int finer, const std::string& only_reason = "") {
   const Estimated found = estimated(scene, refinements, "1e-9"), fine = estimated(scene, refinements + finer, "1e-9");
   const double gap = found.lifted() - fine.lifted();
-  EXPECT_TRUE(found.estimate.guaranteed) << scene << (found.estimate.reasons.empty() ? "" : found.estimate.reasons[0]);
+  for (const std::string& reason : found.estimate.reasons) EXPECT_EQ(reason, only_reason) << scene;
+  EXPECT_EQ(found.estimate.guaranteed, found.estimate.reasons.empty()) << scene;
   EXPECT_LT(found.estimate.imbalance, 1e-12) << scene;
   EXPECT_LE(found.estimate.lower, gap + fine.estimate.upper) << scene;
   EXPECT_GE(found.estimate.upper, gap) << scene;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/dense.hpp"
 #include "estimators/certificate/trace_constant.hpp"
 
 namespace signorini::test {
@@ -17,11 +18,11 @@ struct Quadrature {
 Quadrature gauss(int points) {
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(points, points);
   for (int k = 1; k < points; ++k) jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(jacobi);
+  const Eigenpairs found = eigenpairs(jacobi);
   Quadrature out;
   for (int k = 0; k < points; ++k) {
-    out.x.push_back((found.eigenvalues()[k] + 1) / 2);
-    out.w.push_back(found.eigenvectors()(0, k) * found.eigenvectors()(0, k));
+    out.x.push_back((found.values[k] + 1) / 2);
+    out.w.push_back(found.vectors(0, k) * found.vectors(0, k));
   }
   return out;
 }
@@ -108,13 +109,13 @@ double largest_quotient(int D, int degree) {
     mixed += weight * area * linear * value.transpose();
   });
   S -= mixed.transpose() * mass.inverse() * mixed;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> rigid(A);
+  const Eigenpairs rigid = eigenpairs(A);
   const Eigen::Index motions = D * (D + 1) / 2, rest = n * D - motions;
-  Eigen::MatrixXd Z = rigid.eigenvectors().rightCols(rest);
-  for (Eigen::Index k = 0; k < rest; ++k) Z.col(k) /= std::sqrt(rigid.eigenvalues()[motions + k]);
+  Eigen::MatrixXd Z = rigid.vectors.rightCols(rest);
+  for (Eigen::Index k = 0; k < rest; ++k) Z.col(k) /= std::sqrt(rigid.values[motions + k]);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n * D, n * D);
   for (int c = 0; c < D; ++c) all.block(c * n, c * n, n, n) = S;
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Z.transpose() * all * Z).eigenvalues()[rest - 1];
+  return eigenpairs(Z.transpose() * all * Z).values[rest - 1];
 }
 
 /// From below it comes near the constant, and changes no more.

@@ -1,4 +1,5 @@
 #include "tests/support/convex.hpp"
+#include "core/base/dense.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -7,8 +8,8 @@ namespace signorini::test {
 
 Eigen::VectorXd convex_minimiser(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
                                  const std::function<void(double, Eigen::VectorXd&)>& prox, double tolerance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> spectrum(A, Eigen::EigenvaluesOnly);
-  const double rho = std::sqrt(spectrum.eigenvalues().maxCoeff() * std::max(spectrum.eigenvalues().minCoeff(), 1e-3));
+  const Eigen::VectorXd spectrum = eigenpairs(A).values;
+  const double rho = std::sqrt(spectrum.maxCoeff() * std::max(spectrum.minCoeff(), 1e-3));
   const Eigen::LLT<Eigen::MatrixXd> factor(A + rho * Eigen::MatrixXd::Identity(A.rows(), A.cols()));
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), y = x, u = x;
   for (int k = 0; k < 200000; ++k) {

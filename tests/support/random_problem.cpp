@@ -1,4 +1,5 @@
 #include "tests/support/random_problem.hpp"
+#include "core/base/dense.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -13,7 +14,7 @@ std::array<double, B * B> random_rotation(Random& random) {
   Eigen::Matrix<double, B, B, B == 1 ? Eigen::ColMajor : Eigen::RowMajor> M;
   for (int i = 0; i < B * B; ++i) M.data()[i] = random.between(-1, 1);
   Eigen::Matrix<double, B, B> full = M;
-  Eigen::Matrix<double, B, B> Q = full.householderQr().householderQ();
+  Eigen::Matrix<double, B, B> Q = orthonormal_columns(full);
   std::array<double, B * B> out;
   for (int i = 0; i < B; ++i)
     for (int j = 0; j < B; ++j) out[i * B + j] = Q(i, j);

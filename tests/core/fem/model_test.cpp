@@ -253,7 +253,9 @@ Eigen::Matrix<double, B, 1> motion(const Placed& before, const Placed& now, cons
 TEST(ObstacleMotion, IsThatOfARigidBodyWhichTurnsTheShortestWay) {
   const Eigen::Vector3d from(0.3, -0.2, 0.7), to(1.1, 0.4, 0.2), x(2, -1, 0.5);
   const Eigen::Vector3d a = Eigen::Vector3d(1, 2, -1).normalized(), b = Eigen::Vector3d(-0.5, 1, 2).normalized();
-  const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(a, b).toRotationMatrix();
+  const Eigen::Vector3d axis = a.cross(b);
+  const Eigen::Matrix3d K{{0, -axis[2], axis[1]}, {axis[2], 0, -axis[0]}, {-axis[1], axis[0], 0}};
+  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() + K + K * K / (1 + a.dot(b));
   EXPECT_LT((motion<3>({from, a}, {to, b}, x) - (to + R * (x - from) - x)).norm(), 1e-14);
   EXPECT_LT((motion<3>({from, a}, {to, a}, x) - (to - from)).norm(), 1e-15);
   EXPECT_LT((motion<3>({from, {0, 0, 0}}, {to, {0, 0, 0}}, x) - (to - from)).norm(), 1e-15);  // a ball has no axis

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/dense.hpp"
 #include "core/fem/assembly/discretize.hpp"
 #include "core/mesh/structured.hpp"
 #include "core/sdk/box_obstacle.hpp"
@@ -78,7 +79,7 @@ inline std::vector<double> to_std(const Eigen::VectorXd& x) { return {x.begin(),
 template <int B>
 std::vector<double> solve_dense(const DiscreteProblem<B>& problem) {
   const Eigen::Map<const Eigen::VectorXd> b(problem.b.data(), static_cast<Index>(problem.b.size()));
-  return to_std(dense(problem.A).ldlt().solve(b));
+  return to_std(SymmetricFactors(dense(problem.A)).solve(b));
 }
 
 /// The solution with bounds, by a primal-dual active set method with dense solves that starts from full contact.

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 
+#include "core/base/dense.hpp"
 #include "core/mesh/quadrature.hpp"
 #include "tests/core/mortar/surfaces.hpp"
 
@@ -54,7 +55,7 @@ class Reference {
     Vector right;
     for (int i = 0; i < D; ++i) m.col(i) << corner[i], 1;
     right << y, 1;
-    return m.partialPivLu().solve(right);
+    return m.inverse() * right;
   }
 
   static bool inside(const std::array<Flat, D>& corner, const Flat& y) {
@@ -116,8 +117,7 @@ class Reference {
     Eigen::Matrix<double, D, D> any = Eigen::Matrix<double, D, D>::Identity();
     any.col(0) = n;
     if (std::abs(n[0]) < 0.5) any.col(1) = Vector::Unit(0);
-    const Eigen::Matrix<double, D, K> across =
-        Eigen::Matrix<double, D, D>(any.householderQr().householderQ()).template rightCols<K>();
+    const Eigen::Matrix<double, D, K> across = orthonormal_columns(any).template rightCols<K>();
     std::array<Flat, D> corner;
     for (int i = 0; i < D; ++i) corner[i] = across.transpose() * (x[i] - x[0]);
 
@@ -144,7 +144,7 @@ class Reference {
     }
     if (!(weight.sum() > 0)) return;
     const Square dual = weight.asDiagonal() * mass.inverse();
-    const auto singular = Eigen::JacobiSVD<Square>(mass).singularValues();
+    const Eigen::VectorXd singular = singular_values(mass);
     const Vector gaps = dual * gap;
     for (int p = 0; p < D; ++p) {
       ReferenceNode<D>& node = nodes[face[p]];

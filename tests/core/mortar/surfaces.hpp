@@ -6,6 +6,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/base/dense.hpp"
 #include "core/mortar/couple.hpp"
 #include "tests/support/random.hpp"
 
@@ -125,7 +126,7 @@ Similarity<D> random_similarity(Random& random, double scale = 1) {
   Similarity<D> out;
   Eigen::Matrix<double, D, D> any;
   for (int i = 0; i < D * D; ++i) any.data()[i] = random.between(-1, 1);
-  out.rotation = any.householderQr().householderQ();
+  out.rotation = orthonormal_columns(any);
   if (out.rotation.determinant() < 0) out.rotation.col(0) *= -1;
   for (double& s : out.shift) s = random.between(-1, 1);
   out.scale = scale;

@@ -1,6 +1,7 @@
 // When a solve ends, what it reports, and that what it reports is true.
 #include <gtest/gtest.h>
 
+#include "core/base/dense.hpp"
 #include "core/base/error.hpp"
 #include "tests/core/solver/cases.hpp"
 #include "tests/support/pdas.hpp"
@@ -17,7 +18,7 @@ double natural_residual(const DiscreteProblem<B>& problem, const Eigen::VectorXd
     Eigen::Matrix<double, B, B> D;
     for (int i = 0; i < B * B; ++i) D(i / B, i % B) = problem.A.diagonal(p)[i];
     const Eigen::Matrix<double, B, 1> force = r.template segment<B>(p * B);
-    Eigen::Matrix<double, B, 1> step = D.ldlt().solve(force);
+    Eigen::Matrix<double, B, 1> step = SymmetricFactors(D).solve(force);
     const Index slot = problem.constraints.slot[p];
     for (int sweep = 0; sweep < 300 && slot >= 0; ++sweep)
       for (int k = 0; k < B; ++k) {
