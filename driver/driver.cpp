@@ -294,12 +294,10 @@ const char* Driver::doubt_of_friction(const LoadStep& by, std::size_t body) cons
   return visit(body, [&](const auto& run) { return run.doubt_of_friction(by.to < scene_.steps.at.back()); });
 }
 
-/// A part differs from the whole where something of the body in question depends on t, or on the step. What rounding
-/// leaves of an answer does not depend on the length of a step.
+/// A part differs from the whole where something of the body in question depends on t, or on the step.
 bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
-  if (report.summary.outcome == Outcome::inaccurate) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
     if ((!report.bodies[body].summary.converged() || doubt_of_friction(by, body)) &&
         (uses_t(solved_, solved_.bodies[body]) || visit(body, [](const auto& run) { return run.depends_on_step(); })))

@@ -124,14 +124,13 @@ class PairPressure {
     if (!(load.square - linear > no_remainder * load.square)) return;
     if (out_.oscillation.empty()) out_.oscillation.assign(problem_.element.size(), 0);
     const Index e = problem_.incidence.sides[outer.face].element[0];
-    if constexpr (D == 2) {
-      out_.oscillation[e] += norm_of_uneven(n, load);
-    } else {
-      const auto corner = corners<D>(problem_.mesh.points, problem_.mesh.elements[e]);
-      const double factor = trace_factor<D>(problem_.element[e], corner, problem_.material[e], face, here_.normal);
-      out_.oscillation[e] += std::sqrt(factor * (load.square - linear));
-      out_.computed_constant = true;
-    }
+    const auto corner = corners<D>(problem_.mesh.points, problem_.mesh.elements[e]);
+    const double factor = trace_factor<D>(problem_.element[e], corner, problem_.material[e], face, here_.normal);
+    const double computed = std::sqrt(factor * (load.square - linear));
+    double proven = infinity;
+    if constexpr (D == 2) proven = norm_of_uneven(n, load);
+    out_.oscillation[e] += std::min(computed, proven);
+    out_.computed_constant |= computed < proven;
   }
 
   double norm_of_uneven(std::size_t n, const Load& load) const requires(D == 2) {

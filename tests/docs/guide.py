@@ -3,7 +3,7 @@
     guide.py SOURCE PROGRAMS PAGE [KIND...]   (the source tree, the folder of the programs, such as tutorial.md)
 
 Blocks of the page: `sh` is run, `text` must be printed by the block before it, `toml` and `gmsh` stand in a file of
-apps/scenes, in one that the page has written, or in one of tests/docs/scenes, which is solved; comments do not count. `cpp` stands in a file of tests/docs/plugin, likewise. Numbers agree to the digits shown. Decimal
+apps/scenes, in one that the page has written, or in one of tests/docs/scenes, which is solved; comments do not count. `cpp`, where it is asked for, stands in a file of tests/docs/plugin. Numbers agree to the digits shown. Decimal
 numbers between the blocks are in a block, perhaps rounded, or in a page of docs/measured or docs/theory that the page
 links to. With KIND only blocks of that kind count, and no figures. Not run: ./dev, and gmsh and VTK's Python where
 these are not installed. Where the environment names a folder GUIDE_BUILD, it is the folder build of the page.
@@ -101,7 +101,7 @@ with tempfile.TemporaryDirectory() as made:
             mesh.write_bytes(kept)  # the figures are those of this one
         elif kind == "text" and output is not None:
             expect_shown(text, output)
-        elif kind in ("toml", "gmsh", "cpp"):
+        elif kind in ("toml", "gmsh") or (kind == "cpp" and kind in kinds):
             expect_in_a_file(text, folder, {"gmsh": "geo"}.get(kind, kind))
 
 if kinds:
