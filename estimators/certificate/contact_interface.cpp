@@ -68,6 +68,7 @@ class InterfaceFinder {
  private:
   std::vector<std::array<Index, D>> corners(const std::vector<Index>& faces) const {
     std::vector<std::array<Index, D>> out;
+    out.reserve(faces.size());
     for (const Index f : faces) out.push_back(mesh_.boundary[f].vertices);
     return out;
   }

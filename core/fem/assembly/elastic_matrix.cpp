@@ -62,9 +62,12 @@ ElasticMatrix<D> OrthotropicLaw<D>::turned(const std::array<double, 36>& own,
   Matrix6 C = T.transpose() * Eigen::Map<const Matrix6>(own.data()) * T;
   if (has_plane_stress(model_)) free_across(C);
   ElasticMatrix<D> out;
-  constexpr auto n = static_cast<int>(strain_components<D>);
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) out[static_cast<std::size_t>(i * n + j)] = (C(i, j) + C(j, i)) / 2;
+  constexpr std::size_t n = strain_components<D>;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      out[i * n + j] = (C(a, b) + C(b, a)) / 2;
+    }
   return out;
 }
 
