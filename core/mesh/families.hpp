@@ -7,7 +7,7 @@ namespace signorini {
 /// Puts midpoints of edges into the middle between their ends again where a family, as a quadratic element, would be
 /// turned inside out or nearly so: where its map's determinant at a node is less than a twentieth of the flat
 /// element's.
-/// @return how many
+/// @return which ones
 template <int D>
 std::vector<Index> straighten_families(Mesh<D>& mesh);
 

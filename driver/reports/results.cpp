@@ -250,7 +250,7 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
 
 namespace {
 
-// Poisson's ratio: there a ball on a plane has its largest pressure 7 % off with linear elements (docs/rubber.md).
+// Poisson's ratio: there a ball on a plane has its largest pressure 7 % off with linear elements, as the warning says.
 constexpr double too_incompressible = 0.45;
 
 /// Of bodies without pressures of their own, whatever the scene says.
