@@ -25,6 +25,9 @@ namespace {
 /// Of the faces' longest edge: what is so much farther off than another body is behind that.
 constexpr double behind = 0.01;
 
+/// Per vertex how far the other body is; infinite where it is not in front.
+using Distances = std::vector<double>;
+
 /// The boundary of one body.
 template <int D>
 struct Side {
@@ -33,6 +36,7 @@ struct Side {
   std::vector<Index> faces;  // all
   Point<D> low, high;        // of the box around it
   double longest = 0;        // edge of its faces
+  Distances itself;          // how far its own surface is, in front of it
 
   Side(const Scene& scene, std::size_t number)
       : body(&scene.bodies[number]), mesh(coarsest_mesh<D>(scene, number, D, nullptr, Progress())) {
@@ -44,9 +48,6 @@ struct Side {
     for (const Face<D>& face : mesh.boundary) longest = std::max(longest, longest_edge(mesh, face));
   }
 };
-
-/// Per vertex how far the other body is; infinite where it is not in front.
-using Distances = std::vector<double>;
 
 /// Two sides that may touch, by their numbers, and how each sees the other one.
 struct Found {
@@ -99,35 +100,45 @@ class Finder {
     // A distance along a normal is at most twice that of the boxes where faces are 60 degrees from opposite.
     if (apart > reach + rounding_of_differences * extent) return;
     Found out{i, j, reach + rounding_of_differences * extent, infinity, {}};
-    out.seen = {distances(a, b, extent, reach, out.least), distances(b, a, extent, reach, out.least)};
+    const double depth = contact_.resolve ? extent : std::max(reach, contact_.adjust);
+    out.seen = {distances(a, b, extent, depth), distances(b, a, extent, depth)};
+    for (const Distances& seen : out.seen) out.least = std::min(out.least, std::ranges::min(seen));
     if (std::isfinite(out.least)) nearest_ = std::min(nearest_, std::max(out.least, 0.0));
     if (out.least <= out.reach) found_.push_back(std::move(out));
   }
 
-  /// @param least gets the least of them, if it was more
-  Distances distances(const Side<D>& from, const Side<D>& to, double extent, double reach, double& least) const {
+  Distances distances(const Side<D>& from, const Side<D>& to, double reach, double depth) const {
     const auto corners = [](const Side<D>& side) {
       std::vector<std::array<Index, D>> out;
       for (const Face<D>& face : side.mesh.boundary) out.push_back(face.vertices);
       return out;
     };
     const auto own = corners(from), other = corners(to);
+    const std::vector<Point<D>> points = to.mesh.points;  // another body's, even where it is the same: faces pair then
     const std::string& place = contact_.source.table;
     const MortarCoupling<D> coupling = couple<D>({from.mesh.points, own, place, 1, &from.mesh, from.faces},
-                                                 {to.mesh.points, other, place, 1, &to.mesh, to.faces},
+                                                 {points, other, place, 1, &to.mesh, to.faces},
                                                  {.pairing = contact_.pairing,
-                                                  .reach = extent,
-                                                  .depth = contact_.resolve ? extent : std::max(reach, contact_.adjust),
+                                                  .reach = reach,
+                                                  .depth = depth,
                                                   .axisymmetric = from.body->plane == Plane::axisymmetric});
     Distances out(from.mesh.points.size(), infinity);
-    for (Index k = 0; k < coupling.nodes(); ++k) {
-      out[coupling.node[k]] = coupling.nearest[k];
-      least = std::min(least, coupling.nearest[k]);
-    }
+    for (Index k = 0; k < coupling.nodes(); ++k) out[coupling.node[k]] = coupling.nearest[k];
     return out;
   }
 
-  Scene::Obstacle obstacle(const Found& pair) const {
+  /// How far the body's own surface is in front of it, as across a bore: what is behind that is out of sight.
+  const Distances& itself(std::size_t number) {
+    Side<D>& side = sides_[number];
+    if (side.itself.empty()) {
+      side.itself = distances(side, side, length<D>(difference<D>(side.high, side.low)), 0);
+      for (double& distance : side.itself)
+        if (distance <= 0) distance = infinity;  // behind it: the other side of a wall
+    }
+    return side.itself;
+  }
+
+  Scene::Obstacle obstacle(const Found& pair) {
     const Scene::Body &body = *sides_[pair.first].body, &other = *sides_[pair.second].body;
     Scene::Obstacle out;
     const RawValue* friction = contact_.friction ? &*contact_.friction : nullptr;
@@ -155,11 +166,11 @@ class Finder {
 
   using Corners = std::map<Point<D>, std::vector<Point<D>>>;  // normals of faces by vertex
 
-  /// Of a side the faces that see the other one, and no third one in front of it.
-  std::shared_ptr<const Corners> picked(const Found& pair, int which) const {
+  /// Of a side the faces that see the other one, and nothing in front of it: no third one, nothing of their own body.
+  std::shared_ptr<const Corners> picked(const Found& pair, int which) {
     const std::size_t number = which == 0 ? pair.first : pair.second;
     const Side<D>& side = sides_[number];
-    Distances nearest(side.mesh.points.size(), infinity);
+    Distances nearest = itself(number);
     for (const Found& any : found_)
       for (const int k : {0, 1})
         if ((k == 0 ? any.first : any.second) == number)
@@ -178,7 +189,7 @@ class Finder {
     return out;
   }
 
-  Selection faces(const Found& pair, int which, const std::string& origin) const {
+  Selection faces(const Found& pair, int which, const std::string& origin) {
     const Scene::Body& body = *sides_[which == 0 ? pair.first : pair.second].body;
     const Scene::Body& other = *sides_[which == 0 ? pair.second : pair.first].body;
     return {{},

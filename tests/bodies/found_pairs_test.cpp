@@ -99,6 +99,21 @@ TEST(FoundPairs, DoNotSeeThroughBodies) {
   for (const ContactReport& contact : report.last().contact) EXPECT_NEAR(contact.force[0], -100 * 0.03 / 3, 1e-6);
 }
 
+// Nor what is behind another part of the body itself: the lower arm of a clamp does not face what lies on the upper one.
+TEST(FoundPairs, DoNotSeeThroughTheirOwnBody) {
+  Scene scene = scene_of(
+      "[[body]]\nname = \"clamp\"\nshape = \"polygon\"\npoints = [[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [4, 3], "
+      "[4, 4], [0, 4]]\nsize = 0.5\n" +
+      material(100) + block("block", "[2, 4]", "[4, 5]", "[4, 2]", material(100)) + fix("clamp", "boundary", "[0, 0]") +
+      contact());
+  ASSERT_EQ(add_found_pairs(scene).size(), 1u);
+  const auto picks = [&](double x, double y) {
+    return (*scene.obstacles[0].on->where)({.x = {x, y, 0}, .n = {0, 1, 0}}) != 0;
+  };
+  EXPECT_TRUE(picks(4, 4));
+  EXPECT_FALSE(picks(4, 1));
+}
+
 // Gaps and overlaps are closed without strain, or count.
 TEST(FoundPairs, CloseGapsUpToALength) {
   for (const double gap : {0.01, -0.01})
