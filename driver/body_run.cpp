@@ -244,7 +244,9 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   place_before(scene_, D, accepted_t_, body_, model_);
   t_ = t;
   check_symmetry(hierarchy_, model_);
+  if (step.halvings == 0) solver_.set_spent(false);
   Solution<B> solution = solve(model_, step);
+  if (!solution.summary.converged()) solver_.set_spent(true);
   const Stopwatch watch;
   // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
   const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();

@@ -46,6 +46,7 @@ class Automatic {
     situation_.friction = NewtonIteration<B>::suits(problem);
     situation_.following = problem.following != nullptr;
     situation_.newton = options.coarse == "newton" && !problem.cheap_to_factorise && !situation_.functional;
+    situation_.spent = problem.spent;
     from_zero_ = std::ranges::all_of(x, [](double v) { return v == 0; });
     if (situation_.functional) start_ = now();
   }

@@ -28,7 +28,9 @@ constexpr Offset most_for_friction = 100'000, most_for_friction_in_space = 20'00
 
 // Where the matrix could hardly be coarsened there is no multigrid for linear systems either.
 bool coarsens(const Situation& s) { return !s.functional && s.block == 1 && 2 * s.coarsest <= s.unknowns; }
-bool newton_suits(const Situation& s) { return s.friction && may_factorise_for_newton(s.block, s.unknowns); }
+bool newton_suits(const Situation& s) {
+  return s.friction && !s.spent && may_factorise_for_newton(s.block, s.unknowns);
+}
 bool factorisable(const Situation& s) { return !s.functional && s.unknowns <= most_for_direct; }
 
 // The coarse solver is then a Newton method on about the finest level. Where sweeps do not do, active sets need fewer
@@ -104,7 +106,8 @@ const std::vector<Attempt>& stages() {
        .method = "newton",
        .solver = "",
        .suits = [](const Situation& s) { return s.begun && newton_suits(s); },
-       .begins = fmt::format("with friction or nearly incompressible material, for at most {} unknowns, in space {}",
+       .begins = fmt::format("with friction or nearly incompressible material, for at most {} unknowns, in space {}; "
+                             "not in parts of a load step that it did not solve as a whole",
                              number(most_for_friction), number(most_for_friction_in_space)),
        .ends =
            fmt::format("after {} steps each from the first start, from zero, and from where cycles ended, or if its "

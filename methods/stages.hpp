@@ -34,6 +34,7 @@ struct Situation {
   bool friction = false;   ///< it is friction or such a load alone, with one direction of contact at each vertex
   bool following = false;  ///< a load follows the solution, as the pressure of rubber does
   bool slow = false;       ///< cycles came to the end of their patience
+  bool spent = false;      ///< see DiscreteProblem
 };
 
 /// What makes the steps of a stage.

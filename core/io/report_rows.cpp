@@ -236,6 +236,9 @@ struct Table<ContactReport> {
                "how far a node of the deformed body is inside the obstacle; null where the obstacle cannot tell"),
         member("largest_penetration_between_nodes", &C::penetration_between_nodes, "the same of points between nodes"),
         member("largest_opening", &C::largest_opening, "how far a node that counts as in contact is off the obstacle"),
+        member("depth", &C::depth,
+               "by how much more some nodes in contact have come along the obstacle's normal than others: what contact "
+               "flattens"),
         {{"pair", Kind::object, "of two bodies which one is the slave, and why; else null", true, false,
           &object_spec<PairReport>},
          [](const C& c) { return c.pair ? as_object(*c.pair) : Json(nullptr); }}};

@@ -42,7 +42,8 @@ inline constexpr WarningKind warning_kinds[] = {
      "shape; "
      "nothing, if the obstacle is meant to press from the start"},
     {WarningKind::About::scene, "not-facing",
-     "{}: no face of one body is in front of the other one's and turned towards it: these bodies never touch; is "
+     "{}: no face of one body is in front of the other one's and turned towards it: these bodies do not touch, unless "
+     "steps move them; is "
      "another side meant?",
      "the faces that are picked on the two bodies do not face each other", "check `on` and `other_on`"},
     {WarningKind::About::scene, "tied-apart",
@@ -101,12 +102,13 @@ inline constexpr WarningKind warning_kinds[] = {
      "smaller faces, or a smaller `crease` where an edge is meant"},
 
     {WarningKind::About::result, "too-curved",
-     "{}: the deformed body is up to {:.3g} {}, where displacements are up to {:.3g}{}: contact is linearised about "
+     "{}: the deformed body is up to {:.3g} {}, where {}displacements are up to {:.3g}{}: contact is linearised about "
      "the undeformed body, and {}",
      "the deformed body reaches into the obstacle, or does not reach it at nodes that count as in contact. "
      "Displacements are too large for this curvature, or move the body over an edge of the obstacle, or elements are "
      "too large for this contact",
-     "smaller displacements; a finer mesh; between bodies, more `[steps]`"},
+     "a body that begins near where it comes to touch; smaller displacements; a finer mesh; between bodies, more "
+     "`[steps]`"},
     {WarningKind::About::result, "between-nodes",
      "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: the condition of contact "
      "holds at nodes only; expected smaller elements there",

@@ -170,6 +170,8 @@ struct DiscreteProblem {
   bool loose = false;
   /// Whether a factorisation of A costs no more than some cycles, so that A needs no coarser level.
   bool cheap_to_factorise = false;
+  /// Whether it is a part of a load step for the whole of which methods that factorise have been in vain.
+  bool spent = false;
 };
 
 }  // namespace signorini

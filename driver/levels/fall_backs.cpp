@@ -76,7 +76,7 @@ bool NestedSolver<D, B>::newton_may_do(const Solution<B>& solution) const {
   const Outcome outcome = solution.summary.outcome;
   if (options_.method != "auto" || (outcome != Outcome::stuck && outcome != Outcome::inaccurate)) return false;
   const DiscreteProblem<B>& problem = solution.discretization.problem;
-  return NewtonIteration<B>::suits(problem) &&
+  return !problem.spent && NewtonIteration<B>::suits(problem) &&
          automatic::newton_is_affordable(B, std::ssize(problem.b), levels_.size() > 1, problem.following);
 }
 

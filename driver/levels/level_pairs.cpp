@@ -106,11 +106,7 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
       if (!term.other || !term.renew || term.tied) continue;
-      Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
-      if (slip.length == 0 && shift[k] != Point<B>{}) {  // past each other's ends: how far tells where they began
-        const Pairs first = pair_bodies<D>(nodes, model, collect_fixes(nodes, model));
-        slip = slip_past(nodes, model, k, *first, *first, u);
-      }
+      const Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
       if (!(length<D>(difference<D>(slip.mean, shift[k])) > far_slip * slip.length)) continue;
       shift[k] = slip.mean;
       moved = true;

@@ -158,6 +158,7 @@ Solution<B> NestedSolver<D, B>::discretize_level(const Model<B>& model, std::siz
   rest_where_prescribed(problem);
   if (model.follows) here.before.numbers.hand_to(solution.discretization.functional, problem.constraints);
   problem.cheap_to_factorise = level < factorised_;
+  problem.spent = spent_;
   if (!here.force.empty()) {
     add_force(here.force, 1, solution.discretization.load);
     place_loads(solution.discretization);

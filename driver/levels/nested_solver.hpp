@@ -80,6 +80,9 @@ class NestedSolver {
   /// Of all methods together, in one solve from now on.
   void limit_iterations(int most) { options_.max_iterations = most; }
 
+  /// From now on: DiscreteProblem::spent.
+  void set_spent(bool spent) { spent_ = spent; }
+
   /// Interpolation between the meshes `level` and `level` + 1.
   const Prolongation& from_mesh(std::size_t level) const { return matrices_.above(level); }
 
@@ -147,6 +150,7 @@ class NestedSolver {
   Times& times_;
   const Monitor monitor_;
   LevelMatrices<B> matrices_;
+  bool spent_ = false;
   bool continued_ = false;      // algebraic levels have been looked for
   std::vector<Stage> dropped_;  // starts that coarser levels did not give, and rough ones
 };

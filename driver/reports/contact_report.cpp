@@ -21,7 +21,7 @@ std::vector<double> list(const Array& array) {
 template <int B>
 ContactReport totals(const ContactSummary<B>& contact, const std::optional<DeformedContact>& deformed) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, 0, unknown});
+  const DeformedContact at = deformed.value_or(DeformedContact{unknown, unknown, unknown, 0, 0, unknown});
   ContactReport report;
   report.nodes = contact.nodes;
   report.tied = contact.tied;
@@ -40,6 +40,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.undetermined_force = contact.undetermined_force;
   report.largest_penetration = at.penetration;
   report.largest_opening = at.opening;
+  report.depth = at.depth;
   report.over_edge = at.over_edge;
   report.largest_displacement = at.displacement;
   report.beyond_nodes = at.beyond;

@@ -14,6 +14,7 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
+#include "core/geometry/smooth_boundary.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/mortar/couple.hpp"
 #include "core/scene/read_tables.hpp"
@@ -48,6 +49,34 @@ struct Side {
     for (const Face<D>& face : mesh.boundary) longest = std::max(longest, longest_edge(mesh, face));
   }
 };
+
+/// Adds the faces that hang together with those that are picked, but for creases.
+template <int D>
+void spread(const Mesh<D>& mesh, std::vector<char>& picked) {
+  std::map<std::array<Index, D - 1>, std::vector<std::size_t>> around;  // faces by the vertices of their edges
+  std::vector<Point<D>> normals;
+  for (std::size_t f = 0; f < mesh.boundary.size(); ++f) {
+    const Face<D>& face = mesh.boundary[f];
+    normalise(normals.emplace_back(area_normal(mesh, face)));
+    for (int opposite = 0; opposite < D; ++opposite) {
+      std::array<Index, D - 1> edge;
+      for (int i = 0; i < D - 1; ++i) edge[i] = face.vertices[(opposite + 1 + i) % D];
+      std::ranges::sort(edge);
+      around[edge].push_back(f);
+    }
+  }
+  std::vector<std::vector<std::size_t>> next(normals.size());
+  for (const auto& [edge, faces] : around)
+    for (const std::size_t f : faces)
+      for (const std::size_t g : faces)
+        if (dot(normals[f], normals[g]) > std::cos(geometry::default_crease)) next[f].push_back(g);
+  std::vector<std::size_t> reached;
+  for (std::size_t f = 0; f < picked.size(); ++f)
+    if (picked[f]) reached.push_back(f);
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const std::size_t f : next[reached[k]])
+      if (!std::exchange(picked[f], 1)) reached.push_back(f);
+}
 
 /// Two sides that may touch, by their numbers, and how each sees the other one.
 struct Found {
@@ -167,6 +196,7 @@ class Finder {
   using Corners = std::map<Point<D>, std::vector<Point<D>>>;  // normals of faces by vertex
 
   /// Of a side the faces that see the other one, and nothing in front of it: no third one, nothing of their own body.
+  /// Steps may move the bodies on, to where other faces see each other: all of the same surfaces are picked then.
   std::shared_ptr<const Corners> picked(const Found& pair, int which) {
     const std::size_t number = which == 0 ? pair.first : pair.second;
     const Side<D>& side = sides_[number];
@@ -176,15 +206,19 @@ class Finder {
         if ((k == 0 ? any.first : any.second) == number)
           for (std::size_t v = 0; v < nearest.size(); ++v) nearest[v] = std::min(nearest[v], any.seen[k][v]);
     const Distances& seen = pair.seen[which];
+    std::vector<char> in_sight;
+    for (const Face<D>& face : side.mesh.boundary)
+      in_sight.push_back(
+          std::ranges::all_of(face.vertices, [&](Index v) { return std::isfinite(seen[v]); }) &&
+          std::ranges::any_of(face.vertices, [&](Index v) { return seen[v] <= nearest[v] + behind * side.longest; }));
+    if (contact_.renew && scene_.steps.at.size() > 1) spread(side.mesh, in_sight);
     auto out = std::make_shared<Corners>();
-    for (const Face<D>& face : side.mesh.boundary) {
-      const auto& corners = face.vertices;
-      if (!std::ranges::all_of(corners, [&](Index v) { return std::isfinite(seen[v]); })) continue;
-      if (!std::ranges::any_of(corners, [&](Index v) { return seen[v] <= nearest[v] + behind * side.longest; }))
-        continue;
+    for (std::size_t f = 0; f < in_sight.size(); ++f) {
+      if (!in_sight[f]) continue;
+      const Face<D>& face = side.mesh.boundary[f];
       Point<D> normal = area_normal(side.mesh, face);
       normalise(normal);
-      for (const Index v : corners) (*out)[side.mesh.points[v]].push_back(normal);
+      for (const Index v : face.vertices) (*out)[side.mesh.points[v]].push_back(normal);
     }
     return out;
   }

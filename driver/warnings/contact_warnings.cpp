@@ -26,16 +26,18 @@ static_assert(largest_turn == geometry::default_crease);
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements
+constexpr double of_depth = 0.05;    // of what contact flattens: the largest pressure is wrong by about as much
 constexpr double coarse = 0.1;       // of these, between nodes
-constexpr double rounding = 1e-6;    // of displacements, with what tolerances leave
 constexpr double many = 0.1;         // of the nodes in contact
 constexpr double edged =
     1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
-/// How far off the linearised condition is, relative to the displacements.
+/// How far off the linearised condition is, in parts of what is noticeable: a body may come from far to where it is
+/// then pressed in by little.
 double off(const ContactReport& contact) {
   const double by = std::max(contact.largest_penetration, contact.largest_opening);
-  return contact.largest_displacement > 0 ? by / contact.largest_displacement : 0;
+  const double moved = noticeable * contact.largest_displacement, flattened = of_depth * contact.depth;
+  return moved > 0 ? by / (flattened > 0 ? std::min(moved, flattened) : moved) : 0;
 }
 
 std::string why_off(const ContactReport& contact) {
@@ -178,11 +180,12 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
     const std::string& origin = scene.obstacles[k].source.table;
     const StepReport& farthest = worst(report, k, off);
     const ContactReport& contact = farthest.contact[k];
-    if (off(contact) > noticeable)
+    if (off(contact) > 1)
       warnings.push_back(warning<"too-curved">(
           origin, std::fmax(contact.largest_penetration, contact.largest_opening),
           contact.largest_penetration >= contact.largest_opening ? "inside the obstacle"
                                                                  : "off the obstacle at nodes that count as in contact",
+          contact.depth > 0 ? fmt::format("contact flattens it by {:.3g} and ", contact.depth) : "",
           contact.largest_displacement, at_step(report, farthest), why_off(contact)));
     const StepReport& between = worst(report, k, off_between);
     if (const ContactReport& c = between.contact[k]; off_between(c) > coarse)
@@ -274,25 +277,6 @@ template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactStat
 template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const Results<2, 2>&);
 template Warnings turn_warnings(const Model<3>&, const Nodes<3>&, const Results<3, 3>&);
 
-namespace {
-
-/// By how much more some vertices in contact have moved along the obstacle's normal than others: the depth of the
-/// contact on a curved surface.
-template <int D, int B>
-double flattened(const Results<D, B>& results, Index obstacle) {
-  double least = infinity, most = -infinity;
-  for (const ContactNode<B>& node : results.contact.nodes) {
-    if (!node.contact || node.obstacle != obstacle) continue;
-    const double along = along_normal(results, node);
-    least = std::min(least, along);
-    most = std::max(most, along);
-  }
-  const double size = std::max({std::abs(least), std::abs(most), results.deformed[obstacle]->displacement});
-  return most - least > rounding * size ? most - least : 0;
-}
-
-}  // namespace
-
 template <int D, int B>
 Warnings chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy, const Nodes<D>& nodes,
                         const Results<D, B>& results) {
@@ -301,8 +285,7 @@ Warnings chord_warnings(const Model<B>& model, const MeshHierarchy<D>& hierarchy
     const bool refined = !hierarchy.refinements.empty();
     // Vertices are on what faces stand for: a rigid obstacle, whose distance is that of nodes, is where it should be.
     if (!results.deformed[k] || !(refined || model.obstacles[k].other)) continue;
-    const double depth = flattened(results, static_cast<Index>(k));
-    const double displacement = results.deformed[k]->displacement;
+    const double depth = results.deformed[k]->depth, displacement = results.deformed[k]->displacement;
     // Pressures peak where refinement has brought out the edges; before that the gap alone is wrong.
     const double most = depth > 0 && refined ? edged * depth : noticeable * std::max(depth, displacement);
     const auto add = [&](const char* whose, double sagitta, double angle) {

@@ -189,6 +189,24 @@ TEST_F(Accuracy, OfASumThatIsZeroSaysNothing) {
   }
 }
 
+// Under the corners of a punch pressures have no limit.
+TEST_F(Accuracy, OfWhatGrowsForEverHasAnEnd) {
+  const fs::path scene = folder_ / "scene.toml";
+  std::ofstream(scene)
+      << "[[body]]\nname = \"base\"\nshape = \"rectangle\"\nfrom = [0, 0]\nto = [4, 2]\ncells = [8, 4]\nyoung = "
+         "1000\npoisson = 0.3\n[[body]]\nname = \"punch\"\nshape = \"rectangle\"\nfrom = [1, 2]\nto = [3, 3]\ncells = "
+         "[5, 3]\nyoung = 2000\npoisson = 0.3\n[[fix]]\nbody = \"base\"\non = \"bottom\"\nvalue = [0, "
+         "0]\n[[fix]]\nbody = "
+         "\"punch\"\non = \"top\"\nvalue = [0, -0.01]\n[[obstacle]]\ntype = \"elastic\"\nbody = \"punch\"\non = "
+         "\"bottom\"\nother = \"base\"\nother_on = \"top\"\n";
+  try {
+    chart::search(scene, {}, "pressure", 0.01, [](const std::string&) {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("seems to have no limit"));
+  }
+}
+
 TEST_F(Accuracy, IsKept) {
   const int scenes = nightly(200, 4);
   int kept = 0;

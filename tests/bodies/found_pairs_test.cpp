@@ -99,7 +99,8 @@ TEST(FoundPairs, DoNotSeeThroughBodies) {
   for (const ContactReport& contact : report.last().contact) EXPECT_NEAR(contact.force[0], -100 * 0.03 / 3, 1e-6);
 }
 
-// Nor what is behind another part of the body itself: the lower arm of a clamp does not face what lies on the upper one.
+// Nor what is behind another part of the body itself: the lower arm of a clamp does not face what lies on the upper
+// one.
 TEST(FoundPairs, DoNotSeeThroughTheirOwnBody) {
   Scene scene = scene_of(
       "[[body]]\nname = \"clamp\"\nshape = \"polygon\"\npoints = [[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [4, 3], "
@@ -112,6 +113,22 @@ TEST(FoundPairs, DoNotSeeThroughTheirOwnBody) {
   };
   EXPECT_TRUE(picks(4, 4));
   EXPECT_FALSE(picks(4, 1));
+}
+
+// A body slides by more than its own width: the faces that it comes to are found as well.
+TEST(FoundPairs, GoOnWhereStepsMoveBodiesTo) {
+  std::vector<double> force;
+  for (const std::string& how : {contact(), pair("upper", "bottom", "lower", "top")}) {
+    Driver driver(scene_of(block("lower", "[0, 0]", "[4, 1]", "[8, 2]", material(100, 0.3, 2)) +
+                           block("upper", "[0.5, 1]", "[1.5, 2]", "[3, 3]", material(100, 0.3, 2)) +
+                           fix("lower", "bottom", "[0, 0]") + fix("upper", "top", "[\"2 * t\", -0.01]") + how +
+                           "[steps]\ncount = 8\n"));
+    const Report& report = driver.solve();
+    ASSERT_TRUE(report.converged()) << report.reason();
+    force.push_back(report.last().contact[0].force[1]);
+  }
+  EXPECT_GT(std::abs(force[1]), 0.1);
+  EXPECT_NEAR(force[0], force[1], 1e-6 * std::abs(force[1]));
 }
 
 // Gaps and overlaps are closed without strain, or count.

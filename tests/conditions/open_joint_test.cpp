@@ -196,6 +196,19 @@ TEST(OpenJointOfTwoBodies, pushes_both_apart_in_balance) {
   }
 }
 
+// A lid that hangs over its seat on both sides: the seat is pressed where it is in front of the lid, and nowhere else.
+TEST(OpenJointOfTwoBodies, presses_the_other_one_where_it_is) {
+  for (const int order : {1, 2}) {
+    const std::string of = fmt::format("order = {}\nyoung = 100\npoisson = 0.3\n", order);
+    const StepReport step = solved(
+        block("lid", "[0, 10]", "[40, 18]", "[20, 4]", of) + block("seat", "[10.3, 0]", "[30.6, 10]", "[13, 5]", of) +
+        fix("lid", "top", "[0, 0]") + fix("seat", "bottom", "[0, 0]") + seal("lid", "bottom", "1e-4") +
+        pair("lid", "bottom", "seat", "top", "gap = 0.01\n"));
+    EXPECT_NEAR(step.balance[0].applied[1], 1e-4 * 40, 1e-12);
+    EXPECT_NEAR(step.balance[1].applied[1], -1e-4 * 20.3, 1e-12);
+  }
+}
+
 TEST(OpenJointOfTwoBodies, of_revolution) {
   const std::string plane = "plane = \"axisymmetric\"\nyoung = 2\npoisson = 0.3\n";
   const StepReport step =

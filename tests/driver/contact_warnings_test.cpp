@@ -31,6 +31,20 @@ TEST(Pulling, obstacles_on_the_wrong_side_are_refused) {
   EXPECT_THAT(refused(above("[0, -1]")), AllOf(HasSubstr("obstacle.0"), HasSubstr("would pull at the faces")));
 }
 
+// The master's dual means are of both signs: over long faces of a convex gap they are less than any distance there is.
+TEST(ApartWarnings, are_of_distances_that_there_are) {
+  const auto disk = [](const char* name, double x, double y, const char* size) {
+    return fmt::format(
+        "[[body]]\nname = '{}'\nshape = 'disk'\ncenter = [{}, {}]\nradius = 12.5\nsize = {}\nyoung = "
+        "1000\npoisson = 0.3\n",
+        name, x, y, size);
+  };
+  const auto all =
+      warnings(disk("a", 0, 0, "1") + disk("b", 0.3, 25.002, "4") + tables::fix("a", "boundary", "[0, 0]") +
+               tables::fix("b", "boundary", "[0, 0]") + "[contact]\nbetween = 'all'\n");
+  EXPECT_THAT(all, Not(Contains(HasSubstr("overlap"))));
+}
+
 TEST(ApartWarnings, name_obstacles_of_scalars) {
   const auto membrane = [](const char* load) {
     return warnings(tables::block("membrane", "[0, 0]", "[1, 1]", "[4, 4]", "equation = 'diffusion'\n") +
@@ -39,6 +53,25 @@ TEST(ApartWarnings, name_obstacles_of_scalars) {
   };
   EXPECT_THAT(membrane("-0.1"), Contains(HasSubstr("'membrane' and the obstacle never touch")));
   EXPECT_THAT(membrane("-10"), Not(Contains(HasSubstr("never touch"))));
+}
+
+// Contact is linearised where the body began. What that is off by counts beside what contact flattens, not beside the
+// way along the obstacle or up to it: here the force is 3.2 times the right one, and the largest pressure 13 % too low.
+TEST(TooCurved, beside_what_contact_flattens) {
+  const auto moved = [](const std::string& by, const std::string& obstacle) {
+    return warnings(tables::block("block", "[0, 0]", "[2, 1]", "[16, 8]", "young = 1000\npoisson = 0.3\norder = 2\n") +
+                    tables::fix("block", "top", by) +
+                    "[[obstacle]]\ntype = 'contact'\nbody = 'block'\non = 'bottom'\n" + obstacle);
+  };
+  const std::string arch = "shape = 'expression'\ndistance = 'y + 0.004 * (x - 1)^2'\n";
+  const auto told = Contains(AllOf(HasSubstr("the deformed body is up to"), HasSubstr("contact flattens it by")));
+  EXPECT_THAT(moved("[1.5, -0.01]", arch), told);
+  EXPECT_THAT(moved("[0, -0.01]", arch), Not(told));
+  const auto disk = [](double depth) {
+    return fmt::format("shape = 'sphere'\ncenter = [1, {}]\nradius = 5\n", -5 - depth);
+  };
+  EXPECT_THAT(moved("[0, -5.04]", disk(5)), told);
+  EXPECT_THAT(moved("[0, -0.04]", disk(0)), Not(told));
 }
 
 // Pressures under the tip of a rigid cone have no limit, those under a ball have.

@@ -44,7 +44,7 @@ struct Pressed {
     sum.dissipated = 0.5;
     sum.undetermined_force = 3;
     results.forces.contact = {{-2, 30}};
-    results.deformed = {DeformedContact{0.1, 0.2, 0.3, 1, 4}};
+    results.deformed = {DeformedContact{0.1, 0.2, 0.3, 0, 1, 4}};
     results.between_nodes = {0.05};
     results.slaves.resize(1);
     results.across.obstacles = {0};

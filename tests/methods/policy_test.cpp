@@ -64,6 +64,14 @@ TEST(Policy, DirectSolversAreForProblemsThatTheyCanTreat) {
   EXPECT_THAT(names(s), testing::ElementsAre("more cycles"));
 }
 
+TEST(Policy, SparesPartsOfAStepWhatHasFailedOnTheWhole) {
+  Situation s{.block = 2, .vectors = 1000, .unknowns = 2000, .coarsest = 100, .levels = true, .begun = true};
+  s.functional = s.friction = s.slow = true;
+  EXPECT_THAT(names(s), testing::Contains("Newton's method with friction and pressures"));
+  s.spent = true;
+  EXPECT_THAT(names(s), testing::ElementsAre("cycles from zero", "more cycles"));
+}
+
 // None of the linear solvers is there, and nothing has a solution to be found in a step.
 TEST(Policy, IsWhatASolveGoesThrough) {
   Model<2> model = resting_block<2>({0, -1e-6}, {});

@@ -30,6 +30,19 @@ void refuse_cancelled(const nlohmann::json& report, const std::vector<double>& f
                                          report["probes"].empty() ? "pressure or energy" : "pressure or a probe"));
 }
 
+/// What has no limit, as the largest pressure where an edge touches, is not found by refinement.
+void refuse_endless(const std::string& of, const std::vector<double>& errors) {
+  constexpr std::size_t meshes = 3;
+  constexpr double much = 0.8;  // (a singularity of order 1/2 leaves a third)
+  if (errors.size() <= meshes + 1 || errors.back() < much * errors[errors.size() - 1 - meshes]) return;
+  throw Error(
+      Exit::not_converged,
+      fmt::format("the error of the {} is about {:.1e} on {} finer and finer meshes, so that it seems to have no "
+                  "limit{}; expected another quantity",
+                  of, errors.back(), meshes + 1,
+                  of == "pressure" ? ": where an edge or a corner touches the largest pressure grows for ever" : ""));
+}
+
 /// Of one solve with these keys.
 std::vector<double> value_of(const std::filesystem::path& file, std::vector<std::string> overrides,
                              const std::vector<std::string>& keys, const std::string& of) {
@@ -66,12 +79,14 @@ Found search(const std::filesystem::path& file, const std::vector<std::string>& 
   say(fmt::format("{}, {}", linear.name, linear.keys_of(0).back()));
   std::vector<std::vector<double>> values{value_of(file, overrides, linear.keys_of(0), of)};
   double error = infinity;
+  std::vector<double> errors;
   for (std::size_t k = 0; k < quadratic.values.size(); ++k) {
     const std::vector<std::string> keys = quadratic.keys_of(k);
     say(fmt::format("{}, {}{}", quadratic.name, keys.back(), k > 0 ? fmt::format(": error about {:.1e}", error) : ""));
     values.push_back(value_of(file, overrides, keys, of));
-    error = error_left(of, values);
+    error = errors.emplace_back(error_left(of, values));
     if (k > 0 && error <= accuracy) return {keys, error};  // one difference says little
+    refuse_endless(of, errors);
   }
   throw Error(Exit::not_converged,
               fmt::format("the error of the {} is {:.1e} on the finest mesh, expected {:g}", of, error, accuracy));

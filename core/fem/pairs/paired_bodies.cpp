@@ -341,6 +341,27 @@ void refuse_lost(const Nodes<D>& nodes, const Model<D>& model, const PairedBodie
                           : "what the slave touches is held by the slave itself through others"));
 }
 
+namespace {
+
+/// Of sides that do not face each other: the difference of their means.
+template <int D>
+Slip<D> slip_of_sides(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const std::vector<double>& u) {
+  const PairedFaces faces = paired_faces(nodes.mesh(), model.obstacles[obstacle], model.t);
+  Slip<D> out;
+  const auto add_mean = [&](const std::vector<Index>& side, double sign) {
+    const Surface<D> of = surface(nodes, side);
+    for (const Index p : of.nodes)
+      for (int i = 0; i < D; ++i) out.mean[i] += sign * u[Offset{p} * D + i] / static_cast<double>(of.nodes.size());
+  };
+  add_mean(faces.slave, 1);
+  add_mean(faces.master, -1);
+  for (const Index f : faces.slave)
+    out.length += longest_edge(nodes.mesh(), nodes.mesh().boundary[f]) / static_cast<double>(faces.slave.size());
+  return out;
+}
+
+}  // namespace
+
 template <int D>
 Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const PairedBodies<D>& all,
                   const PairedBodies<D>& near, const std::vector<double>& u) {
@@ -365,8 +386,9 @@ Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, 
     out.length += length[node.node];
     ++count;
   }
-  for (double& c : out.mean) c /= std::max(count, 1.0);
-  out.length /= std::max(count, 1.0);
+  if (count == 0) return slip_of_sides(nodes, model, obstacle, u);
+  for (double& c : out.mean) c /= count;
+  out.length /= count;
   return out;
 }
 

@@ -25,7 +25,7 @@ void refuse_lost(const Nodes<D>& nodes, const Model<D>& model, const PairedBodie
 /// By how much the slave of an obstacle has moved past the master.
 template <int D>
 struct Slip {
-  Point<D> mean{};    ///< over the slave's nodes with a pair
+  Point<D> mean{};    ///< over the slave's nodes with a pair; where there is none, of all nodes of either side
   double length = 0;  ///< of the faces around them, the mean of their longest edges
 };
 

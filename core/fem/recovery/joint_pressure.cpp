@@ -9,6 +9,7 @@
 #include "core/fem/assembly/resultant.hpp"
 #include "core/fem/elements/select_nodes.hpp"
 #include "core/fem/recovery/contact.hpp"
+#include "core/mesh/connected.hpp"
 
 namespace signorini {
 namespace {
@@ -149,6 +150,31 @@ void JointPressure<D, B>::refuse_master(const Joint& joint, const PairedBodies<B
   }
 }
 
+/// Hands the force on nodes of a slave to the master, in the opposite direction: of each as much as the master is in
+/// front of.
+template <int D, int B>
+void JointPressure<D, B>::hand_over(const std::vector<double>& own, const PairedBodies<B>& pairs,
+                                    std::vector<double>& force) const {
+  const std::vector<Index> body = connected_parts(nodes_.mesh());
+  const auto body_of = [&](Index p) { return body[nodes_.ends(p)[0]]; };
+  std::vector<double> bears(static_cast<std::size_t>(nodes_.size()));  // part of the node's area
+  for (const PairedNode<B>& node : pairs.nodes) bears[node.node] += node.covered + node.taken;
+  for (const TiedNode& tie : pairs.ties) bears[tie.node] += tie.bears;
+  const MasterMeans& means = *pairs.means;
+  for (std::size_t s = 0; s < means.node.size(); ++s) {
+    const Index p = means.node[s];
+    double sum = 0;  // without the slave's own nodes, whose share p takes over
+    const auto each_master = [&](const auto& use) {
+      for (Offset k = means.row[s]; k < means.row[s + 1]; ++k)
+        if (body_of(means.column[k]) != body_of(p)) use(means.column[k], means.weight[k]);
+    };
+    each_master([&](Index, double weight) { sum += weight; });
+    each_master([&](Index q, double weight) {
+      for (int i = 0; i < B; ++i) force[Offset{q} * B + i] -= bears[p] * weight / sum * own[Offset{p} * B + i];
+    });
+  }
+}
+
 template <int D, int B>
 JointLoad<B> JointPressure<D, B>::load(const Wetted& wetted, const PairedBodies<B>* pairs) const {
   JointLoad<B> out;
@@ -160,16 +186,7 @@ JointLoad<B> JointPressure<D, B>::load(const Wetted& wetted, const PairedBodies<
     if (pairs && pairs->means) refuse_master(joints_[j], *pairs);
     const std::vector<double> own = own_force(joints_[j], wetted[j], out);
     for (std::size_t k = 0; k < own.size(); ++k) out.force[k] += own[k];
-    if (!pairs || !pairs->means) continue;
-    const MasterMeans& means = *pairs->means;
-    for (const Index p : joints_[j].faces.nodes) {
-      const auto found = std::ranges::lower_bound(means.node, p);
-      if (found == means.node.end() || *found != p) continue;
-      const auto s = found - means.node.begin();
-      for (Offset k = means.row[s]; k < means.row[s + 1]; ++k)
-        for (int i = 0; i < B; ++i)
-          out.force[Offset{means.column[k]} * B + i] -= means.weight[k] * own[Offset{p} * B + i];
-    }
+    if (pairs && pairs->means) hand_over(own, *pairs, out.force);
   }
   return out;
 }

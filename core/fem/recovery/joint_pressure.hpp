@@ -39,8 +39,8 @@ class JointPressure {
                 const JointLoad<B>& present) const;
   /// The integrals of the pressures times the linear (quadratic) function that is 1 at the nodes that are wetted: it
   /// ends within the faces beside the contact. Nodes of a slave hand the same force to the master, by the weights of
-  /// their jumps: both sum to zero. Error(Exit::input) for faces that are a master's: what touches them is not known
-  /// there.
+  /// their jumps, as far as that is in front of them: where it is everywhere both sum to zero. Error(Exit::input) for
+  /// faces that are a master's: what touches them is not known there.
   /// @param pairs all that there are; null: none
   JointLoad<B> load(const Wetted& wetted, const PairedBodies<B>* pairs) const;
   /// Of the first load that acts anywhere; empty: none does.
@@ -64,6 +64,7 @@ class JointPressure {
   std::vector<char> spread(const Joint& joint, const Pressed& pressed) const;
   std::vector<double> pressures(const Joint& joint) const;
   std::vector<double> own_force(const Joint& joint, const std::vector<char>& wetted, JointLoad<B>& out) const;
+  void hand_over(const std::vector<double>& own, const PairedBodies<B>& pairs, std::vector<double>& force) const;
   void refuse_master(const Joint& joint, const PairedBodies<B>& pairs) const;
 
   const Nodes<D>& nodes_;

@@ -68,7 +68,8 @@ class Master {
         seen_.column.push_back(q), seen_.weight.push_back(found.value[j]);
       }
       seen_.row.push_back(static_cast<Offset>(seen_.column.size()));
-      node.gap = (found.gap[k] - dot(found.normal[k], jump)) / found.part(k) +
+      const double before = std::clamp(found.gap[k] / found.part(k), found.nearest[k], found.farthest[k]);
+      node.gap = before - dot(found.normal[k], jump) / found.part(k) +
                  added_gap<D>(term, nodes_.at(node.vertex), found.normal[k]);
       for (int i = 0; i < D; ++i) node.direction[i] = -found.normal[k][i];
       node.covered = found.covered[k];

@@ -15,6 +15,7 @@
 namespace signorini {
 namespace {
 
+constexpr double of_tolerance = 1e-6;  // of displacements: what tolerances leave, and rounding
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.
@@ -161,6 +162,19 @@ bool turns_at_once(const Nodes<D>& nodes, const Surface<D>& at, Index p, const O
   return whole > least && turn(before, after) > most * whole;
 }
 
+/// See DeformedContact.
+template <int D>
+double depth(const ContactState<D>& state, Index obstacle, double displacement) {
+  double least = infinity, most = -infinity;
+  for (const ContactNode<D>& node : state.nodes)
+    if (node.contact && node.obstacle == obstacle && std::isfinite(node.start)) {
+      least = std::min(least, node.start);
+      most = std::max(most, node.start);
+    }
+  const double size = std::max({std::abs(least), std::abs(most), displacement});
+  return most - least > of_tolerance * size ? most - least : 0;
+}
+
 template <int B>
 DeformedContact violation(const ContactState<B>& state, Index obstacle) {
   DeformedContact out;
@@ -212,6 +226,7 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   }
   // Where a body is pressed from behind on something rigid it moves less than what presses it.
   out.displacement = std::max(out.displacement, difference_of_displacements<D>(u));
+  out.depth = depth(state, obstacle, out.displacement);
   if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
   if (all.empty()) out.penetration = out.opening = out.displacement = not_there;
