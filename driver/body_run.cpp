@@ -247,6 +247,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   if (step.halvings == 0) solver_.set_spent(false);
   Solution<B> solution = solve(model_, step);
   if (!solution.summary.converged()) solver_.set_spent(true);
+  model_ = solver_.moved(model_);
   const Stopwatch watch;
   // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
   const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();

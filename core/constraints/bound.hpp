@@ -15,7 +15,8 @@ struct Bound {
   std::array<double, B> direction;
   double lower, upper;
   Index data = -1;  ///< place of its FunctionalNumbers, where the obstacle has a functional here
-  double gap = 0;   ///< between bodies: what both bounds contain of PairedNode::gap
+  double gap =
+      0;  ///< between bodies: what both bounds contain of PairedNode::gap; of rigid ones: of ObstacleTerm::moved
   double part = 1;  ///< of what the obstacle says, see PairedNode::part
 };
 

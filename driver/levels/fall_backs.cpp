@@ -129,6 +129,7 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   for (MeshLevel<D, B>& level : levels_) level.before = {};
+  pairs_.begin();
   return solve_safely(model).solution;
 }
 
@@ -142,7 +143,7 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   pairs_.begin_step(model, levels_.finest().before.u);
-  Found first = solve_safely(model);
+  Found first = solve_safely(pairs_.moved(model));
   Solution<B>& solution = first.solution;
   bool& otherwise = first.otherwise;
   Attempts attempts(std::move(solution.summary));
@@ -152,7 +153,7 @@ Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
     if (!pairs_.follow(model, displacement())) break;
     progress_.phase("bodies have slid past each other, and are paired anew");
     attempts.run(automatic::attempt(Kind::pairs_anew), Start::first, [&] {
-      Found found = solve_safely(model);
+      Found found = solve_safely(pairs_.moved(model));
       solution = std::move(found.solution);
       otherwise = found.otherwise;
       return std::move(solution.summary);

@@ -1,9 +1,11 @@
 #include "driver/levels/level_pairs.hpp"
 
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/fem/assembly/discretize.hpp"
+#include "core/fem/conditions/moved_on.hpp"
 #include "core/fem/elements/nested.hpp"
 #include "core/mesh/simplex.hpp"
 #include "core/solver/interpolate.hpp"
@@ -54,11 +56,17 @@ void LevelPairs<D, B>::give(std::vector<Pairs> pairs) {
 }
 
 template <int D, int B>
+Model<B> LevelPairs<D, B>::moved(Model<B> model, const std::vector<Point<B>>& shift) {
+  for (std::size_t k = 0; k < shift.size(); ++k)
+    if (model.obstacles[k].shape) model.obstacles[k].moved = shift[k];
+  return model;
+}
+
+template <int D, int B>
 bool LevelPairs<D, B>::find(const Model<B>& model) {
   bool stay = true;
   if constexpr (D == B) {
     if (given_) return true;
-    if (!model.follows) shift_.clear();
     for (std::size_t k = first_; k < levels_.size(); ++k) {
       MeshLevel<D, B>& level = levels_[k];
       Pairs now = pair_bodies<D>(level.nodes, model, collect_fixes(level.nodes, model), shift_);
@@ -98,20 +106,27 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
                                                     const std::vector<double>& u) const {
   std::vector<Point<B>> shift = place.shift;
   if constexpr (D == B) {
-    if (given_ || !model.follows || !is_paired(model) || !place.all) return shift;
+    if (given_ || !model.follows) return shift;
     const Nodes<D>& nodes = levels_.finest().nodes;
     shift.resize(model.obstacles.size());
-    const Pairs near = near_contact(nodes, model, *place.all, u);
-    bool moved = false;
+    const Model<B> here = moved(model, shift);
+    const bool paired = is_paired(model) && place.all;
+    const Pairs near = paired ? near_contact(nodes, model, *place.all, u) : nullptr;
+    bool any = false;
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
-      if (!term.other || !term.renew || term.tied) continue;
-      const Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
-      if (!(length<D>(difference<D>(slip.mean, shift[k])) > far_slip * slip.length)) continue;
-      shift[k] = slip.mean;
-      moved = true;
+      std::optional<Point<D>> to;
+      if (term.shape) {
+        to = moved_on(nodes, here, k, u);
+      } else if (paired && term.other && term.renew && !term.tied) {
+        const Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
+        if (length<D>(difference<D>(slip.mean, shift[k])) > far_slip * slip.length) to = slip.mean;
+      }
+      if (!to) continue;
+      shift[k] = *to;
+      any = true;
     }
-    if (!moved) return place.shift;
+    if (!any) return place.shift;
   }
   return shift;
 }

@@ -8,8 +8,9 @@
 
 namespace signorini {
 
-/// Where, on each mesh, unknowns are jumps between bodies that may touch each other: where a solution says that they
-/// nearly do, and all over the slaves where prescribed values do not hold all bodies.
+/// Where bodies find each other and rigid obstacles, from one load step to the next. And where, on each mesh, unknowns
+/// are jumps between bodies that may touch each other: where a solution says that they nearly do, and all over the
+/// slaves where prescribed values do not hold all bodies.
 template <int D, int B>
 class LevelPairs {
  public:
@@ -28,7 +29,8 @@ class LevelPairs {
 
   /// In a load step that follows another one: where a displacement of the finest mesh has taken bodies past each other,
   /// in the mean of where they nearly touch, by a part of an element since they last found each other, find() finds
-  /// them there from now on. That depends on the displacement and on where they found each other, not on where
+  /// them there from now on. The conditions of rigid obstacles are linear about the displacement there, see moved_on().
+  /// That depends on the displacement and on where they found each other, not on where
   /// unknowns are jumps: these are others for every start and hierarchy.
   /// @return whether it has
   bool follow(const Model<B>& model, const std::vector<double>& u);
@@ -37,6 +39,10 @@ class LevelPairs {
     return shift_after({shift_, levels_.finest().all_pairs}, model, u) != shift_;
   }
 
+  /// The first load step begins as the undeformed bodies lie.
+  void begin() { shift_.clear(); }
+  /// The model whose rigid obstacles are where bodies have found them.
+  Model<B> moved(const Model<B>& model) const { return moved(model, shift_); }
   /// Steps after this one begin from where bodies have found each other now.
   void accept() { accepted_ = {shift_, levels_.finest().all_pairs}; }
   /// Such a step begins, or begins again, with the last one's displacement: follows it from there.
@@ -56,7 +62,8 @@ class LevelPairs {
   void give(std::vector<Pairs> pairs);
   bool given() const { return given_; }
 
-  /// Per obstacle by how much slaves were taken to have moved past masters when they found each other; empty: not.
+  /// Per obstacle by how much slaves were taken to have moved past masters when they found each other, and bodies past
+  /// rigid obstacles; empty: not.
   const std::vector<Point<B>>& shift() const { return shift_; }
 
   /// What unknowns of a mesh are jumps for; null: for nothing.
@@ -86,6 +93,7 @@ class LevelPairs {
     Pairs all;
   };
 
+  static Model<B> moved(Model<B> model, const std::vector<Point<B>>& shift);
   std::vector<Point<B>> shift_after(const Place& place, const Model<B>& model, const std::vector<double>& u) const;
   Prolongation interpolation(std::size_t level) const;
   bool held(const Model<B>& model) const;

@@ -93,7 +93,10 @@ class NestedSolver {
   /// Gives the memory of all matrices back: the next solve assembles them again.
   void forget_matrices();
 
-  /// In the last solve, per obstacle by how much slaves were taken to have moved past masters; empty: not.
+  /// The model as the last solve had it: its rigid obstacles are seen from where the body has moved to.
+  Model<B> moved(const Model<B>& model) const { return pairs_.moved(model); }
+  /// In the last solve, per obstacle by how much slaves were taken to have moved past masters, or the body past a rigid
+  /// obstacle; empty: not.
   const std::vector<Point<B>>& shift() const { return pairs_.shift(); }
 
   /// Whether all levels below the finest mesh are chosen by its matrix.

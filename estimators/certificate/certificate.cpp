@@ -158,7 +158,8 @@ template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                      const EstimateOptions<B>& options) {
   std::vector<std::string> reasons = not_certified<D, B>(nodes, model);
-  if (options.paired_anew) reasons.emplace_back("bodies that load steps have moved past each other are not covered");
+  if (options.paired_anew)
+    reasons.emplace_back("bodies that load steps have moved past each other or past an obstacle are not covered");
   if (!reasons.empty()) return no_numbers(std::move(reasons));
   return Certificate<D, B>(nodes, model, u, options).compute();
 }

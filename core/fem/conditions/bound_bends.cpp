@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/fem/conditions/bounds.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
 
@@ -134,8 +135,10 @@ class EdgeBends {
 
   void limit(Index obstacle) {
     const ObstacleTerm<B>& term = model_.obstacles[obstacle];
-    for (std::size_t k = 0; term.other && k < places_.size(); ++k)
-      std::ranges::copy(bounds_[edges_[k / 2].bound].direction, places_[k].away);
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      move<D>(term, places_[k]);
+      if (term.other) std::ranges::copy(bounds_[edges_[k / 2].bound].direction, places_[k].away);
+    }
     if (!limit(*term.obstacle, 0, edges_.size()))  // then it fails at some of them
       for (std::size_t k = 0; k < edges_.size(); ++k)
         if (!limit(*term.obstacle, k, k + 1)) out_[edges_[k].bound] = {};

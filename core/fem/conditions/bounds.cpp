@@ -74,9 +74,21 @@ void collect_paired(const Nodes<D>& nodes, const Candidates<D>& candidates, cons
   });
 }
 
+/// Bounds about the displaced body, of which the first one's number is given, as bounds of the whole displacement.
+template <int B>
+void count_from_rest(const ObstacleTerm<B>& term, std::size_t first, std::vector<Bound<B>>& bounds) {
+  for (std::size_t k = first; k < bounds.size(); ++k) {
+    const double by = dot(bounds[k].direction, term.moved);
+    bounds[k].lower += by;
+    bounds[k].upper += by;
+    bounds[k].gap += by;
+  }
+}
+
 template <int D, int B>
 void collect(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairing, Index obstacle,
              std::vector<Bound<B>>& bounds, std::vector<FunctionalNumbers<B>>& numbers) {
+  const std::size_t first = bounds.size();
   const ModelPlaces<D, B> places(nodes, model);
   const Candidates<D> candidates(nodes, model, model.obstacles[obstacle]);
   if (bounds.empty()) bounds.reserve(static_cast<std::size_t>(candidates.size(nodes)));
@@ -85,9 +97,12 @@ void collect(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
     collect_paired(nodes, candidates, *pairing, obstacle, collector);
   else
     candidates.each(nodes, [&](Index p, const Point<D>& normal, double measure) {
-      collector.push(p, vertex_at<D>(nodes, p, normal, measure));
+      SurfaceVertex v = vertex_at<D>(nodes, p, normal, measure);
+      move<D>(model.obstacles[obstacle], v);
+      collector.push(p, v);
     });
   collector.flush();
+  count_from_rest(model.obstacles[obstacle], first, bounds);
 }
 
 }  // namespace
@@ -102,6 +117,17 @@ std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& mode
     std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   return bounds;
 }
+
+template <int D, int B>
+std::vector<Bound<B>> bounds_of(const Nodes<D>& nodes, const Model<B>& model, Index obstacle) {
+  std::vector<Bound<B>> bounds;
+  std::vector<FunctionalNumbers<B>> numbers;
+  collect<D, B>(nodes, model, nullptr, obstacle, bounds, numbers);
+  return bounds;
+}
+
+template std::vector<Bound<2>> bounds_of(const Nodes<2>&, const Model<2>&, Index);
+template std::vector<Bound<3>> bounds_of(const Nodes<3>&, const Model<3>&, Index);
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                                   \
   template std::vector<Bound<B>> collect_bounds(const Nodes<D>&, const Model<B>&, std::vector<FunctionalNumbers<B>>&, \

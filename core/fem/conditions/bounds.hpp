@@ -15,4 +15,14 @@ std::vector<Bound<B>> collect_bounds(const Nodes<D>& nodes, const Model<B>& mode
                                      std::vector<FunctionalNumbers<B>>& numbers,
                                      const PairedBodies<B>* pairing = nullptr);
 
+/// Those of one obstacle that is not between bodies.
+template <int D, int B>
+std::vector<Bound<B>> bounds_of(const Nodes<D>& nodes, const Model<B>& model, Index obstacle);
+
+/// Takes a point to where the obstacle sees it, see ObstacleTerm::moved.
+template <int D, int B>
+void move(const ObstacleTerm<B>& term, SurfaceVertex& point) {
+  for (int i = 0; i < D && D == B; ++i) point.position[i] += term.moved[i];
+}
+
 }  // namespace signorini

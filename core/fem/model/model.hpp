@@ -125,6 +125,8 @@ struct ObstacleTerm {
   std::shared_ptr<const DistanceFunction> shape = {};
   /// The same where it was at the last load step; null where that is not known, or it does not move.
   std::shared_ptr<const DistanceFunction> shape_before = {};
+  /// Of a rigid obstacle: conditions of contact are linear about the body displaced by this.
+  std::array<double, B> moved{};
   /// Where it has any: they know what the obstacle wrongly asked of them.
   std::shared_ptr<const Settings> settings = {};
   /// Of an obstacle between two bodies the faces of the second one, the master; those of `on` are the slave's.

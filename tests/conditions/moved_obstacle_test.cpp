@@ -1,0 +1,61 @@
+// Rigid obstacles past which load steps move a body, or up to which: as if it were drawn where it comes to.
+#include "core/fem/conditions/moved_on.hpp"
+
+#include "core/fem/elements/nodes.hpp"
+#include "tests/bodies/scenes.hpp"
+#include "tests/support/problems.hpp"
+
+namespace signorini::test {
+namespace {
+
+using tables::block, tables::fix;
+
+ContactReport contact_of(const std::string& text) {
+  Driver driver(scene_of(text));
+  EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+  return driver.report().last().contact[0];
+}
+
+/// A block on an obstacle, whose top moves by `by`.
+std::string on_obstacle(const std::string& from, const std::string& to, const std::string& by,
+                        const std::string& obstacle, const std::string& more, const std::string& type = "contact") {
+  return block("block", from, to, "[16, 8]", material(1000, 0.3, 2)) + fix("block", "top", by) +
+         fmt::format("[[obstacle]]\ntype = \"{}\"\nbody = \"block\"\non = \"bottom\"\n", type) + obstacle + more;
+}
+
+const std::string arch = "shape = \"expression\"\ndistance = \"y + 0.004 * (x - 1)^2\"\n";
+const std::string disk = "shape = \"sphere\"\ncenter = [1, -5]\nradius = 5\n";
+const std::string steps = "[steps]\ncount = 5\n";
+
+// Seen from where the block was drawn the obstacle rises by more than it is pressed: the force was 3.2 times too large.
+TEST(MovedObstacle, IsSeenFromWhereABodySlidesTo) {
+  const ContactReport slid = contact_of(on_obstacle("[0, 0]", "[2, 1]", "[\"1.5 * t\", \"-0.01 * t\"]", arch, steps));
+  const ContactReport drawn = contact_of(on_obstacle("[1.5, 0]", "[3.5, 1]", "[0, -0.01]", arch, ""));
+  EXPECT_NEAR(slid.force[1], drawn.force[1], 0.01 * drawn.force[1]);
+  EXPECT_NEAR(slid.area, drawn.area, 0.02 * drawn.area);
+  EXPECT_NEAR(slid.max_pressure, drawn.max_pressure, 0.02 * drawn.max_pressure);
+}
+
+// Seen from a distance of a radius a disk is twice as wide.
+TEST(MovedObstacle, IsSeenFromWhereABodyComesTo) {
+  for (const std::string type : {"contact", "coulomb"}) {
+    const std::string friction = type == "coulomb" ? "friction = 0.2\n" : "";
+    const ContactReport come =
+        contact_of(on_obstacle("[0, 5]", "[2, 6]", "[0, \"-5.02 * t\"]", disk + friction, steps, type));
+    const ContactReport drawn = contact_of(on_obstacle("[0, 0]", "[2, 1]", "[0, -0.02]", disk + friction, "", type));
+    EXPECT_NEAR(come.force[1], drawn.force[1], 0.01 * drawn.force[1]) << type;
+    EXPECT_NEAR(come.max_pressure, drawn.max_pressure, 0.02 * drawn.max_pressure) << type;
+  }
+}
+
+TEST(MovedOn, DoesNothingOnAPlane) {
+  Model<2> model = resting_block<2>({0, -1e-6}, {});
+  Mesh<2> mesh = cube<2>(0, 1, 4);
+  const Nodes<2> nodes(mesh, 2);
+  std::vector<double> u;
+  for (Index p = 0; p < nodes.size(); ++p) u.insert(u.end(), {5.0, -0.01});
+  EXPECT_FALSE(moved_on(nodes, model, 0, u));
+}
+
+}  // namespace
+}  // namespace signorini::test
