@@ -280,7 +280,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   times_.output += watch.elapsed();
   algebraic_error_ = report.summary.algebraic_error;
   rest_ = rest_of_friction(solution.discretization.problem);
-  add_estimate(report);
+  add_estimate(report, warnings);
   solver_.take_back(model_, std::move(solution.discretization));
   if (long_list) give_freed_memory_back();
   restore_elements(hierarchy_);
@@ -297,7 +297,7 @@ Estimate BodyRun<D, B>::estimate(bool cheap) const {
 }
 
 template <int D, int B>
-void BodyRun<D, B>::add_estimate(StepReport& report) {
+void BodyRun<D, B>::add_estimate(StepReport& report, Warnings& warnings) {
   estimate_of_element_.clear();
   const std::string& asked = scene_.solver.estimate;
   if ((asked == "false" && !scene_.refine.adaptive) || !report.summary.converged()) return;
@@ -306,6 +306,7 @@ void BodyRun<D, B>::add_estimate(StepReport& report) {
   const bool cheap = asked == "cheap" || (asked == "auto" && B == 3);
   Estimate found = of_whole(estimate(cheap), report.bodies.front().copies);
   found.seconds = watch.elapsed();
+  if (found.solve_failed) add_once(warning<"bound-not-sharp">(model_.origin), warnings);
   estimate_of_element_ = std::move(found.of_element);
   report.estimate = std::move(found);
 }

@@ -87,7 +87,7 @@ class BodyRun {
   Model<B> model(const LoadStep& step) const;
   Solution<B> solve(const Model<B>& model, const LoadStep& step);
   Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
-  void add_estimate(StepReport& report);
+  void add_estimate(StepReport& report, Warnings& warnings);
 
   const Scene& scene_;
   std::size_t body_;

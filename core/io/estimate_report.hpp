@@ -9,9 +9,12 @@ struct EstimateParts {
   double discretisation = 0, algebra = 0, contact = 0, oscillation = 0, geometry = 0, friction = 0;
 };
 
-/// How much energy a solution has above the true one, J(v) - J(u), from below and from above. NaN: not known.
+/// How much energy v has above the true solution u, J(v) - J(u), from below and from above; v is the discrete solution
+/// u_h, moved to the right side of obstacles between nodes. NaN: not known.
 struct EstimateReport {
   double lower = 0, upper = 0;
+  double total = 0;   ///< J(v): J(u) is at least total - upper, and at most total - lower
+  double lifted = 0;  ///< J(v) - J(u_h)
   double energy = 0;  ///< of deformation, 1/2 a(v, v)
   bool guaranteed = false;
   std::vector<std::string> reasons;  ///< why not

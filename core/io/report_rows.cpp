@@ -431,16 +431,22 @@ struct Table<EstimateReport> {
   static constexpr const char* name = "estimate";
   static std::vector<Row<EstimateReport>> rows() {
     using E = EstimateReport;
-    return {member("lower", &E::lower, "what the solution's energy is at least above the true one"),
-            member("upper", &E::upper, "and at most"),
-            {{"relative_lower", Kind::number, "the same, relative to `energy` of this object"},
-             [](const E& e) -> Json { return e.relative_lower(); }},
-            {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
-            member("energy", &E::energy, "that of deformation, 1/2 a(v, v)"),
-            member("guaranteed", &E::guaranteed, "whether the true number certainly lies between, apart from rounding"),
-            member("reasons", &E::reasons, "why not, in sentences"),
-            object("parts", &E::parts, "what `upper` consists of"),
-            member("seconds", &E::seconds, "the time that it took")};
+    return {
+        member("lower", &E::lower, "what `total` is at least above the energy of the true solution"),
+        member("upper", &E::upper, "and at most"),
+        member("total", &E::total,
+               "the energy J(v) = 1/2 a(v, v) - f(v), with what friction takes, of v: the solution u_h of the finite "
+               "elements, moved to the right side of obstacles between nodes. The energy of the true solution is "
+               "between `total` - `upper` and `total` - `lower`"),
+        member("lifted", &E::lifted, "J(v) - J(u_h): what moving it took"),
+        {{"relative_lower", Kind::number, "the same, relative to `energy` of this object"},
+         [](const E& e) -> Json { return e.relative_lower(); }},
+        {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
+        member("energy", &E::energy, "that of deformation, 1/2 a(v, v), of v"),
+        member("guaranteed", &E::guaranteed, "whether the true number certainly lies between, apart from rounding"),
+        member("reasons", &E::reasons, "why not, in sentences"),
+        object("parts", &E::parts, "what `upper` consists of"),
+        member("seconds", &E::seconds, "the time that it took")};
   }
 };
 

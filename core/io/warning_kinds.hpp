@@ -175,6 +175,12 @@ inline constexpr WarningKind warning_kinds[] = {
      "{}: the upper bound of the energy error is {:.3g} of the energy, but {:g} was asked for: {}",
      "an adaptive run ended before it was as accurate as `refine.tolerance` says",
      "more `refine.max_unknowns`, `max_steps` or `max_seconds`, or a larger `tolerance`"},
+    {WarningKind::About::result, "bound-not-sharp",
+     "{}: the upper bound of the energy error holds, but it is larger than it might be: the linear solve that makes it "
+     "sharper did not converge",
+     "`estimate = true` makes the upper bound smaller by one more linear solve, which did not converge here. The bound "
+     "is the one of `estimate = \"cheap\"`",
+     "nothing, if the bound is small enough; otherwise a mesh without slender elements"},
     {WarningKind::About::result, "no-pictures", "no pictures were drawn: {}", "the library for pictures does not load",
      "nothing: all other results are there"},
     {WarningKind::About::result, "missing-picture", "a picture is missing: {}", "usually there is too little memory",

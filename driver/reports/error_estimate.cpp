@@ -19,6 +19,8 @@ constexpr double EstimateParts::*all_parts[] = {&EstimateParts::discretisation, 
 void add(const EstimateReport& from, EstimateReport& to) {
   to.lower += from.lower;
   to.upper += from.upper;
+  to.total += from.total;
+  to.lifted += from.lifted;
   to.energy += from.energy;
   to.seconds += from.seconds;
   to.guaranteed = to.guaranteed && from.guaranteed;
@@ -50,6 +52,8 @@ template LinearSolve<3> rough_solve(const Registry&);
 Estimate of_whole(Estimate estimate, int copies) {
   estimate.lower *= copies;
   estimate.upper *= copies;
+  estimate.total *= copies;
+  estimate.lifted *= copies;
   estimate.energy *= copies;
   for (const auto part : all_parts) estimate.parts.*part *= copies;
   return estimate;

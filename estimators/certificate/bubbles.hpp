@@ -27,6 +27,7 @@ class Bubbles {
   double energy() const;
 
   const std::vector<double>& coefficients() const { return c_; }
+  const std::vector<double>& at_vertex() const { return at_vertex_; }
   bool lifted() const { return any_lifted_; }
   /// What is left of the distances between bodies, per row of TrueProblem::jumps.
   const std::vector<double>& left() const { return left_; }

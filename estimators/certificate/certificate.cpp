@@ -9,6 +9,7 @@
 #include "estimators/certificate/balance.hpp"
 #include "estimators/certificate/base_flux.hpp"
 #include "estimators/certificate/contact_forces.hpp"
+#include "estimators/certificate/energy.hpp"
 #include "estimators/certificate/misfit.hpp"
 
 namespace signorini {
@@ -25,7 +26,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 Estimate no_numbers(std::vector<std::string> reasons) {
   Estimate none;
-  none.lower = none.upper = not_known;
+  none.lower = none.upper = none.total = none.lifted = none.energy = not_known;
   none.parts = {not_known, not_known, not_known, not_known, not_known, not_known};
   none.reasons = std::move(reasons);
   return none;
@@ -48,10 +49,11 @@ class Certificate {
     if (!lifted_.lift()) problem_.reasons.add("what is prescribed keeps the body from the right side between nodes");
     if (lifted_.lifted()) lifted_.sweep(true);
     out_.lifted = lifted_.energy();
+    out_.energy = deformation_energy(problem_, lifted_);
     Bubbles<D, B> swept = lifted_;
     for (int k = 0; k < sweeps(D, nodes_.order()); ++k) out_.lower += swept.sweep();
-    out_.energy = energy();
     bound_from_above(swept);
+    out_.total = out_.energy - work_of_loads(problem_, lifted_) + friction_;
     if (nodes_.order() > 1) gather_children();
     out_.guaranteed = problem_.reasons.none();
     out_.reasons = problem_.reasons.all;
@@ -75,29 +77,11 @@ class Certificate {
     };
   }
 
-  /// Of deformation, of u.
-  double energy() const {
-    double energy = 0;
-    for (Index e = 0; e < problem_.elements(); ++e) {
-      const auto gradient = of_u_.gradients(e);
-      Gradient<D, B> sum{};
-      double squares = 0;
-      for (const auto& g : gradient) {
-        add(1, g, sum);
-        squares += contract(g, flux(problem_.material[e], g));
-      }
-      squares += contract(sum, flux(problem_.material[e], sum));
-      energy += problem_.element[e].measure / (2 * (D + 1) * (D + 2)) * squares;
-    }
-    return energy;
-  }
-
   /// Moments of a flux in equilibrium, near that of u, or of what is better than that.
   FaceNumbers moments(const Bubbles<D, B>& swept, const ContactForces<D, B>& contact) {
     if (!options_.solve) return equilibrated_moments<D, B>(problem_, flux_of(of_u_), contact);
     BaseFlux<D, B> base(problem_, model_, swept);
-    if (!base.correct(contact, options_.solve))
-      problem_.reasons.add("the corrective solve failed, so that the upper bound is not sharp");
+    out_.solve_failed = !base.correct(contact, options_.solve);
     return equilibrated_moments<D, B>(
         problem_, [&](Index e) { return base(e); }, contact);
   }
@@ -135,6 +119,7 @@ class Certificate {
     EstimateParts& parts = out_.parts;
     if (problem_.reasons.geometry_unknown) parts.geometry = not_known;
     parts.friction = contact.friction;
+    friction_ = contact.friction_energy;
     parts.contact = std::max(0.0, std::accumulate(contact.work.begin(), contact.work.end(), 0.0) - contact.friction);
     parts.oscillation = with_oscillation - of_misfit;
     parts.algebra = std::min(of_misfit, options_.algebraic_error * options_.algebraic_error * out_.energy);
@@ -149,6 +134,7 @@ class Certificate {
   TrueProblem<D, B> problem_;
   const Bubbles<D, B> of_u_;
   Bubbles<D, B> lifted_;  // v
+  double friction_ = 0;   // its part of J(v)
   Estimate out_;
 };
 

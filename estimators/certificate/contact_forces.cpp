@@ -113,9 +113,10 @@ void press_on_faces(const TrueProblem<D, B>& problem, const Gaps<D, B>& gaps, co
     for (int k = 0; k < D; ++k)
       for (int m = 0; m < D; ++m)
         for (int i = 0; i < B; ++i) out.forces.on_face[n][k][i] += measure * (1 + (k == m)) / (D * (D + 1)) * t[m][i];
-    const double work = friction.work(outer, v, edges_of_face(problem.mesh, problem.incidence, outer.face), t);
-    out.work[sides.element[0]] += work;
-    out.friction += work;
+    const SlipWork work = friction.work(outer, v, edges_of_face(problem.mesh, problem.incidence, outer.face), t);
+    out.work[sides.element[0]] += work.excess();
+    out.friction += work.excess();
+    out.friction_energy += work.most;
   }
 }
 

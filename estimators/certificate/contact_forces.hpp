@@ -14,7 +14,8 @@ struct Contact {
   /// Per element: int p (v - bound), v with its bubbles, and int s |v_t| + t . v_t of friction, with its bound s, its
   /// traction t and the slip v_t; what contact adds to the bound.
   std::vector<double> work;
-  double friction = 0;  ///< its part of `work`
+  double friction = 0;         ///< its part of `work`
+  double friction_energy = 0;  ///< int s |v_t| of it
   /// Per element: the energy norm of a stress that the part of a pressure between bodies needs which is not linear on a
   /// face; empty: none.
   std::vector<double> oscillation;

@@ -6,6 +6,13 @@
 
 namespace signorini {
 
+/// What friction takes of a slip, at most, and what a traction does along it.
+struct SlipWork {
+  double most = 0, traction = 0;
+
+  double excess() const { return std::max(0.0, most + traction); }
+};
+
 /// Friction of the vertices that it acts at.
 template <int D, int B>
 class Tractions {
@@ -47,9 +54,10 @@ class Tractions {
     return t;
   }
 
-  /// int s |v_t| + t . v_t, at most: |v_t| is no more than its Bernstein coefficients say.
-  double work(const OuterFace<D, B>& outer, const std::array<Index, D>& v, const std::array<Index, D*(D - 1) / 2>& edge,
-              const std::array<std::array<double, B>, D>& traction) const {
+  /// int s |v_t|, at most, and int t . v_t: |v_t| is no more than its Bernstein coefficients say.
+  SlipWork work(const OuterFace<D, B>& outer, const std::array<Index, D>& v,
+                const std::array<Index, D*(D - 1) / 2>& edge,
+                const std::array<std::array<double, B>, D>& traction) const {
     constexpr auto ends = simplex_edges<D - 1>();
     std::array<double, D> s, way;
     std::array<std::array<double, B>, D> slips;
@@ -69,15 +77,16 @@ class Tractions {
       for (int i = 0; i < B; ++i) middle[i] = (slips[a][i] + slips[b][i]) / 2 + 2 * bubble[k][i];
       of_edge[k] = (length(middle) - (way[a] + way[b]) / 2) / 2;
     }
-    double sum = integral_over_face<D>(s, way, of_edge);
+    const double measure = signorini::length<D>(outer.normal);
+    SlipWork out{measure * integral_over_face<D>(s, way, of_edge)};
     for (int i = 0; i < B; ++i) {
       std::array<double, D> t, x;
       std::array<double, ends.size()> w;
       for (int k = 0; k < D; ++k) t[k] = traction[k][i], x[k] = slips[k][i];
       for (std::size_t k = 0; k < ends.size(); ++k) w[k] = bubble[k][i];
-      sum += integral_over_face<D>(t, x, w);
+      out.traction += measure * integral_over_face<D>(t, x, w);
     }
-    return std::max(0.0, sum) * signorini::length<D>(outer.normal);
+    return out;
   }
 
  private:

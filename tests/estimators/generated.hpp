@@ -41,6 +41,8 @@ inline double checked(const std::string& scene, int refinements, int finer, cons
   EXPECT_LT(found.estimate.imbalance, 1e-12) << scene;
   EXPECT_LE(found.estimate.lower, gap + fine.estimate.upper) << scene;
   EXPECT_GE(found.estimate.upper, gap) << scene;
+  EXPECT_LE(found.estimate.total - found.estimate.upper, fine.estimate.total - fine.estimate.lower) << scene;
+  EXPECT_GE(found.estimate.total - found.estimate.lower, fine.estimate.total - fine.estimate.upper) << scene;
   return found.estimate.energy > 0 ? found.estimate.upper / found.estimate.lower : 1;
 }
 
