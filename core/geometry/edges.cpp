@@ -140,12 +140,12 @@ template <int D>
 class EdgeFinder {
  public:
   EdgeFinder(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces, const Joints<D>& joints,
-             double crease, const JointNormal<D>& joint_normal)
-      : points_(points), faces_(faces), joints_(joints), crease_(crease), joint_normal_(joint_normal) {}
+             double crease, const std::vector<std::array<Point<D>, D>>& normal)
+      : points_(points), faces_(faces), joints_(joints), crease_(crease), joint_normal_(normal) {}
 
   Edges run() {
     measure();
-    if (joint_normal_) {
+    if (!joint_normal_.empty()) {
       for (Index i = 0; i < count(); ++i)
         if (kind_[i] == Kind::open) kind_[i] = turns_itself(i) ? Kind::round : Kind::sharp;
     } else {
@@ -170,7 +170,9 @@ class EdgeFinder {
     return out;
   }
 
-  Point<D> normal_at(Index i) const { return joint_normal_ ? joint_normal_(i / D, i % D) : normal_[i / D]; }
+  const Point<D>& normal_at(Index i) const {
+    return joint_normal_.empty() ? normal_[i / D] : joint_normal_[i / D][i % D];
+  }
 
   void measure() {
     Point<D> low, high;
@@ -611,7 +613,7 @@ class EdgeFinder {
   const std::vector<std::array<Index, D>>& faces_;
   const Joints<D>& joints_;
   double crease_, size_ = 0;
-  const JointNormal<D>& joint_normal_;
+  const std::vector<std::array<Point<D>, D>>& joint_normal_;
   std::vector<Point<D>> normal_;
   std::vector<double> height_, angle_;  // per face and tip
   std::vector<Kind> kind_;              // likewise
@@ -624,13 +626,13 @@ class EdgeFinder {
 
 template <int D>
 Edges find_edges(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                 const Joints<D>& joints, double crease, const JointNormal<D>& joint_normal) {
-  return EdgeFinder<D>(points, faces, joints, crease, joint_normal).run();
+                 const Joints<D>& joints, double crease, const std::vector<std::array<Point<D>, D>>& normal) {
+  return EdgeFinder<D>(points, faces, joints, crease, normal).run();
 }
 
 template Edges find_edges<2>(std::span<const Point<2>>, const std::vector<std::array<Index, 2>>&, const Joints<2>&,
-                             double, const JointNormal<2>&);
+                             double, const std::vector<std::array<Point<2>, 2>>&);
 template Edges find_edges<3>(std::span<const Point<3>>, const std::vector<std::array<Index, 3>>&, const Joints<3>&,
-                             double, const JointNormal<3>&);
+                             double, const std::vector<std::array<Point<3>, 3>>&);
 
 }  // namespace signorini::geometry

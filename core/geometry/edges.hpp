@@ -1,16 +1,11 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/geometry/joints.hpp"
 
 namespace signorini::geometry {
-
-/// The unit normal of a curved face where it meets a neighbour in all its corners but `tip`; what a mesh knows of it.
-template <int D>
-using JointNormal = std::function<Point<D>(std::size_t face, int tip)>;
 
 struct Edges {
   std::vector<std::uint8_t> sharp;  ///< per joint: faces that have it in common meet at an edge of the body
@@ -30,8 +25,9 @@ struct Edges {
 ///
 /// Of curved faces the angle between their normals is taken as it is, beside that by which they turn themselves.
 /// @param crease angle in radians from which on there is an edge in any case
+/// @param normal of curved faces, see Known
 template <int D>
 Edges find_edges(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                 const Joints<D>& joints, double crease, const JointNormal<D>& joint_normal = {});
+                 const Joints<D>& joints, double crease, const std::vector<std::array<Point<D>, D>>& normal = {});
 
 }  // namespace signorini::geometry

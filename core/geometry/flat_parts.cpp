@@ -26,8 +26,8 @@ template <int D>
 class Finder {
  public:
   Finder(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-         const std::vector<Index>& across)
-      : points_(points), faces_(faces), across_(across), off_(spread * rounded_away<D>(points)) {
+         const std::vector<Index>& across, const std::vector<std::uint8_t>& curved)
+      : points_(points), faces_(faces), across_(across), curved_(curved), off_(spread * rounded_away<D>(points)) {
     out_.part.assign(faces.size(), -1);
     for (const auto& face : faces) {
       std::array<Point<D>, D> corner;
@@ -47,9 +47,9 @@ class Finder {
     std::ranges::stable_sort(by_size, [&](Index a, Index b) { return area(a) > area(b); });
     region_of_.assign(faces_.size(), -1);
     for (const Index f : by_size) {
-      if (region_of_[f] >= 0 || !(area(f) > 0)) continue;
+      if (region_of_[f] >= 0 || !(area(f) > 0) || is_curved(f)) continue;
       const std::vector<Index> region = grown(f);
-      if (!is_piece(region) && is_row(region)) continue;
+      if (curved_.empty() && !is_piece(region) && is_row(region)) continue;
       for (const Index g : region) out_.part[g] = static_cast<Index>(out_.normal.size());
       out_.normal.push_back(normal_of(region));
     }
@@ -57,6 +57,8 @@ class Finder {
   }
 
  private:
+  bool is_curved(Index f) const { return !curved_.empty() && curved_[f] != 0; }
+
   Point<D> normal_of(const std::vector<Index>& region) const {
     Point<D> n{};
     for (const Index f : region)
@@ -75,7 +77,8 @@ class Finder {
       for (std::size_t k = 0; k < region.size(); ++k)
         for (int tip = 0; tip < D; ++tip) {
           const Index beyond = across_[region[k] * D + tip];
-          if (beyond < 0 || region_of_[beyond / D] >= 0 || !lies_in(beyond / D, at, n)) continue;
+          if (beyond < 0 || region_of_[beyond / D] >= 0 || is_curved(beyond / D)) continue;
+          if (!lies_in(beyond / D, at, n)) continue;
           region_of_[beyond / D] = first;
           region.push_back(beyond / D);
         }
@@ -139,6 +142,7 @@ class Finder {
   std::span<const Point<D>> points_;
   const std::vector<std::array<Index, D>>& faces_;
   const std::vector<Index>& across_;
+  const std::vector<std::uint8_t>& curved_;
   double off_;
   std::vector<Point<D>> area_normal_;  // per face
   std::vector<double> tilt_;           // by which rounding turns it
@@ -166,15 +170,15 @@ double rounded_away(std::span<const Point<D>> points) {
 
 template <int D>
 FlatParts<D> find_flat_parts(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                             const std::vector<Index>& across) {
-  return Finder<D>(points, faces, across).run();
+                             const std::vector<Index>& across, const std::vector<std::uint8_t>& curved) {
+  return Finder<D>(points, faces, across, curved).run();
 }
 
 template double rounded_away<2>(std::span<const Point<2>>);
 template double rounded_away<3>(std::span<const Point<3>>);
 template FlatParts<2> find_flat_parts<2>(std::span<const Point<2>>, const std::vector<std::array<Index, 2>>&,
-                                         const std::vector<Index>&);
+                                         const std::vector<Index>&, const std::vector<std::uint8_t>&);
 template FlatParts<3> find_flat_parts<3>(std::span<const Point<3>>, const std::vector<std::array<Index, 3>>&,
-                                         const std::vector<Index>&);
+                                         const std::vector<Index>&, const std::vector<std::uint8_t>&);
 
 }  // namespace signorini::geometry

@@ -19,12 +19,13 @@ template <int D>
 class ShapeFinder {
  public:
   ShapeFinder(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-              const std::vector<Index>& across, FlatParts<D>& flats, double crease)
+              const std::vector<Index>& across, FlatParts<D>& flats, double crease, const Known<D>& known)
       : points_(points),
         faces_(faces),
         across_(across),
         flats_(flats),
         crease_(crease),
+        known_(known),
         digits_(spread * rounded_away<D>(points)) {
     out_.part.assign(faces.size(), -1);
     mark_.assign(faces.size(), 0);
@@ -75,16 +76,37 @@ class ShapeFinder {
     if (put(piece)) return;
     const bool some_flat = std::ranges::any_of(piece, [&](Index f) { return flats_.part[f] >= 0; });
     bool found = false;
-    if (some_flat)
-      for (const Faces& group : open_groups(piece)) found = put(group) || found;
+    for (const bool by_name : {false, true})
+      if (some_flat || by_name) found = put_groups(piece, by_name) || found;
     found = grow_some(piece, &ShapeFinder::near) || found;
     if constexpr (D == 3) {
       found = grow_some(piece, &ShapeFinder::plates) || found;
       found = part_rows(piece) || found;
     }
-    if (!found && !some_flat) return;
-    for (const Faces& group : open_groups(piece))
-      if (!put(group) && D == 3 && is_plane(group)) put_flat(group);
+    if (found || some_flat) put_rest(piece);
+    if (!(known_.fit > 0) || (!found && put(piece, known_.fit))) return;
+    for (const bool by_name : {false, true}) put_groups(piece, by_name, known_.fit);
+  }
+
+  bool put_groups(const Faces& piece, bool by_name, double fit = 0) {
+    bool found = false;
+    if (!by_name || !known_.name.empty())
+      for (const Faces& group : open_groups(piece, by_name)) found = put(group, fit) || found;
+    return found;
+  }
+
+  /// A single edge in the plane is flat if it has a name of its own.
+  void put_rest(const Faces& piece) {
+    for (const bool by_name : {false, true}) {
+      if (by_name && known_.name.empty()) continue;
+      for (const Faces& group : open_groups(piece, by_name))
+        if (!put(group) && (D == 3 || (by_name && is_all_of_a_name(group))) && is_plane(group)) put_flat(group);
+    }
+  }
+
+  bool is_all_of_a_name(const Faces& group) {
+    const Index name = known_.name[group[0]];
+    return connected({group[0]}, [&](Index f) { return known_.name[f] == name; }).size() == group.size();
   }
 
   /// The faces that are reached from some through others that belong to it, too; the first ones first.
@@ -102,12 +124,13 @@ class ShapeFinder {
     return group;
   }
 
-  std::vector<Faces> open_groups(const Faces& piece) {
+  std::vector<Faces> open_groups(const Faces& piece, bool by_name) {
     std::vector<Faces> out;
     std::vector<Index> sorted_ones;
     for (const Index f : piece) {
       if (!is_open(f) || std::ranges::binary_search(sorted_ones, f)) continue;
-      out.push_back(connected({f}, [&](Index g) { return is_open(g); }));
+      out.push_back(
+          connected({f}, [&](Index g) { return is_open(g) && (!by_name || known_.name[g] == known_.name[f]); }));
       sorted_ones.insert(sorted_ones.end(), out.back().begin(), out.back().end());
       std::ranges::sort(sorted_ones);
     }
@@ -122,7 +145,8 @@ class ShapeFinder {
     return out;
   }
 
-  double reach_of(const Faces& group) const {
+  /// @param fit see Known
+  double reach_of(const Faces& group, double fit = 0) const {
     Point<D> low, high;
     low.fill(infinity);
     high.fill(-infinity);
@@ -132,10 +156,10 @@ class ShapeFinder {
           low[k] = std::min(low[k], points_[v][k]);
           high[k] = std::max(high[k], points_[v][k]);
         }
-    return std::max(off_shape * length<D>(difference<D>(high, low)), digits_);
+    return std::max(std::max(off_shape, fit) * length<D>(difference<D>(high, low)), digits_);
   }
 
-  std::optional<Curve<D>> shape_of(const Faces& group) const {
+  std::optional<Curve<D>> shape_of(const Faces& group, double fit = 0) const {
     const std::vector<Index> vertices = vertices_of(group);
     std::vector<Point<D>> points, normals(vertices.size());
     for (const Index v : vertices) points.push_back(points_[v]);
@@ -145,31 +169,60 @@ class ShapeFinder {
         n = dot(n, normal_[f]) < least_common * length<D>(n) ? n : plus<D>(n, 1, normal_[f]);
       }
     for (Point<D>& n : normals) n = unit<D>(n);
-    const double reach = reach_of(group);
-    const auto found = recognise<D>(points, normals, reach, reach);
+    for (const Index f : group)
+      for (const Point<D>& p : middles(f)) {
+        points.push_back(p);
+        normals.push_back(normal_[f]);
+      }
+    const double reach = reach_of(group, fit);
+    const auto found = recognise<D>(points, normals, reach_of(group), reach);
     if (!found) return {};
     const double side = side_of(found->curve, group[0]);
     if (std::ranges::any_of(group, [&](Index f) { return !is_on(found->curve, f, side, reach); })) return {};
     return found->curve;
   }
 
+  std::span<const Point<D>> middles(Index f) const {
+    if (known_.second_order()) return known_.middle[f];
+    return {};
+  }
+
+  struct Site {
+    Point<D> at, normal;
+  };
+  /// Where a face may lie along a shape: its corners, or where a curved one meets others.
+  std::array<Site, D> sites(Index f) const {
+    std::array<Site, D> out;
+    for (int i = 0; i < D; ++i) {
+      out[i] = {points_[faces_[f][i]], normal_[f]};
+      if (!known_.second_order()) continue;
+      if constexpr (D == 2) out[i].at = points_[faces_[f][1 - i]];
+      if constexpr (D == 3) out[i].at = known_.middle[f][i];
+      out[i].normal = known_.normal[f][i];
+    }
+    return out;
+  }
+
   /// Whether a face looks out of the shape, or into it.
   double side_of(const Curve<D>& curve, Index f) const {
     double sum = 0;
-    for (const Index v : faces_[f])
-      if (const auto off = height<D>(curve, points_[v])) sum += dot(off->normal, normal_[f]);
+    for (const Site& site : sites(f))
+      if (const auto off = height<D>(curve, site.at)) sum += dot(off->normal, site.normal);
     return sum > 0 ? 1 : -1;
   }
 
-  /// Whether its corners are, and it lies along the shape there.
+  /// Whether its nodes are, and it lies along the shape there.
   bool is_on(const Curve<D>& curve, Index f, double side, double reach) const {
     const double cosine = std::cos((D == 2 ? 0.6 : 0.8) * crease_);  // of a side, and of a triangle's longest
-    return std::ranges::all_of(faces_[f], [&](Index v) {
-      const auto off = height<D>(curve, points_[v]);
-      if (!off || !(std::abs(off->distance) <= reach)) return false;
-      if (is_tip<D>(curve, points_[v], longest_[f])) return true;
-      return side * dot(off->normal, normal_[f]) >= cosine;
-    });
+    const auto is_near = [&](const Point<D>& p) {
+      const auto off = height<D>(curve, p);
+      return off && std::abs(off->distance) <= reach;
+    };
+    return std::ranges::all_of(corners_of(faces_[f]), is_near) && std::ranges::all_of(middles(f), is_near) &&
+           std::ranges::all_of(sites(f), [&](const Site& site) {
+             return is_tip<D>(curve, site.at, longest_[f]) ||
+                    side * dot(height<D>(curve, site.at)->normal, site.normal) >= cosine;
+           });
   }
 
   bool has_tip(const Curve<D>& curve, Index f) const {
@@ -179,9 +232,9 @@ class ShapeFinder {
   /// The angle between a face and a shape that its corners are on, at most.
   double turn_of(const Curve<D>& curve, Index f, double side) const {
     double least = 1;
-    for (const Index v : faces_[f])
-      if (const auto off = height<D>(curve, points_[v]); off && !is_tip<D>(curve, points_[v], longest_[f]))
-        least = std::min(least, side * dot(off->normal, normal_[f]));
+    for (const Site& site : sites(f))
+      if (const auto off = height<D>(curve, site.at); off && !is_tip<D>(curve, site.at, longest_[f]))
+        least = std::min(least, side * dot(off->normal, site.normal));
     return std::acos(least);
   }
 
@@ -216,8 +269,8 @@ class ShapeFinder {
     }
   }
 
-  bool put(const Faces& group) {
-    const auto found = shape_of(group);
+  bool put(const Faces& group, double fit = 0) {
+    const auto found = shape_of(group, fit);
     if (found) put_on(*found, group);
     return found.has_value();
   }
@@ -230,10 +283,11 @@ class ShapeFinder {
   bool is_plane(const Faces& group) const {
     const Point<D>& n = normal_[group[0]];
     const double reach = reach_of(group);
+    const auto is_near = [&](const Point<D>& p) {
+      return std::abs(dot(difference<D>(p, points_[faces_[group[0]][0]]), n)) <= reach;
+    };
     return std::ranges::all_of(group, [&](Index f) {
-      return std::ranges::all_of(faces_[f], [&](Index v) {
-        return std::abs(dot(difference<D>(points_[v], points_[faces_[group[0]][0]]), n)) <= reach;
-      });
+      return std::ranges::all_of(corners_of(faces_[f]), is_near) && std::ranges::all_of(middles(f), is_near);
     });
   }
 
@@ -372,7 +426,9 @@ class ShapeFinder {
   const std::vector<std::array<Index, D>>& faces_;
   std::vector<Index> across_;
   FlatParts<D>& flats_;
-  double crease_, digits_;
+  double crease_;
+  const Known<D>& known_;
+  double digits_;
   std::vector<Point<D>> normal_;
   std::vector<double> longest_;  // side of a face
   std::vector<std::uint8_t> tried_;
@@ -386,13 +442,15 @@ class ShapeFinder {
 template <int D>
 ShapeParts<D> find_shape_parts(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
                                const std::vector<Index>& across, const std::vector<Index>& beyond, FlatParts<D>& flats,
-                               double crease) {
-  return ShapeFinder<D>(points, faces, across, flats, crease).run(beyond);
+                               double crease, const Known<D>& known) {
+  return ShapeFinder<D>(points, faces, across, flats, crease, known).run(beyond);
 }
 
 template ShapeParts<2> find_shape_parts<2>(std::span<const Point<2>>, const std::vector<std::array<Index, 2>>&,
-                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<2>&, double);
+                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<2>&, double,
+                                           const Known<2>&);
 template ShapeParts<3> find_shape_parts<3>(std::span<const Point<3>>, const std::vector<std::array<Index, 3>>&,
-                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<3>&, double);
+                                           const std::vector<Index>&, const std::vector<Index>&, FlatParts<3>&, double,
+                                           const Known<3>&);
 
 }  // namespace signorini::geometry

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/dot.hpp"
+#include "core/geometry/edges.hpp"
 #include "core/geometry/flat_parts.hpp"
 #include "core/geometry/groups.hpp"
 #include "core/geometry/jet.hpp"
@@ -32,17 +33,26 @@ template <int D>
 class Smoother {
  public:
   Smoother(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces, double crease,
-           const JointNormal<D>& joint_normal)
-      : points_(points), faces_(faces), crease_(crease), cosine_(std::cos(crease)), joint_normal_(joint_normal) {
+           const Known<D>& known)
+      : points_(points), faces_(faces), crease_(crease), cosine_(std::cos(crease)), known_(known) {
     for (const auto& face : faces) normal_.push_back(unit<D>(signorini::area_normal(corners_of(face))));
   }
 
   SmoothBoundary<D> run() {
     find_joints();
-    flats_ = find_flat_parts<D>(points_, faces_, across_);
-    if (!joint_normal_) part_shapes();
+    flats_ = find_flat_parts<D>(points_, faces_, across_, known_.curved);
+    part_shapes();
     find_tips();
     find_sides();
+    if (!known_.second_order()) find_patches();
+    out_.flat = std::move(flats_.part);
+    out_.shape = std::move(shapes_.part);
+    out_.shapes = std::move(shapes_.shapes);
+    return std::move(out_);
+  }
+
+ private:
+  void find_patches() {
     if constexpr (D == 3) find_crease_tangents();
     find_normals();
     if constexpr (D == 3) keep_in_planes();
@@ -51,13 +61,8 @@ class Smoother {
       auto& normals = out_.normals.emplace_back();
       for (int i = 0; i < D; ++i) normals[i] = side_normal_[side_[f * D + i]];
     }
-    for (const Index part : flats_.part) out_.flat.push_back(part >= 0 ? 1 : 0);
-    out_.shape = shapes_.part.empty() ? std::vector<Index>(faces_.size(), -1) : std::move(shapes_.part);
-    out_.shapes = std::move(shapes_.shapes);
-    return std::move(out_);
   }
 
- private:
   std::array<Point<D>, D> corners_of(const std::array<Index, D>& face) const {
     std::array<Point<D>, D> p;
     for (int i = 0; i < D; ++i) p[i] = points_[face[i]];
@@ -67,8 +72,8 @@ class Smoother {
   /// What faces have in common without an edge of the body.
   void find_joints() {
     all_ = geometry::find_joints<D>(static_cast<Index>(points_.size()), faces_);
-    edges_ = find_edges<D>(points_, faces_, all_, crease_, joint_normal_);
-    if (!joint_normal_) join_parts(find_flat_parts<D>(points_, faces_, all_.beyond).part);
+    edges_ = find_edges<D>(points_, faces_, all_, crease_, known_.normal);
+    if (!known_.second_order()) join_parts(find_flat_parts<D>(points_, faces_, all_.beyond).part);
     find_across();
   }
 
@@ -91,7 +96,7 @@ class Smoother {
 
   /// Shapes and planes that meet at an angle meet at an edge, whatever the faces beside it show.
   void part_shapes() {
-    shapes_ = find_shape_parts<D>(points_, faces_, across_, all_.beyond, flats_, crease_);
+    shapes_ = find_shape_parts<D>(points_, faces_, across_, all_.beyond, flats_, crease_, known_);
     join_parts(shapes_.part);
     find_across();
     for (const Index i : shapes_.edges) edges_.sharp[all_.number[i]] = 1;
@@ -110,7 +115,7 @@ class Smoother {
   /// Of the plane or shape that a face is of, at a vertex; on the face's side.
   std::optional<Point<D>> told_normal(Index f, Index v) const {
     if (const Index part = flats_.part[f]; part >= 0) return flats_.normal[part];
-    const Index part = shapes_.part.empty() ? -1 : shapes_.part[f];
+    const Index part = shapes_.part[f];
     if (part < 0) return {};
     const double size = length<D>(difference<D>(points_[faces_[f][1]], points_[faces_[f][0]]));
     const auto off = height<D>(shapes_.shapes[part], points_[v]);
@@ -121,7 +126,7 @@ class Smoother {
   void find_tips() {
     is_tip_.assign(points_.size(), 0);
     if constexpr (D == 3) {
-      if (joint_normal_) return;
+      if (known_.second_order()) return;
       is_tip_ = geometry::find_tips(points_, faces_, all_, edges_.sharp, crease_);
       find_fans();
       for (std::size_t f = 0; f < faces_.size(); ++f) {
@@ -383,7 +388,7 @@ class Smoother {
     constexpr double third = 1.0 / 3;
     const Point<3> middle = patch.at({third, third, third});
     Point<3> target = middle;
-    const Index part = shapes_.part.empty() ? -1 : shapes_.part[f];
+    const Index part = shapes_.part[f];
     if (part >= 0) target = project<3>(shapes_.shapes[part], middle);
     for (int i = 0; i < 3 && part < 0; ++i) {
       if (is_tip_[faces_[f][i]] == 0) continue;
@@ -398,7 +403,7 @@ class Smoother {
   std::span<const Point<D>> points_;
   const std::vector<std::array<Index, D>>& faces_;
   double crease_, cosine_;
-  const JointNormal<D>& joint_normal_;
+  const Known<D>& known_;
   std::vector<Point<D>> normal_;  // of the flat faces
   Joints<D> all_;
   Edges edges_;
@@ -419,8 +424,8 @@ class Smoother {
 
 template <int D>
 SmoothBoundary<D> smooth_boundary(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                                  double crease, const JointNormal<D>& joint_normal) {
-  return Smoother<D>(points, faces, crease, joint_normal).run();
+                                  double crease, const Known<D>& known) {
+  return Smoother<D>(points, faces, crease, known).run();
 }
 
 // A patch lies in the convex hull of its control points, the flat one in that of the same points on the face.
@@ -437,7 +442,7 @@ double bulge(const CubicPatch<D>& patch) {
 
 #define SIGNORINI_INSTANTIATE(D)                                                                                     \
   template SmoothBoundary<D> smooth_boundary<D>(std::span<const Point<D>>, const std::vector<std::array<Index, D>>&, \
-                                                double, const JointNormal<D>&);                                      \
+                                                double, const Known<D>&);                                            \
   template double bulge<D>(const CubicPatch<D>&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/edges.hpp"
+#include "core/geometry/known.hpp"
 #include "core/mesh/cubic_patch.hpp"
 #include "core/mesh/mesh.hpp"
 
@@ -29,7 +29,7 @@ struct SmoothBoundary {
   std::vector<CubicPatch<D>> patches;  ///< per face
   std::vector<Index> piece;            ///< per face the smooth piece it belongs to, from 0
   Index pieces = 0;
-  std::vector<std::uint8_t> flat;                ///< per face whether it is of a flat part
+  std::vector<Index> flat;                       ///< per face the number of its flat part, or -1
   std::vector<double> turn;                      ///< per face the largest angle to a neighbour on its side of creases
   std::vector<std::array<Point<D>, D>> normals;  ///< per face, at its corners, of unit length
   std::vector<Index> shape;                      ///< per face the number of the shape that it is on, or -1
@@ -38,10 +38,10 @@ struct SmoothBoundary {
 
 /// @param faces oriented alike: normals to the left hand (D = 2: to the right) of the order of the corners
 /// @param crease angle between normals in radians, from 0 to pi, from which on there is a crease in any case
-/// @param joint_normal in place of the flat faces' normals
+/// @param known of curved faces there are only pieces, flat parts and shapes, no patches
 template <int D>
 SmoothBoundary<D> smooth_boundary(std::span<const Point<D>> points, const std::vector<std::array<Index, D>>& faces,
-                                  double crease, const JointNormal<D>& joint_normal = {});
+                                  double crease, const Known<D>& known = {});
 
 /// The largest distance between a patch and its flat face, from above.
 template <int D>

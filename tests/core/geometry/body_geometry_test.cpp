@@ -243,6 +243,20 @@ TEST(BodyGeometry, CornersByTheirAngle) {
   EXPECT_EQ(kinds(rounded), (std::multiset<std::string>{"circle", "circle"}));
 }
 
+// A quarter of an octagon has but three vertices, its circle eight.
+TEST(BodyGeometry, ShapesAreFoundWithTheirImages) {
+  const double c = std::sqrt(0.5);
+  RawMesh<2> raw;
+  raw.points = {{0, 0}, {1, 0}, {c, c}, {0, 1}};
+  raw.elements = {{0, 1, 2}, {0, 2, 3}};
+  Mesh<2> quarter = build_mesh<2>(std::move(raw), "test");
+  for (const int axis : {0, 1}) add_mirror(quarter, {.axis = axis, .at = 0}, "test");
+  remove_faces_on_mirrors(quarter);
+  give_geometry(quarter, Surfaces::automatic, 50 * std::numbers::pi / 180, quarter.mirrors);
+  EXPECT_EQ(kinds(quarter), std::multiset<std::string>{"circle"});
+  EXPECT_LT(off_unit_sphere(quarter), 1e-12);
+}
+
 // A straight and a round side that run into each other smoothly are one smooth piece, but two groups.
 TEST(BodyGeometry, GroupsThatAreShapesAreFittedOneByOne) {
   RawMesh<2> raw;
