@@ -35,6 +35,7 @@ constexpr double deviations = 2;        // of what is left of a fit
 constexpr int most_layers = 8;          // of faces,
 constexpr std::size_t enough = 9;       // and vertices, that a surface is put through
 constexpr std::size_t most_points = 4;  // of a section
+constexpr int fewest_around = 7;        // plates around a tip
 
 enum class Kind : std::uint8_t {
   wall,  ///< a border, or an edge by its angle alone
@@ -133,6 +134,7 @@ struct Side {
   std::vector<Index> beside;    ///< these, and the others of the face
   std::optional<Turn> section;  ///< of plane sections across the joint
   std::optional<Turn> surface;  ///< of the surface through vertices
+  std::optional<Turn> fan;      ///< around a tip that the joint ends at
   bool rim = false;             ///< it ends nearby, where there are no faces any more
 };
 
@@ -329,6 +331,8 @@ class EdgeFinder {
       if (found > 0) side.section = Turn{sum.angle / found, sum.error / found};
     }
     if (side.section) side.section->angle *= sign;
+    if constexpr (D == 3) side.fan = turn_around_tip(i);
+    if (side.fan) side.fan->angle *= sign;
     side.beside = side.next;
     for (int t = 0; t < D && !side.next.empty(); ++t)
       if (t != i % D) side.beside.push_back(i / D * D + t);
@@ -389,6 +393,30 @@ class EdgeFinder {
   }
 
   static double error_of(double turned) { return left_out * turned * turned * turned; }
+
+  /// Plates around a tip get wider away from it, and straight sections across them turn ever less, while the circle
+  /// around the tip turns at each joint by as much as the plates beside it are wide.
+  std::optional<Turn> turn_around_tip(Index i) const {
+    for (int k = 0; k < D - 1; ++k) {
+      const Index tip = end(i, k);
+      std::vector<double> width{0}, angle;  // of plates, and at the joints behind them
+      Index in = i;
+      do {
+        const Index f = in / D, at = static_cast<Index>(std::ranges::find(faces_[f], tip) - faces_[f].begin());
+        const Index out = D * f + (3 - at - in % D);
+        const auto towards = [&](Index j) { return unit<D>(difference<D>(points_[faces_[f][j]], points_[tip])); };
+        width.back() += angle_between<D>(towards(in % D), towards(out % D));
+        in = joints_.beyond[out];
+        if (is_wall(out)) break;
+        if (kind_[out] == Kind::flat || in == i) continue;
+        angle.push_back(is_convex(out) ? angle_[out] : -angle_[out]);
+        width.push_back(0);
+      } while (in != i);
+      if (in == i && std::ssize(width) >= fewest_around)
+        return Turn{angle[0] * width[0] / (width[0] + width[1]), error_of(angle[0])};
+    }
+    return {};
+  }
 
   /// The joint where a plane leaves a face that it has come into through another one.
   Index way_out(Index i, const Point<D>& from, const Point<D>& along) const {
@@ -557,7 +585,7 @@ class EdgeFinder {
 
   void set(Index i, Kind kind) { kind_[i] = kind_[joints_.beyond[i]] = kind; }
 
-  static constexpr std::array ways{&Side::section, &Side::surface};
+  static constexpr std::array ways{&Side::section, &Side::surface, &Side::fan};
 
   static bool is_round(double angle, const Turn& a, const Turn& b) {
     const double left = angle - a.angle - b.angle;

@@ -19,9 +19,10 @@ struct Edges {
 /// arc. Beside other plates, the surface goes on with the curvature that its faces there have: the quadratic surface
 /// through the vertices on one side of the joint, tangent to flat plates, has a normal at the joint. Where the normals
 /// of both sides are nearer to each other than half the angle between the faces, the joint is one of a round surface.
-/// Four points on an arc may be a chamfered block as well: so there have to be joints on both sides that turn on, or on
-/// one side one that has been found to be round before; or two joints between three faces of one height that meet at
-/// one angle, as no chamfers do but by chance. What nothing tells to be round is an edge, whatever its angle.
+/// Around a tip, with plates that get wider away from it, the angle at the next joint counts by the widths of the
+/// plates. Four points on an arc may be a chamfered block as well: so there have to be joints on both sides that turn
+/// on, or on one side one that has been found to be round before; or two joints between three faces of one height that
+/// meet at one angle, as no chamfers do but by chance. What nothing tells to be round is an edge, whatever its angle.
 ///
 /// Of curved faces the angle between their normals is taken as it is, beside that by which they turn themselves.
 /// @param crease angle in radians from which on there is an edge in any case

@@ -464,5 +464,41 @@ TEST(BodyGeometry, SecondOrderElementsWhoseNodesAreOnAShapeStandForIt) {
   EXPECT_LT(off_unit_sphere(mesh), 1e-14);
 }
 
+/// A bar of revolution of second order, with a bore.
+/// @param radius where the outside is, from 0 to 1 along the axis
+template <class Radius>
+Mesh<3> turned(std::array<Index, 3> cells, const Radius& radius) {
+  const Mesh<3> grid = box({0, 0, 0}, {1, 1, 1}, cells);
+  RawMesh<3> raw;
+  std::map<std::array<std::int64_t, 3>, Index> number;  // of a point, where the ends of the grid meet
+  const auto add = [&](const Point<3>& at) {
+    const double angle = 2 * std::numbers::pi * at[1], r = 0.4 + (radius(at[2]) - 0.4) * at[0];
+    const Point<3> p{r * std::cos(angle), r * std::sin(angle), at[2]};
+    std::array<std::int64_t, 3> key;
+    for (int k = 0; k < 3; ++k) key[k] = std::llround(1e7 * p[k]);
+    const auto [found, is_new] = number.try_emplace(key, static_cast<Index>(raw.points.size()));
+    if (is_new) raw.points.push_back(p);
+    return found->second;
+  };
+  for (const Simplex<3>& element : grid.elements) {
+    auto& vertices = raw.elements.emplace_back();
+    auto& middle = raw.middle.emplace_back();
+    for (int i = 0; i < 4; ++i) vertices[i] = add(grid.points[element[i]]);
+    for (std::size_t k = 0; k < middle.size(); ++k) {
+      const auto [a, b] = simplex_edges<3>()[k];
+      middle[k] = add(midpoint<3>(grid.points[element[a]], grid.points[element[b]]));
+    }
+  }
+  return build_mesh<3>(std::move(raw), "test");
+}
+
+TEST(BodyGeometry, CylindersThatRunIntoConesAreFoundInSecondOrderFiles) {
+  for (const Index around : {4, 6, 12}) {
+    Mesh<3> mesh = turned({1, around, 4}, [](double z) { return z < 0.5 ? 1 : 1 + 0.2 * (z - 0.5); });
+    give_geometry(mesh, Surfaces::automatic);
+    EXPECT_EQ(kinds(mesh), (std::multiset<std::string>{"cone", "cylinder", "cylinder", "plane", "plane"})) << around;
+  }
+}
+
 }  // namespace
 }  // namespace signorini

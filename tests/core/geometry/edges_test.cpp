@@ -185,6 +185,22 @@ TEST(Edges, BetweenThreeCellsOfAnArcAreNone) {
   }
 }
 
+Facets<3> pyramid(Index sides, double height) {
+  Facets<3> out{{{0, 0, height}}, {}};
+  for (Index i = 0; i < sides; ++i) {
+    out.points.push_back({2 * std::cos(2 * pi * i / sides), 2 * std::sin(2 * pi * i / sides), 0});
+    out.faces.push_back({0, 1 + i, 1 + (i + 1) % sides});
+  }
+  return out;
+}
+
+TEST(Edges, OfPyramidsOfManySidesAreThoseOfConesHoweverFlat) {
+  for (const double height : {0.1, 0.3, 0.6, 1.0, 1.3}) {
+    for (const Index sides : {7, 8, 9, 10, 11, 13}) EXPECT_EQ(count(pyramid(sides, height)).sharp, 0) << sides;
+    for (const Index sides : {3, 4}) EXPECT_EQ(count(pyramid(sides, height)).smooth, 0) << sides;
+  }
+}
+
 /// Irregular triangles on x(u, v), closed in u where `closed`.
 template <class X>
 Facets<3> grid(int n, int m, bool closed, const X& x) {
