@@ -96,6 +96,7 @@ void BodyRun<D, B>::begin(double t) {
   follows_ = false;
   accepted_t_ = 0;
   accepted_contact_ = {};
+  accepted_bolts_.clear();
   if (body().parts.empty()) return;
   if constexpr (D == B)
     slaves_ = choose_slaves(Nodes(hierarchy_.levels.front()), build_model<B>(scene_, D, registry_, t, body_));
@@ -105,7 +106,18 @@ template <int D, int B>
 Model<B> BodyRun<D, B>::model(const LoadStep& step) const {
   Model<B> out = build_model<B>(scene_, D, registry_, step, body_);
   if constexpr (D == B) exchange_sides(slaves_, out);
+  for (std::size_t k = 0; k < out.obstacles.size(); ++k)
+    if (auto& pretension = out.obstacles[k].pretension; pretension && pretension->locked)
+      pretension->locked = shortening_of(static_cast<Index>(k), pretension->origin);
   return out;
+}
+
+/// In the last step that was accepted.
+template <int D, int B>
+double BodyRun<D, B>::shortening_of(Index obstacle, const std::string& origin) const {
+  const auto bolt = std::ranges::find(accepted_bolts_, obstacle, &BoltState::obstacle);
+  if (bolt == accepted_bolts_.end()) input_error(origin, "no step has pulled the bolt that is to keep its length");
+  return bolt->shortening;
 }
 
 template <int D, int B>
@@ -151,6 +163,7 @@ void BodyRun<D, B>::start_from(const std::vector<double>& u) {
 template <int D, int B>
 void BodyRun<D, B>::accept() {
   accepted_ = results_.u;
+  accepted_bolts_ = results_.bolts;
   if (remembers()) accepted_contact_ = results_.contact;
   follows_ = true;
   accepted_t_ = t_;

@@ -85,6 +85,7 @@ class BodyRun {
 
  private:
   Model<B> model(const LoadStep& step) const;
+  double shortening_of(Index obstacle, const std::string& origin) const;
   Solution<B> solve(const Model<B>& model, const LoadStep& step);
   Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
   void add_estimate(StepReport& report, Warnings& warnings);
@@ -103,6 +104,7 @@ class BodyRun {
   Model<B> model_;                              // of the last step
   std::vector<double> accepted_;                // displacements or values; empty: none yet
   ContactState<B> accepted_contact_;            // where friction depends on it
+  std::vector<BoltState> accepted_bolts_;
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;

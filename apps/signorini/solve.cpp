@@ -134,6 +134,9 @@ void print_contact(const ContactReport& contact) {
     fmt::print("obstacle {}: {} nodes tied, area {:.6g}, force ({:.6g})\n", contact.obstacle, contact.nodes,
                contact.area, fmt::join(contact.force, ", "));
     fmt::print("  force on {}; the slave is {} ({})\n", contact.body, contact.pair->slave, contact.pair->reason);
+    if (const auto& bolt = contact.bolt)
+      fmt::print("  bolt: force {:.6g}, shortening {:.6g}{}\n", bolt->force, bolt->shortening,
+                 bolt->locked ? ", locked" : "");
     return;
   }
   fmt::print("obstacle {}: {} nodes in contact, area {:.6g}, force ({:.6g}), largest pressure {:.6g}\n",

@@ -20,6 +20,13 @@ struct PairReport {
   std::vector<double> force, moment;
 };
 
+/// A bolt whose shank is cut, and pulled together there.
+struct BoltReport {
+  double force = 0;       ///< that it pulls by
+  double shortening = 0;  ///< by which the sides of the cut are pulled into each other
+  bool locked = false;    ///< it keeps its length, and the force is what comes of that
+};
+
 /// What one obstacle does to the body it acts on.
 struct ContactReport {
   int obstacle = 0;           ///< number of the scene's [[obstacle]], from 0
@@ -52,6 +59,7 @@ struct ContactReport {
   double penetration_between_nodes = 0;  ///< see violation_between_nodes(); NaN where it is not measured
   std::optional<PairReport> pair{};      ///< nothing where it acts on one body
   bool tied = false;  ///< a tie: its nodes are held together, and count as in contact; there are no pressures
+  std::optional<BoltReport> bolt{};  ///< of a tie with pretension
 };
 
 /// A total force on the body it acts on, one entry per unknown of a vertex.

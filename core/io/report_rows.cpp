@@ -197,6 +197,20 @@ struct Table<PairReport> {
 };
 
 template <>
+struct Table<BoltReport> {
+  static constexpr const char* name = "bolt";
+  static std::vector<Row<BoltReport>> rows() {
+    using B = BoltReport;
+    return {member("force", &B::force, "that it pulls by; negative: it is pushed"),
+            member("shortening", &B::shortening,
+                   "length by which the two sides of the cut are pulled into each other, the same all over it"),
+            member("locked", &B::locked,
+                   "whether the shortening is that of an earlier step; then the force is what comes of it, else it is "
+                   "`pretension`")};
+  }
+};
+
+template <>
 struct Table<ContactReport> {
   static constexpr const char* name = "contact";
   static std::vector<Row<ContactReport>> rows() {
@@ -250,6 +264,9 @@ struct Table<ContactReport> {
                    [](const C& c) { return c.pair ? Json(c.pair->force) : left_out(); }});
     all.push_back({{"other_moment", Kind::numbers, "its moment about `moment_about`", false, true},
                    [](const C& c) { return c.pair ? Json(c.pair->moment) : left_out(); }});
+    all.push_back({{"bolt", Kind::object, "of a tie with `pretension`: what the bolt does", false, true,
+                    &object_spec<BoltReport>},
+                   [](const C& c) { return c.bolt ? as_object(*c.bolt) : left_out(); }});
     return all;
   }
 };

@@ -13,6 +13,9 @@ bool scalar(const Scene& scene, const std::string& body);
 /// The reader refuses such constants already; a program may have written others. Expressions are checked in use.
 void expect_finite(const Field& field, const std::string& place);
 
+/// The keys `pretension` and `lock_at`.
+void check_pretension(const Scene& scene, const Scene::Obstacle& obstacle);
+
 /// @param what one of them: "component"
 void expect_length(std::size_t found, std::size_t expected, const std::string& place, std::string_view what);
 

@@ -168,7 +168,7 @@ void check_rigids(const Scene& scene) {
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
 void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
-    for (const char* key : {"other_on", "other_where", "slave", "pairing", "resolve", "renew"})
+    for (const char* key : {"other_on", "other_where", "slave", "pairing", "resolve", "renew", "pretension", "lock_at"})
       if (obstacle.source.given(key))
         input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the second body", key));
     return;
@@ -203,6 +203,7 @@ void check_obstacles(const Scene& scene) {
     if (!obstacle.on && !scalar(scene, obstacle.body))
       input_error(obstacle.source.table, "neither 'on' nor 'where' is given, expected one of them");
     check_other(scene, obstacle);
+    check_pretension(scene, obstacle);
   }
 }
 

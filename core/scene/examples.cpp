@@ -122,7 +122,8 @@ the wrong side, so that it would pull at the body.
 
 **Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
 `where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.
-With `tied` they are glued together ([joints.md](joints.md)). Other types take no `other`.
+With `tied` they are glued together ([joints.md](joints.md)), and may be the halves of a bolt that is tightened
+([bolts.md](bolts.md)). Other types take no `other`.
 
 **Friction.** `coulomb` is contact with a rigid obstacle and friction. The tangential force at a node is at most the
 coefficient `friction` times the force that presses there. `tresca` is the same with a given `bound` on the tangential

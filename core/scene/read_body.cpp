@@ -21,13 +21,13 @@ std::array<Value, D> exactly(const std::vector<Value>& list, const std::string& 
 }
 
 template <int D>
-Point<D> point(const TableReader& reader, std::string_view key) {
+Point<D> coordinates(const TableReader& reader, std::string_view key) {
   return exactly<double, D>(reader.point(key), reader.origin(key), "coordinates");
 }
 
 template <int D>
 Scene::Block<D> block(const TableReader& reader) {
-  const Scene::Block<D> block{point<D>(reader, "from"), point<D>(reader, "to"),
+  const Scene::Block<D> block{coordinates<D>(reader, "from"), coordinates<D>(reader, "to"),
                               exactly<Index, D>(reader.integers("cells"), reader.origin("cells"), "numbers of cells")};
   double cells = 1;
   for (int k = 0; k < D; ++k) {
@@ -54,11 +54,11 @@ Scene::BodyShape shape(const TableReader& reader, std::string_view name) {
   if (name == "rectangle") return block<2>(reader);
   if (name == "box") return block<3>(reader);
   if (name == "disk" || name == "half_disk")
-    return geometry::Disk{point<2>(reader, "center"), reader.number("radius"), name == "half_disk"};
+    return geometry::Disk{coordinates<2>(reader, "center"), reader.number("radius"), name == "half_disk"};
   if (name == "ball" || name == "half_ball")
-    return geometry::Ball{point<3>(reader, "center"), reader.number("radius"), name == "half_ball"};
+    return geometry::Ball{coordinates<3>(reader, "center"), reader.number("radius"), name == "half_ball"};
   if (name == "cylinder")
-    return geometry::Cylinder{point<3>(reader, "center"), reader.number("radius"), reader.number("height")};
+    return geometry::Cylinder{coordinates<3>(reader, "center"), reader.number("radius"), reader.number("height")};
   if (name == "solid") return geometry::Solid{reader.file("file").string()};
   return polygon(reader);
 }
@@ -93,7 +93,7 @@ Scene::Orthotropic orthotropic(const TableReader& reader) {
   return out;
 }
 
-void read_material(const TableReader& reader, Scene::Body& body) {
+void read_own_material(const TableReader& reader, Scene::Body& body) {
   const std::string where = fmt::format("for equation = '{}'", reader.text("equation"));
   if (body.equation == Scene::Equation::diffusion) {
     for (const char* key : {"young", "poisson", "expansion", "temperature", "orthotropic", "material_axes",
@@ -183,7 +183,7 @@ Scene::Body read_body(const RawTable& table, const std::filesystem::path& folder
   body.plane = plane(reader.text("plane"));
   cut_at_axis(body);
   read_pressure(reader, body);
-  read_material(reader, body);
+  read_own_material(reader, body);
   read_size(reader, body);
   return body;
 }

@@ -66,6 +66,11 @@ Scene::Obstacle read_obstacle(const RawTable& table, const std::filesystem::path
   obstacle.pairing = pairing(reader);
   obstacle.resolve = reader.flag("resolve");
   obstacle.renew = reader.flag("renew");
+  if (reader.given("pretension")) {
+    reader.totals("pretension");  // which refuses what depends on the place
+    obstacle.pretension = reader.field("pretension");
+  }
+  if (reader.given("lock_at")) obstacle.lock_at = reader.number("lock_at");
   if (!spec) return obstacle;
   obstacle.shape_name = spec->name;
   obstacle.shape = shape(reader, table, spec->name);

@@ -162,6 +162,15 @@ struct Scene {
   };
   using ObstacleShape = std::variant<PlaneShape, SphereShape, CylinderShape, SurfaceShape, ExpressionShape>;
 
+  /// Quasi-static steps. Nothing has happened yet at t = 0.
+  struct Steps {
+    std::vector<double> at{1.0};  ///< the values of t, ascending, the last one 1
+    int halvings = 4;             ///< how often a step that fails is cut in two
+    Source source;
+
+    int count() const { return static_cast<int>(at.size()); }
+  };
+
   struct Obstacle {
     std::string type;  ///< the id of an obstacle plugin
     std::string body;
@@ -170,14 +179,18 @@ struct Scene {
     std::optional<Selection> other_on;
     Slave slave = Slave::automatic;
     Pairing pairing = Pairing::normal;
-    bool resolve = false;    ///< however deep the two overlap at the start
-    bool renew = true;       ///< pairs faces anew where the last step has moved them to
-    double adjust = 0;       ///< gaps and overlaps at the start up to this count as none
-    std::string shape_name;  ///< the key `shape`; empty without
+    bool resolve = false;             ///< however deep the two overlap at the start
+    bool renew = true;                ///< pairs faces anew where the last step has moved them to
+    double adjust = 0;                ///< gaps and overlaps at the start up to this count as none
+    std::optional<Field> pretension;  ///< of a tie: the force of a bolt that is cut there
+    std::optional<double> lock_at;    ///< t up to which it acts; nothing: the first of several steps
+    std::string shape_name;           ///< the key `shape`; empty without
     std::optional<ObstacleShape> shape;
     RawTable options;  ///< every other key: for the plugin's own OptionSpecs to validate
     Source source;
 
+    /// Whether the bolt keeps its length in a step to t.
+    bool locked(const Steps& steps, double t) const;
     /// The core's keys that this obstacle may have, for suggestions beside the plugin's own.
     std::vector<std::string> core_keys() const;
   };
@@ -217,15 +230,6 @@ struct Scene {
   struct Symmetry {
     std::vector<Mirror> planes;
     Source source;
-  };
-
-  /// Quasi-static steps. Nothing has happened yet at t = 0.
-  struct Steps {
-    std::vector<double> at{1.0};  ///< the values of t, ascending, the last one 1
-    int halvings = 4;             ///< how often a step that fails is cut in two
-    Source source;
-
-    int count() const { return static_cast<int>(at.size()); }
   };
 
   struct Probe {

@@ -53,7 +53,7 @@ bool any(const Scene::Rigid& rigid) {
   return any(rigid.on.where) || any(rigid.displacement) || any(rigid.rotation) || any(rigid.force) || any(rigid.torque);
 }
 bool any(const Scene::Obstacle& obstacle) {
-  return any(obstacle.on) || (obstacle.shape && std::visit(ShapeUses(), *obstacle.shape)) ||
+  return any(obstacle.on) || any(obstacle.pretension) || (obstacle.shape && std::visit(ShapeUses(), *obstacle.shape)) ||
          std::ranges::any_of(obstacle.options.entries, [](const auto& entry) { return any(entry.second); });
 }
 

@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -110,6 +112,14 @@ void add_product(const double* M, const BlockRow<B>& row, BlockRow<B>& out) {
   }
 }
 
+/// What a common unknown takes along cancels but for rounding.
+template <int B>
+void erase_cancelled(BlockRow<B>& row) {
+  std::erase_if(row, [](const auto& entry) {
+    return std::ranges::all_of(entry.second, [](double w) { return std::abs(w) <= rounding_of_differences; });
+  });
+}
+
 }  // namespace
 
 template <int B>
@@ -178,6 +188,8 @@ void JumpBuilder<B>::resolve(const std::vector<Index>& circle) {
         for (int j = 0; j < B; ++j) M[i * B + j] = gain(static_cast<Index>(s) * B + i, static_cast<Index>(t) * B + j);
       if (std::ranges::any_of(M, [](double c) { return c != 0; })) add_product<B>(M.data(), from_outside[t], out);
     }
+    if (std::ranges::any_of(common_, [&](Index c) { return c != circle[s] && out.contains(c); }))
+      erase_cancelled<B>(out);
   }
 }
 
@@ -189,6 +201,7 @@ Jumps<B> JumpBuilder<B>::take() {
     if (row(p)) found.visit(p);
   for (const std::vector<Index>& circle : found.all()) resolve(circle);
   Jumps<B> out;
+  out.common = common_;
   for (auto& [p, rows] : rows_) {
     out.vector.push_back(p);
     append<B>(rows.basis, out.basis);
@@ -222,6 +235,7 @@ Jumps<B> chosen_jumps(const Jumps<B>& all, const std::vector<char>& keep) {
       for (double& w : W) w = -w;
     out.add(p, std::move(inverse));
   }
+  for (const Index p : all.common) out.share(p);
   return out.take();
 }
 

@@ -28,6 +28,8 @@ class JumpBuilder {
   /// Both rows, which are the inverse of each other within the vectors that are added by this.
   void add(Index p, BlockRow<B> by_unknowns, BlockRow<B> by_displacements);
   bool has(Index p) const { return rows_.contains(p); }
+  /// Says of an added p that rows of others have its unknown, see Jumps::common.
+  void share(Index p) { common_.push_back(p); }
 
   Jumps<B> take();
 
@@ -42,10 +44,11 @@ class JumpBuilder {
   void resolve(const std::vector<Index>& circle);
 
   std::map<Index, Rows> rows_;
+  std::vector<Index> common_;
 };
 
 /// Those of all that are chosen. What is not, is a displacement.
-/// @param keep per vector of `all`; of those that are given all or none
+/// @param keep per vector of `all`; of those that are given, or have a common unknown, all or none
 template <int B>
 Jumps<B> chosen_jumps(const Jumps<B>& all, const std::vector<char>& keep);
 

@@ -264,11 +264,14 @@ class JumpInterpolation {
     Prolongation out;
     out.coarse = P_.coarse;
     out.twin = P_.twins();
+    for (std::size_t k = 0; k < fine_.common.size(); ++k) pair_up(k, out.twin);
     out.row.reserve(P_.row.size());
     out.column.reserve(P_.column.size());
     out.block.reserve(P_.column.size() * B * B);
     for (Index p = 0; p < P_.fine(); ++p) {
-      if (const Index s = fine_slave_[p]; s >= 0)
+      if (const auto common = std::ranges::find(fine_.common, p); common != fine_.common.end())
+        row_.add(coarse_.common[common - fine_.common.begin()], 1, identity().data());
+      else if (const Index s = fine_slave_[p]; s >= 0)
         for (Offset j = fine_.inverse.row[s]; j < fine_.inverse.row[s + 1]; ++j)
           add_displacement(fine_.inverse.column[j], fine_.inverse.at(j));
       else
@@ -283,6 +286,12 @@ class JumpInterpolation {
     Block out{};
     for (int i = 0; i < B; ++i) out[i * (B + 1)] = 1;
     return out;
+  }
+
+  /// The k-th common unknown is the same one on both levels, though it may be at another node.
+  void pair_up(std::size_t k, std::vector<Index>& twin) const {
+    std::ranges::replace(twin, fine_.common[k], Index{-1});
+    twin[coarse_.common[k]] = fine_.common[k];
   }
 
   /// Adds M times the displacement of the fine vector p.

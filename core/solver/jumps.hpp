@@ -34,6 +34,8 @@ struct Jumps {
   BlockRows<B> basis;         ///< Z there: u_p by unknowns
   BlockRows<B> inverse;       ///< Z^-1 there: x_p by displacements
   std::vector<char> given;    ///< per vector: its rows have nothing to do with those of vectors where this is not so
+  /// Vectors whose unknown moves many others, too. Of two levels the k-th ones are the same unknown.
+  std::vector<Index> common = {};
 
   Index size() const { return static_cast<Index>(vector.size()); }
   bool operator==(const Jumps&) const = default;

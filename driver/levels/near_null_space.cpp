@@ -17,14 +17,15 @@ std::vector<Index> bodies(const Nodes<D>& nodes) {
   return out;
 }
 
-/// Unknowns that are the motion of a rigid part are no displacements: each is a part of its own, which coarse levels
-/// keep.
+/// Unknowns that are the motion of a rigid part, or common to many nodes, are no displacements: each is a part of its
+/// own, which coarse levels keep.
 template <int B>
 void isolate_motions(const Jumps<B>& jumps, std::vector<Index>& part) {
   const BlockRows<B>& rows = jumps.basis;
   for (Index k = 0; k < jumps.size(); ++k)
     for (Offset j = rows.row[k]; j < rows.row[k + 1] && jumps.given[k]; ++j)
       if (rows.column[j] != jumps.vector[k]) part[rows.column[j]] = -1 - rows.column[j];
+  for (const Index p : jumps.common) part[p] = -1 - p;
 }
 
 /// Each body moves by itself, for no more than contact couples it to others. In terms of unknowns a slave that moves
@@ -37,11 +38,12 @@ std::vector<Index> parts(const Nodes<D>& nodes, const Jumps<B>& jumps) {
   std::vector<Index> out = body;
   const BlockRows<B>& rows = jumps.inverse;
   isolate_motions(jumps, out);
+  const auto is_common = [&](Index p) { return std::ranges::find(jumps.common, p) != jumps.common.end(); };
   for (Index k = 0; k < jumps.size(); ++k) {
     const Index p = jumps.vector[k];
     if (jumps.given[k]) continue;
     for (Offset j = rows.row[k]; j < rows.row[k + 1] && out[p] == body[p]; ++j)
-      if (rows.column[j] != p) out[p] += many * (1 + body[rows.column[j]]);
+      if (rows.column[j] != p && !is_common(rows.column[j])) out[p] += many * (1 + body[rows.column[j]]);
   }
   return out;
 }

@@ -192,6 +192,8 @@ std::vector<ContactReport> contact_reports(const Scene& scene, const Nodes<D>& n
     report.moment_about.assign(about.begin(), about.begin() + D);
     for (int i = 0; i < D; ++i) report.motion.push_back(about[i] - start[i]);
   }
+  for (const BoltState& bolt : results.bolts)
+    reports[bolt.obstacle].bolt = {bolt.force * whole[bolt.obstacle].copies(), bolt.shortening, bolt.locked};
   add_moments(nodes, scene.bodies[body].plane, results, reports);
   for (ContactReport& report : reports) {
     const bool inside = B == 1 && !scene.obstacles[report.obstacle].on;

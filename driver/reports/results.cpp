@@ -42,6 +42,7 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discre
   out.across = conditions_across(nodes, model);
   out.slaves.resize(model.obstacles.size());
   out.ties = tie_forces(nodes, model, discretization, local);
+  out.bolts = bolts<D>(model, discretization, out.ties, local);
   out.counterforces = counterforces(nodes, model, discretization.problem, out.contact, out.ties);
   MasterSide<B> masters = master_side(nodes, model, out.counterforces, out.u);
   if constexpr (D == B)

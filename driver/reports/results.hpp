@@ -11,6 +11,7 @@
 #include "core/fem/recovery/master_side.hpp"
 #include "core/fem/recovery/rigid_gap.hpp"
 #include "core/fem/recovery/rigid_motion.hpp"
+#include "core/fem/recovery/ties.hpp"
 #include "core/io/warning.hpp"
 #include "driver/levels/nested_solver.hpp"
 #include "driver/scene/symmetry.hpp"
@@ -28,6 +29,7 @@ struct Results {
   std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
   std::vector<RigidMotion<B>> rigid;                     ///< as those of the model
   std::vector<TieForce<B>> ties;                         ///< tie_forces()
+  std::vector<BoltState> bolts;                          ///< of each tie with pretension
   std::vector<NodalForce<B>> counterforces;              ///< see there
   std::vector<ContactNode<B>> masters;                   ///< master_side()
   std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model

@@ -101,6 +101,20 @@ std::optional<double> adjust(const Scene::Obstacle& scene, const Obstacle<B>& ob
 }
 
 template <int B>
+std::optional<Pretension> pretension(const Scene& scene, const Scene::Obstacle& obstacle, const ObstacleTerm<B>& term,
+                                     double t) {
+  if (!obstacle.pretension) return {};
+  const std::string& place = obstacle.source.of("pretension");
+  if (!term.tied)
+    input_error(place,
+                fmt::format("bolts are cut, and their parts tied to each other: expected type = 'tied', not '{}'",
+                            obstacle.type));
+  Pretension out{*obstacle.pretension, {}, place};
+  if (obstacle.locked(scene.steps, t)) out.locked = 0;  // where no step has found another one
+  return out;
+}
+
+template <int B>
 LocalFrame<B> frame(Frame kind, const Scene::FrameAxis& axis) {
   LocalFrame<B> out = kind;
   std::ranges::copy(axis.center, out.center.begin());
@@ -288,6 +302,7 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     term.renew = obstacle.renew;
     term.adjust = obstacle.adjust;
     term.tied = adjust<B>(obstacle, *term.obstacle);
+    term.pretension = pretension(scene, obstacle, term, step.to);
   }
   return model;
 }

@@ -21,6 +21,7 @@
 #include "core/fem/elements/element.hpp"
 #include "core/fem/model/same.hpp"
 #include "core/fem/pairs/paired_bodies.hpp"
+#include "core/fem/pairs/pretension.hpp"
 #include "core/fem/pairs/rigid_parts.hpp"
 #include "core/sdk/block.hpp"
 #include "core/solver/local_coordinates.hpp"
@@ -157,7 +158,10 @@ class Discretizer {
   void assemble_load() {
     out_.load = load_vector<D, B>(nodes_, model_, &out_.applied);
     if constexpr (D == B)
-      if (pairing_) add_rigid_loads<D>(nodes_, model_, *pairing_, out_.load);
+      if (pairing_) {
+        add_rigid_loads<D>(nodes_, model_, *pairing_, out_.load);
+        add_pretension<D>(model_, *pairing_, out_.load);
+      }
   }
 
   void place_load() {
@@ -165,18 +169,28 @@ class Discretizer {
     out_.prescribed.take_load(problem().b);
   }
 
-  /// What is rigid moves by the motion of its point, and what is tied has no jump.
+  /// What is rigid moves by the motion of its point, and what is tied has no jump but that of a bolt.
   void hold_pairs() {
     if constexpr (D == B)
       if (!pairing_->rigid.empty()) signorini::hold<D>(nodes_, model_, pairing_->rigid, fixes_);
     if (pairing_->ties.empty()) return;
     std::map<Index, FixedDirections<B>> held;
     for (const FixedDirections<B>& fixed : fixes_) held.emplace(fixed.vertex, fixed);
+    if constexpr (D == B)
+      for (const PretensionedTie<B>& tie : pairing_->pretensioned)
+        hold_carrier<D>(tie, *model_.obstacles[tie.obstacle].pretension,
+                        held.try_emplace(tie.carrier, FixedDirections<B>{.vertex = tie.carrier}).first->second);
     for (const TiedNode& node : pairing_->ties)
-      held.try_emplace(node.node, FixedDirections<B>{.vertex = node.node})
-          .first->second.hold_rest(by_tie(node.obstacle));
+      if (!is_carrier(node.node))
+        held.try_emplace(node.node, FixedDirections<B>{.vertex = node.node})
+            .first->second.hold_rest(by_tie(node.obstacle));
     fixes_.clear();
     for (const auto& [node, fixed] : held) fixes_.push_back(fixed);
+  }
+
+  bool is_carrier(Index node) const {
+    return std::ranges::find(pairing_->pretensioned, node, &PretensionedTie<B>::carrier) !=
+           pairing_->pretensioned.end();
   }
 
   /// A bound of what one body does is none of a jump.

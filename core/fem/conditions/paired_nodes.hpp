@@ -38,6 +38,15 @@ struct RigidNodes {
   double length = 1;                             ///< the second carrier has the rotation times that
 };
 
+/// A tie that a bolt's pretension closes, see core/fem/pairs/pretension.hpp.
+template <int B>
+struct PretensionedTie {
+  Index obstacle;                ///< number in Model::obstacles
+  Index carrier;                 ///< the node that has the unknown
+  std::array<double, B> normal;  ///< out of the slave
+  int copies = 1;                ///< of this part, with its images beyond planes of symmetry: they share the force
+};
+
 /// A node of a slave at which a condition of contact is left away, for other ones hold at all nodes of a face there.
 struct LostNode {
   Index node;
@@ -60,7 +69,8 @@ struct PairedBodies {
   std::vector<PairedNode<B>> nodes;  ///< of one obstacle after the other, each by ascending node
   std::vector<TiedNode> ties;        ///< by ascending node
   std::vector<RigidNodes<B>> rigid;  ///< as Model::rigid
-  std::optional<LostNode> lost;      ///< the first one of those; not admitted on the finest mesh
+  std::vector<PretensionedTie<B>> pretensioned;
+  std::optional<LostNode> lost;  ///< the first one of those; not admitted on the finest mesh
   std::shared_ptr<const Jumps<B>> jumps;
   std::shared_ptr<const MasterMeans> means;  ///< of all nodes that there are; null: not known
 };

@@ -115,6 +115,14 @@ struct RigidPart {
 /// Of two bodies that may touch each other the one that is to be the slave.
 enum class Slave { automatic, body, other };
 
+/// Of a tie across the shank of a bolt: its sides are pulled into each other along the normal, all by the same length,
+/// by which the bolt is shorter then.
+struct Pretension {
+  Field force;                   ///< in total, of the whole; a function of t
+  std::optional<double> locked;  ///< the length that is kept whatever the force is then; nothing: the force acts
+  std::string origin;
+};
+
 /// An obstacle and the vertices it may touch: those of the selected faces, or all when `on` is empty.
 template <int B>
 struct ObstacleTerm {
@@ -139,6 +147,7 @@ struct ObstacleTerm {
   double adjust = 0;     ///< gaps and overlaps of bodies that may part, at the start, up to this count as none
   /// Of bodies that are tied to each other how far apart they may be at the start, see Tying; nothing: they may part.
   std::optional<double> tied = {};
+  std::optional<Pretension> pretension = {};  ///< of a tie
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.

@@ -53,6 +53,14 @@ bool same(const RigidPart<B>& a, double ta, const RigidPart<B>& b, double tb) {
          std::ranges::equal(a.torque, b.torque, alike);
 }
 
+/// What bolts are pulled by.
+template <int B>
+bool same_pretension(const ObstacleTerm<B>& a, double ta, const ObstacleTerm<B>& b, double tb) {
+  const auto pulls = [](const ObstacleTerm<B>& term) { return term.pretension && !term.pretension->locked; };
+  if (pulls(a) != pulls(b)) return false;
+  return !pulls(a) || a.pretension->force.same(ta, b.pretension->force, tb);
+}
+
 template <int B>
 bool same_orthotropy(const Model<B>& a, const Model<B>& b) {
   return std::ranges::equal(a.orthotropic, b.orthotropic,
@@ -89,7 +97,10 @@ bool same_loads(const Model<B>& a, const Model<B>& b) {
          std::equal(a.loads.begin(), a.loads.end(), b.loads.begin(), b.loads.end(),
                     [&](const Load<B>& x, const Load<B>& y) { return same(x, a.t, y, b.t); }) &&
          std::equal(a.rigid.begin(), a.rigid.end(), b.rigid.begin(), b.rigid.end(),
-                    [&](const RigidPart<B>& x, const RigidPart<B>& y) { return same(x, a.t, y, b.t); });
+                    [&](const RigidPart<B>& x, const RigidPart<B>& y) { return same(x, a.t, y, b.t); }) &&
+         std::equal(
+             a.obstacles.begin(), a.obstacles.end(), b.obstacles.begin(), b.obstacles.end(),
+             [&](const ObstacleTerm<B>& x, const ObstacleTerm<B>& y) { return same_pretension(x, a.t, y, b.t); });
 }
 
 #define SIGNORINI_INSTANTIATE(B)                                  \

@@ -17,6 +17,7 @@
 #include "core/fem/pairs/added_gap.hpp"
 #include "core/fem/pairs/contact_pairs.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
+#include "core/fem/pairs/pretension.hpp"
 #include "core/fem/pairs/rigid_parts.hpp"
 #include "core/fem/pairs/tied_sides.hpp"
 #include "core/solver/jump_builder.hpp"
@@ -71,15 +72,19 @@ class Coupler {
     const PairedFaces faces = paired_faces(nodes_.mesh(), term, model_.t);
     const MortarCoupling<D> found = couple_tied<D>(nodes_, model_, term, faces, fixes_, taken_);
     const std::size_t before = out_.ties.size();
+    std::map<Index, TieRow<D>> rows;
     for (Index k = 0; k < found.nodes(); ++k) {
       const Index p = nodes_.of_vertex(found.node[k]);
       const BlockRow<D> seen = projected(found, k, onto_free(p));
       refuse_rigid(p, obstacle);
       if (jumps_.has(p) || jumps_.leads_to(seen, p)) continue;  // where ties meet the others hold it
       jumps_.add(p, seen);
+      rows[p] = {seen, found.part(k)};
       out_.ties.push_back({p, obstacle, found.covered[k] + found.taken[k]});
     }
     if (out_.ties.size() == before) refuse_untied(term);
+    if (term.pretension)
+      out_.pretensioned.push_back(pretension<D>(nodes_, model_, obstacle, faces.slave, fixes_, rows, jumps_));
     std::vector<Index> tied;
     for (std::size_t k = before; k < out_.ties.size(); ++k) tied.push_back(out_.ties[k].node);
     take(tied);
@@ -447,7 +452,7 @@ bool has(const PairedBodies<D>& pairs, Index node) {
 /// All pairs that are among these jumps.
 template <int D>
 std::shared_ptr<const PairedBodies<D>> pairs_of(const PairedBodies<D>& all, std::shared_ptr<const Jumps<D>> jumps) {
-  PairedBodies<D> out{{}, all.ties, all.rigid, all.lost, std::move(jumps), all.means};
+  PairedBodies<D> out{{}, all.ties, all.rigid, all.pretensioned, all.lost, std::move(jumps), all.means};
   std::ranges::copy_if(all.nodes, std::back_inserter(out.nodes), [&](const auto& pair) { return has(out, pair.node); });
   return std::make_shared<const PairedBodies<D>>(std::move(out));
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/fem/elements/select.hpp"
+#include "core/fem/pairs/pretension.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -26,6 +27,17 @@ struct SlaveSide {
   }
 };
 
+/// In a row of prescribed components along a direction in global coordinates.
+template <int B>
+double force_along(const Discretization<B>& discretization, Index row, const double* direction,
+                   const std::vector<double>& x) {
+  double along[B];
+  std::copy_n(direction, B, along);
+  if (const double* N = discretization.problem.frames.dual_at(discretization.prescribed.vertex[row]))
+    block::transposed_product<B>(N, direction, along);
+  return discretization.prescribed.force(row, along, x);
+}
+
 /// Along the directions that the tie prescribes.
 template <int B>
 std::array<double, B> force_at(const Discretization<B>& discretization, const TiedNode& tie,
@@ -35,14 +47,23 @@ std::array<double, B> force_at(const Discretization<B>& discretization, const Ti
   std::array<double, B> out{};
   for (int k = 0; k < fixed.count; ++k) {
     if (fixed.fix[k] != by_tie(tie.obstacle)) continue;
-    double along[B];
-    std::copy_n(fixed.direction[k], B, along);
-    if (const double* N = discretization.problem.frames.dual_at(tie.node))
-      block::transposed_product<B>(N, fixed.direction[k], along);
-    const double size = discretization.prescribed.force(row, along, x);
+    const double size = force_along(discretization, row, fixed.direction[k], x);
     for (int i = 0; i < B; ++i) out[i] += size * fixed.direction[k][i];
   }
   return out;
+}
+
+/// What pulls at the carrier of a bolt that is not locked: the force that is given.
+template <int D>
+void add_pull(const Model<D>& model, const Discretization<D>& discretization, const std::vector<double>& x,
+              std::vector<TieForce<D>>& ties) {
+  for (const PretensionedTie<D>& cut : discretization.pairs->pretensioned) {
+    if (model.obstacles[cut.obstacle].pretension->locked) continue;
+    const double size =
+        pull(cut, model) + force_along(discretization, discretization.prescribed.at(cut.carrier), cut.normal.data(), x);
+    TieForce<D>& at = *std::ranges::lower_bound(ties, cut.carrier, {}, &TieForce<D>::node);
+    for (int i = 0; i < D; ++i) at.force[i] += size * cut.normal[i];
+  }
 }
 
 }  // namespace
@@ -67,6 +88,28 @@ std::vector<TieForce<B>> tie_forces(const Nodes<D>& nodes, const Model<B>& model
       const double normal = dot(force.force, slave->normals[at]);
       for (int i = 0; i < B; ++i) force.tangential[i] -= normal * slave->normals[at][i];
     }
+    add_pull<D>(model, discretization, x, out);
+  }
+  return out;
+}
+
+template <int D, int B>
+std::vector<BoltState> bolts(const Model<B>& model, const Discretization<B>& discretization,
+                             const std::vector<TieForce<B>>& ties, const std::vector<double>& x) {
+  std::vector<BoltState> out;
+  if constexpr (D == B) {
+    if (!discretization.pairs) return out;
+    for (const PretensionedTie<B>& cut : discretization.pairs->pretensioned) {
+      BoltState& bolt = out.emplace_back();
+      bolt.obstacle = cut.obstacle;
+      bolt.locked = model.obstacles[cut.obstacle].pretension->locked.has_value();
+      bolt.force = dot(std::ranges::lower_bound(ties, cut.carrier, {}, &TieForce<B>::node)->force, cut.normal);
+      double at[B];
+      std::copy_n(x.data() + Offset{cut.carrier} * B, B, at);
+      if (const double* Q = discretization.problem.frames.at(cut.carrier))
+        block::product<B>(Q, x.data() + Offset{cut.carrier} * B, at);
+      bolt.shortening = block::dot<B>(at, cut.normal.data());
+    }
   }
   return out;
 }
@@ -85,9 +128,11 @@ void sum_up(const std::vector<TieForce<B>>& ties, std::vector<ContactSummary<B>>
   }
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                        \
-  template std::vector<TieForce<B>> tie_forces(const Nodes<D>&, const Model<B>&, const Discretization<B>&, \
-                                               const std::vector<double>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                    \
+  template std::vector<TieForce<B>> tie_forces(const Nodes<D>&, const Model<B>&, const Discretization<B>&,             \
+                                               const std::vector<double>&);                                            \
+  template std::vector<BoltState> bolts<D>(const Model<B>&, const Discretization<B>&, const std::vector<TieForce<B>>&, \
+                                           const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)
