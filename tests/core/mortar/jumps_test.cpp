@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mortar/couple.hpp"
+#include "core/sdk/block.hpp"
 #include "core/solver/jump_builder.hpp"
 #include "tests/core/mortar/surfaces.hpp"
 #include "tests/support/dense.hpp"
@@ -314,6 +315,55 @@ TEST(JumpBuilder, ChoosesSome) {
   all.add(1, of_1);
   some.add(0, of_0);
   EXPECT_EQ(chosen_jumps(all.take(), {1, 0}), some.take());
+}
+
+/// Vectors 0 and 1 see a master each, and have the unknown of the carrier in common along (0.6, 0.8).
+Jumps<2> with_common(Index carrier, const BlockRow<2>& of_carrier, const BlockRow<2>& of_other) {
+  const std::array<double, 4> along{0.36, 0.48, 0.48, 0.64};
+  BlockRow<2> row = of_other;
+  row[carrier] = along;
+  for (const auto& [q, W] : of_carrier) {
+    double part[4];
+    block::multiply<2>(along.data(), W.data(), part);
+    for (int i = 0; i < 4; ++i) row[q][i] -= part[i];
+  }
+  JumpBuilder<2> builder;
+  builder.add(carrier, of_carrier);
+  builder.add(1 - carrier, row);
+  builder.share(carrier);
+  return builder.take();
+}
+
+TEST(JumpBuilder, LetsVectorsHaveAnUnknownInCommon) {
+  Random random(6);
+  const BlockRow<2> a = random_row(random, {2, 3}), b = random_row(random, {4, 5});
+  const Jumps<2> Z = with_common(0, a, b);
+  EXPECT_EQ(Z.common, std::vector<Index>{0});
+  // What the carrier sees is no part of what the other one does.
+  EXPECT_EQ(Z.basis.column, (std::vector<Index>{0, 2, 3, 0, 1, 4, 5}));
+  EXPECT_LE((dense_basis(Z, 6) * dense_inverse(Z, 6) - Eigen::MatrixXd::Identity(12, 12)).norm(), 1e-13);
+  EXPECT_EQ(chosen_jumps(Z, {1, 1}), Z);
+}
+
+// Whatever the carriers see, and though these are not the same.
+TEST(JumpBuilder, InterpolatesACommonUnknownFromItself) {
+  Random random(7);
+  const Jumps<2> fine = with_common(0, random_row(random, {2, 3}), random_row(random, {4, 5})),
+                 coarse = with_common(1, random_row(random, {2, 3}), random_row(random, {4, 5}));
+  Prolongation P;
+  P.coarse = 6;
+  for (Index p = 0; p < 6; ++p) {
+    P.column.push_back(p);
+    P.weight.push_back(1);
+    P.row.push_back(p + 1);
+  }
+  const Prolongation Q = between_jumps(P, fine, coarse);
+  ASSERT_EQ(Q.row[1], 1);
+  EXPECT_EQ(Q.column[0], 1);
+  EXPECT_EQ(std::vector<double>(Q.block.begin(), Q.block.begin() + 4), (std::vector<double>{1, 0, 0, 1}));
+  EXPECT_EQ(Q.twins()[1], 0);
+  EXPECT_EQ(Q.twins()[0], -1);
+  EXPECT_EQ(Q.twins()[4], 4);
 }
 
 }  // namespace
