@@ -97,20 +97,23 @@ force divides between the fix and the obstacle. What presses counts as the obsta
 such nodes. All keys are in [results.md](results.md).
 
 **Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before
-it moves. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
+it moves. In the second of `[steps]` and later, an obstacle is seen from where the body has come to: draw the body as far
+off as you like, or let it slide along a curved obstacle, and give a few steps. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
 
 | key of the report | says |
 | --- | --- |
 | `largest_penetration` | how far a node is inside the obstacle |
 | `largest_penetration_between_nodes` | the same for points between nodes, because conditions hold at nodes alone |
 | `largest_opening` | how far a node that counts as in contact is off the obstacle |
+| `depth` | by how much more some nodes in contact have come along the obstacle's normal than others |
 | `beyond_nodes` | of two bodies: nodes in contact that no longer have the other body in front of them |
 
 The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
 
 - One of these lengths is too large: more than 1 % at nodes, or more than 10 % between nodes, which is what elements
   leave. It is compared with the displacements there. If displacements within the body differ by more than that, it is
-  compared with their difference.
+  compared with their difference. At nodes it is too large as well if it is more than 5 % of `depth`, which is what
+  contact flattens: then the largest pressure is wrong by about as much.
 - More than a tenth of the nodes in contact are beyond.
 - A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity assumes that
   both are small.

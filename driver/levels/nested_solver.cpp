@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "amg/black_box/nested_start.hpp"
 #include "amg/coarsening/hierarchy.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/error.hpp"
@@ -20,17 +19,12 @@
 #include "core/fem/elements/nested.hpp"
 #include "core/fem/incompressible/pressure_load.hpp"
 #include "core/mesh/families.hpp"
-#include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"
-#include "core/solver/interpolate.hpp"
 #include "core/solver/local_coordinates.hpp"
-#include "core/solver/sticking.hpp"
 #include "driver/levels/level_choice.hpp"
-#include "driver/levels/level_start.hpp"
 #include "driver/levels/moved_problem.hpp"
 #include "driver/levels/near_null_space.hpp"
 #include "driver/motions/loose_body.hpp"
-#include "methods/near_start.hpp"
 #include "methods/nested_iteration.hpp"
 #include "methods/solve.hpp"
 
@@ -57,10 +51,6 @@ std::vector<Prolongation> between_meshes(const MeshLevels<D, B>& levels, std::si
   for (std::size_t k = first + 1; k < levels.size(); ++k)
     between.push_back(prolongation(*levels[k].refinement, levels[k - 1].nodes, levels[k].nodes));
   return between;
-}
-
-void add_force(const std::vector<double>& force, double sign, std::vector<double>& load) {
-  for (std::size_t k = 0; k < force.size(); ++k) load[k] += sign * force[k];
 }
 
 /// What springs exert on a body that has moved by `way`, local coordinates, in global ones.
@@ -184,84 +174,16 @@ void NestedSolver<D, B>::take_contact(std::vector<std::shared_ptr<const PairedBo
   }
 }
 
-/// Where bodies may touch each other.
-template <int D, int B>
-void NestedSolver<D, B>::pair_levels(const Model<B>& model) {
-  if (D != B || !changes_unknowns(model)) return;
-  const Stopwatch watch;
-  if (!pairs_.find(model)) drop_algebraic_levels();
-  times_.setup += watch.elapsed();
-}
-
-/// Unknowns of a mesh are jumps where a solution on the next coarser one nearly touches.
-template <int D, int B>
-void NestedSolver<D, B>::pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse) {
-  if (!pairs_.may_narrow(level)) return;
-  const Stopwatch watch;
-  pairs_.narrow_by_coarser(model, level, to_global(coarse.discretization.problem, coarse.x));
-  times_.setup += watch.elapsed();
-}
-
-/// Without a coarser mesh a rough solution tells where bodies touch. It need not be one: cycles may be slow with jumps
-/// all over, most where bodies are far apart, and whether they touch elsewhere is looked at afterwards.
-template <int D, int B>
-void NestedSolver<D, B>::come_near(const Model<B>& model, Solution<B>& solution) {
-  constexpr double roughly = 1e-3;
-  constexpr int a_few = 30;
-  if (!pairs_.may_narrow(first_)) return;
-  SolverOptions options = options_;
-  options.tolerance = std::max(options.tolerance, roughly);
-  options.max_iterations = std::min(options.max_iterations, a_few);
-  solve_level(model, first_, options, nullptr, solution);
-  dropped_.insert(dropped_.end(), solution.summary.stages.begin(), solution.summary.stages.end());
-  narrow_first(model, solution);
-}
-
-/// Once the coarsest mesh has a solution it is a level like the others.
-template <int D, int B>
-void NestedSolver<D, B>::narrow_first(const Model<B>& model, Solution<B>& coarse) {
-  if (!pairs_.may_narrow(first_)) return;
-  const std::vector<double> u = to_global(coarse.discretization.problem, coarse.x);
-  if (!pairs_.narrow(model, first_, u)) return;
-  drop_algebraic_levels();
-  std::vector<double> pressure = std::move(coarse.pressure);
-  coarse = discretize_level(model, first_);
-  coarse.pressure = std::move(pressure);
-  coarse.x = to_local(coarse.discretization.problem, u);
-  continue_algebraically(coarse.discretization.problem);
-}
-
 template <int D, int B>
 void NestedSolver<D, B>::drop_algebraic_levels() {
   matrices_.drop_algebraic();
   continued_ = false;
 }
 
-/// Interpolation between the meshes up to this one is one between the jumps that they have now.
+/// A force that acts at nodes beside the model's loads.
 template <int D, int B>
-void NestedSolver<D, B>::connect_jumps(std::size_t level) {
-  const Stopwatch watch;
-  pairs_.connect(level, matrices_.between_meshes());
-  times_.setup += watch.elapsed();
-}
-
-/// Where bodies touch each other elsewhere than was thought, the problem with jumps there as well, and the solution as
-/// a start.
-template <int D, int B>
-bool NestedSolver<D, B>::pair_more(const Model<B>& model, Solution<B>& solution) {
-  const std::size_t finest = levels_.size() - 1;
-  if (!pairs_.at(finest)) return false;
-  const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
-  if (!pairs_.widen(model, u)) return false;
-  connect_jumps(finest);
-  Solution<B> next = discretize_level(model, finest);
-  next.x = to_local(next.discretization.problem, u);
-  make_admissible(next.discretization.problem, next.x);
-  next.summary = std::move(solution.summary);
-  next.pressure = std::move(solution.pressure);
-  next.joints = std::move(solution.joints);
-  solution = std::move(next);
-  return true;
+void NestedSolver<D, B>::add_force(const std::vector<double>& force, double sign, std::vector<double>& load) {
+  for (std::size_t k = 0; k < force.size(); ++k) load[k] += sign * force[k];
 }
 
 /// From what the last solve left, if that is all there.
@@ -362,96 +284,6 @@ void NestedSolver<D, B>::continue_algebraically(DiscreteProblem<B>& coarsest) {
   times_.setup += watch.elapsed();
 }
 
-/// For a start on the finest mesh, which alone has to hold the whole problem.
-template <int D, int B>
-void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
-  if (factorised_ > 0 || !coarsening_below(options_, B, levels_[first_].nodes.size())) return;
-  try {
-    Solution<B> coarsest = discretize_level(model, first_);
-    continue_algebraically(coarsest.discretization.problem);
-  } catch (const Error&) {
-    progress_.phase(fmt::format("no levels below the coarsest mesh: {}", failure()));
-  }
-  matrices_.forget_products();
-}
-
-template <int D, int B>
-void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
-  const MeshLevel<D, B>& here = levels_[level];
-  const DiscreteProblem<B>& problem = solution.discretization.problem;
-  std::optional<CoarserStep<B>> coarser;
-  if (!coarse.x.empty())
-    coarser.emplace(CoarserStep<B>{coarse.discretization.problem, coarse.x, coarse.pressure, levels_[level - 1].before,
-                                   matrices_.above(level - 1)});
-  const CoarserStep<B>* known = coarser ? &*coarser : nullptr;
-  if (here.pressure_space) {
-    const auto refined = [&](const std::vector<double>& pressure) { return refined_pressure(level, pressure); };
-    start_with_pressure(problem, here.before, known, refined, solution.x, solution.pressure);
-  } else {
-    std::vector<std::vector<double>> starts;
-    if (options_.start == "nested") starts.push_back(std::move(solution.x));
-    solution.x = start_after(problem, here.before, known, std::move(starts));
-  }
-}
-
-/// The problem on the finest mesh, with the solution of the last step if that is so near that no coarser one is asked.
-/// Where bodies touch, what slides and nearly incompressible material are always begun on the coarsest mesh.
-/// @param solution none: coarser meshes come first in any case
-template <int D, int B>
-bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solution<B>>& solution) {
-  const std::size_t finest = levels_.size() - 1;
-  const MeshLevel<D, B>& here = levels_[finest];
-  if (options_.start != "nested" || here.before.u.empty() || pairs_.given() || changes_unknowns(model)) return false;
-  solution = discretize_level(model, finest);
-  const DiscreteProblem<B>& problem = solution->discretization.problem;
-  if (here.changed || here.pressure_space || !solution->discretization.functional.empty()) return false;
-  const auto matrices = matrices_.matrices_below(finest);
-  if (matrices.empty()) return false;
-  const Stopwatch watch;
-  std::vector<double> x = to_local(problem, here.before.u);
-  const bool near = is_near(problem, matrices_.below(finest), matrices, x);
-  if (near) solution->x = std::move(x);
-  times_.solve += watch.elapsed();
-  return near;
-}
-
-/// The start comes from the next coarser mesh, below all meshes from algebraic levels.
-/// @param begun what discretize_level() gives, where that is there already
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse,
-                                            std::optional<Solution<B>> begun) {
-  if (!coarse.x.empty()) {
-    if (level == first_ + 1) narrow_first(model, coarse);
-    pair_near_contact(model, level, coarse);
-  }
-  connect_jumps(level);
-  Solution<B> solution = begun ? std::move(*begun) : discretize_level(model, level);
-  DiscreteProblem<B>& problem = solution.discretization.problem;
-  const bool refined = !coarse.x.empty(), first = !refined && level == first_ && options_.start == "nested";
-  if (first) continue_algebraically(problem);
-  const Stopwatch watch;
-  if (refined) {
-    const Prolongation& P = matrices_.above(level - 1);
-    solution.x = interpolate(coarse.discretization.problem, coarse.x, P, problem);
-    stick_between(coarse.discretization.problem, coarse.x, P, problem, solution.x);
-  }
-  if (first) {
-    problem.galerkin = matrices_.products_below(level);
-    solution.x = nested_start(problem, matrices_.between_algebraic(), options_, registry_, monitor_, &dropped_);
-  }
-  if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
-  if (!levels_[level].before.u.empty()) start_after_step(level, coarse, solution);
-  times_.solve += watch.elapsed();
-  if (refined) {
-    const Stopwatch sharing;
-    matrices_.share(coarse.discretization.problem, level, problem,
-                    levels_[level - 1].changed || levels_[level].changed);
-    times_.setup += sharing.elapsed();
-    keep(model, levels_[level - 1], coarse);
-  }
-  return solution;
-}
-
 template <int D, int B>
 void NestedSolver<D, B>::solve_level(const Model<B>& model, std::size_t level, const SolverOptions& options,
                                      const LooseBody<D, B>* body, Solution<B>& solution) {
@@ -528,65 +360,6 @@ void NestedSolver<D, B>::rest_on_springs(const Model<B>& model, const SolverOpti
   }
 }
 
-/// Makes what pressure exerts in joints part of the load on the finest mesh, in place of what it exerted before.
-/// @param discretization there; null: it is yet to come, and takes the load then
-template <int D, int B>
-JointLoad<B> NestedSolver<D, B>::fill_joints(const JointPressure<D, B>& joints, const Wetted& wetted,
-                                             Discretization<B>* discretization) {
-  MeshLevel<D, B>& finest = levels_.finest();
-  JointLoad<B> out = joints.load(wetted, finest.all_pairs.get());
-  if (discretization) {
-    add_force(finest.force, -1, discretization->load);
-    add_force(out.force, 1, discretization->load);
-    place_loads(*discretization);
-  } else if (finest.kept) {
-    add_force(finest.force, -1, finest.kept->discretization.load);  // back to the model's own
-  }
-  finest.force = out.force;
-  return out;
-}
-
-/// Pressure spreads in joints as far as they are open, which they are where it acts. Each solve begins where the last
-/// one ended, and is a rough one as long as what is reached changes.
-template <int D, int B>
-void NestedSolver<D, B>::solve_open(const Model<B>& model, const JointPressure<D, B>& joints, Spreading& spreading,
-                                    Solution<B>& solution) {
-  constexpr double roughly = 1e-3;
-  constexpr int enough = 100;
-  SolverOptions options = options_;
-  options.tolerance = std::max(options.tolerance, roughly);
-  std::vector<Stage> before;
-  const auto solve = [&] {
-    try {
-      solve_finest(model, options, solution);
-    } catch (const Error& error) {
-      const std::string origin = joints.origin(spreading.now());
-      if (error.status() != Exit::no_solution || origin.empty()) throw;
-      throw Error(error.status(),
-                  fmt::format("{}; the pressure of {} acts where contact is open", error.what(), origin));
-    }
-    solution.summary.put_in_front(std::exchange(before, {}));
-  };
-  for (int k = 0; k < enough; ++k) {
-    solve();
-    if (!solution.summary.converged() || progress_.is_ended()) return;
-    const bool moved = spreading.take(joints.wetted(solution.discretization, solution.x, solution.joints));
-    if (!moved && options.tolerance <= options_.tolerance) {
-      solution.pressed_shut = spreading.shut();
-      return;
-    }
-    before = std::move(solution.summary.stages);
-    if (moved)
-      solution.joints = fill_joints(joints, spreading.now(), &solution.discretization);
-    else
-      options.tolerance = options_.tolerance;
-  }
-  solution.summary.put_in_front(std::move(before));
-  solution.summary.outcome = Outcome::stuck;
-  solution.summary.reason = fmt::format("after {} solves the pressure of {} still spreads in what is open", enough,
-                                        joints.origin(spreading.now()));
-}
-
 /// Whether there is a solution at all shows before, and where it is not unique which one is meant afterwards.
 template <int D, int B>
 void NestedSolver<D, B>::solve_finest(const Model<B>& model, SolverOptions options, Solution<B>& solution) {
@@ -611,34 +384,6 @@ void NestedSolver<D, B>::solve_finest(const Model<B>& model, SolverOptions optio
         "friction does not hold the body against the loads: it would come to rest only so far away that linearised "
         "contact means nothing there";
   }
-}
-
-/// The solution on the next coarser mesh than the finest one, as far as that gives a start.
-template <int D, int B>
-Solution<B> NestedSolver<D, B>::solve_coarser_meshes(const Model<B>& model) {
-  Solution<B> coarse;
-  const auto solve = [&](std::size_t k, const SolverOptions& options, bool) -> std::string {
-    const std::size_t level = first_ + k;
-    MeshLevel<D, B>& here = levels_[level];
-    Solution<B> solution = begin_level(model, level, coarse);
-    std::optional<LooseBody<D, B>> body;
-    if (solution.discretization.functional.empty()) body.emplace(here.nodes, model, solution.discretization);
-    solve_level(model, level, options, body ? &*body : nullptr, solution);
-    here.now.u = to_global(solution.discretization.problem, solution.x);
-    here.now.numbers = {solution.discretization.problem, solution.discretization.functional, solution.x};
-    here.now.pressure = solution.pressure;
-    coarse = std::move(solution);
-    return "";
-  };
-  const auto failed = [&](std::size_t k, Stage stage) {
-    stage.reason = fmt::format("level {} gives no start: {}", first_ + k, stage.reason);
-    progress_.phase(stage.reason);
-    dropped_.push_back(std::move(stage));
-    coarse = {};
-    matrices_.forget_products();
-  };
-  nested_iteration<B>(levels_.size() - 1 - first_, options_, solve, failed);
-  return coarse;
 }
 
 template <int D, int B>

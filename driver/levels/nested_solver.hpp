@@ -125,7 +125,7 @@ class NestedSolver {
   void connect_jumps(std::size_t level);
   bool pair_more(const Model<B>& model, Solution<B>& solution);
   std::optional<Discretization<B>> renew_level(const Model<B>& model, std::size_t level);
-  void add_forces(std::size_t level, double sign, Discretization<B>& discretization) const;
+  static void add_force(const std::vector<double>& force, double sign, std::vector<double>& load);
   void keep(const Model<B>& model, MeshLevel<D, B>& level, Solution<B>& coarse);
   void find_pressure_space(const Model<B>& model, std::size_t level);
   std::vector<double> refined_pressure(std::size_t level, const std::vector<double>& coarse) const;
