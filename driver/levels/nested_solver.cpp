@@ -21,6 +21,7 @@
 #include "core/mesh/families.hpp"
 #include "core/solver/convergence.hpp"
 #include "core/solver/local_coordinates.hpp"
+#include "core/solver/sticking.hpp"
 #include "driver/levels/level_choice.hpp"
 #include "driver/levels/moved_problem.hpp"
 #include "driver/levels/near_null_space.hpp"
