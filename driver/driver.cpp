@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/fem/elements/select.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/scene/read_tables.hpp"
 #include "core/scene/uses_t.hpp"
@@ -19,6 +20,7 @@
 #include "driver/scene/problem.hpp"
 #include "driver/scene/touching_bodies.hpp"
 #include "driver/warnings/contact_warnings.hpp"
+#include "driver/warnings/unheld_overlaps.hpp"
 
 namespace signorini {
 namespace {
@@ -347,6 +349,27 @@ void Driver::finish() {
       run.add_result_warnings(report_, warnings);
       if (run.by_matrix()) report_.hierarchy = "matrix";
     });
+  if (!report_.converged()) return;
+  add_unheld_overlaps<2>();
+  add_unheld_overlaps<3>();
+}
+
+template <int D>
+void Driver::add_unheld_overlaps() {
+  MovedBoundaries<D> all;
+  for (std::size_t k = 0; k < bodies(); ++k) {
+    const auto* run = std::get_if<Run<D, D>>(&bodies_[k]);
+    if (!run) continue;
+    const std::vector<double> u = (*run)->solution();
+    const auto add = [&](const Scene::Body& body, const std::string& name) {
+      all.add((*run)->mesh(), name, select_faces((*run)->mesh(), on_mesh_of(body, name, {"boundary", {}, ""}), 1), u);
+    };
+    const Scene::Body& body = solved_.bodies[k];
+    if (body.parts.empty()) add(body, body.name);
+    for (const Scene::Body& part : body.parts) add(body, part.name);
+  }
+  if (all.body.size() < 2) return;
+  for (Warning& warning : unheld_overlaps(solved_, all)) report_.warnings.push_back(std::move(warning));
 }
 
 void Driver::start_from(std::size_t body, std::vector<double> u) {

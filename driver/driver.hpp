@@ -101,6 +101,8 @@ class Driver {
   void accept();
   void add_step(StepReport report);
   void finish();
+  template <int D>
+  void add_unheld_overlaps();
 
   Scene scene_;
   Scene solved_;  // the same with_touching_bodies()

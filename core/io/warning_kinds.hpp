@@ -126,6 +126,11 @@ inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::result, "never-touch", "{}: '{}' {} never touch; at the end {}",
      "the message says which distance is left",
      "check that the right side is picked, and that the load is large enough"},
+    {WarningKind::About::result, "unheld-overlap",
+     "bodies '{}' and '{}' have moved into each other, by {:.3g} at ({:.3g}), and no [[obstacle]] keeps them apart",
+     "[contact] finds pairs of bodies that are near each other at the start. Bodies that come near each other later "
+     "need a larger `reach`, or an `[[obstacle]]`",
+     "an `[[obstacle]]` between these bodies, or a larger `reach` of `[contact]`"},
     {WarningKind::About::result, "slid-past",
      "{}: {} of {} nodes in contact have moved to where the other body is no longer in front of them{}. Which "
      "parts face each other is decided at the start of a step only; expected shorter steps ([steps])",
