@@ -1,6 +1,7 @@
 #include "estimators/certificate/true_problem.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -250,9 +251,11 @@ class Builder {
     if constexpr (B == 1) out_.oscillation[e] += part / std::sqrt(out_.material[e].diffusion);
   }
   void check_linear(const Load<B>& load, double off, double largest) {
-    if (off > same_value * largest)
-      out_.reasons.add(fmt::format("the load '{}' is not linear within elements: integrals of it are approximate",
-                                   load.value[0].text()));
+    if (!(off > same_value * largest)) return;
+    std::vector<std::string> components;
+    for (const Field& component : load.value) components.push_back(component.text());
+    out_.reasons.add(fmt::format("the load '{}' is not linear within elements: integrals of it are approximate",
+                                 fmt::join(components, ", ")));
   }
   void tell_oscillation() {
     if (B > 1 && !out_.oscillation.empty()) {
