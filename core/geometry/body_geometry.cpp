@@ -77,7 +77,7 @@ struct Continued {
       for (Index& v : face) v = image[v];
       std::swap(face[0], face[1]);  // turned by the reflection
       faces.push_back(face);
-      known.name.push_back(known.name[f]);
+      if (!known.name.empty()) known.name.push_back(known.name[f]);
       if (known.second_order()) mirror_curved(f, mirror);
     }
   }
@@ -150,6 +150,7 @@ class Chooser {
     std::map<std::vector<Index>, Index> number;
     for (const auto& of_face : parts)
       known_.name.push_back(number.try_emplace(of_face, static_cast<Index>(number.size())).first->second);
+    if (number.size() < 2) known_.name.clear();  // nothing is told apart
     if (surfaces_ == Surfaces::fit) known_.fit = near;
   }
 
@@ -175,9 +176,8 @@ class Chooser {
     double most = 0;
     for (const Index f : piece) {
       const Face<D>& face = mesh_.boundary[f];
-      for (const Point<D>& p : known_.middle[f])
-        most =
-            std::max(most, std::abs(dot(difference<D>(p, mesh_.points[face.vertices[0]]), unit_normal(mesh_, face))));
+      const Point<D>&at = mesh_.points[face.vertices[0]], n = unit_normal(mesh_, face);
+      for (const Point<D>& p : known_.middle[f]) most = std::max(most, std::abs(dot(difference<D>(p, at), n)));
     }
     return most;
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -35,7 +36,7 @@ constexpr double deviations = 2;        // of what is left of a fit
 constexpr int most_layers = 8;          // of faces,
 constexpr std::size_t enough = 9;       // and vertices, that a surface is put through
 constexpr std::size_t most_points = 4;  // of a section
-constexpr int fewest_around = 7;        // plates around a tip
+constexpr int fewest_around = 7;        // plates around the tip of a cone
 
 enum class Kind : std::uint8_t {
   wall,  ///< a border, or an edge by its angle alone
@@ -331,8 +332,9 @@ class EdgeFinder {
       if (found > 0) side.section = Turn{sum.angle / found, sum.error / found};
     }
     if (side.section) side.section->angle *= sign;
-    if constexpr (D == 3) side.fan = turn_around_tip(i);
-    if (side.fan) side.fan->angle *= sign;
+    if constexpr (D == 3)
+      if (const auto fan = fan_of(i); fan && fan->plates >= fewest_around)
+        side.fan = Turn{sign * fan->turn.angle, fan->turn.error};
     side.beside = side.next;
     for (int t = 0; t < D && !side.next.empty(); ++t)
       if (t != i % D) side.beside.push_back(i / D * D + t);
@@ -394,26 +396,36 @@ class EdgeFinder {
 
   static double error_of(double turned) { return left_out * turned * turned * turned; }
 
-  /// Plates around a tip get wider away from it, and straight sections across them turn ever less, while the circle
-  /// around the tip turns at each joint by as much as the plates beside it are wide.
-  std::optional<Turn> turn_around_tip(Index i) const {
+  /// Plates all around an end of a joint.
+  struct Fan {
+    std::ptrdiff_t plates = 0;
+    bool to_rim = true;  ///< they end where the surface does, or at a flat part
+    Turn turn;  ///< straight sections run into ever wider plates; the circle turns by as much as these are wide at the
+                ///< tip
+  };
+
+  std::optional<Fan> fan_of(Index i) const {
     for (int k = 0; k < D - 1; ++k) {
       const Index tip = end(i, k);
+      Fan fan;
       std::vector<double> width{0}, angle;  // of plates, and at the joints behind them
       Index in = i;
       do {
         const Index f = in / D, at = static_cast<Index>(std::ranges::find(faces_[f], tip) - faces_[f].begin());
-        const Index out = D * f + (3 - at - in % D);
+        const Index out = D * f + (3 - at - in % D), rim = D * f + at;
         const auto towards = [&](Index j) { return unit<D>(difference<D>(points_[faces_[f][j]], points_[tip])); };
         width.back() += angle_between<D>(towards(in % D), towards(out % D));
+        fan.to_rim = fan.to_rim && (is_wall(rim) || is_flat(joints_.beyond[rim]));
         in = joints_.beyond[out];
         if (is_wall(out)) break;
         if (kind_[out] == Kind::flat || in == i) continue;
         angle.push_back(is_convex(out) ? angle_[out] : -angle_[out]);
         width.push_back(0);
       } while (in != i);
-      if (in == i && std::ssize(width) >= fewest_around)
-        return Turn{angle[0] * width[0] / (width[0] + width[1]), error_of(angle[0])};
+      if (in != i || angle.empty()) continue;
+      fan.plates = std::ssize(width);
+      fan.turn = {angle[0] * width[0] / (width[0] + width[1]), error_of(angle[0])};
+      return fan;
     }
     return {};
   }
@@ -505,6 +517,12 @@ class EdgeFinder {
     return {};
   }
 
+  bool is_of_pyramid(Index i) const {
+    if constexpr (D == 2) return false;
+    const auto fan = fan_of(i);
+    return fan && fan->to_rim && fan->plates < fewest_around;
+  }
+
   struct Open {
     Index joint;
     std::array<Side, 2> sides;
@@ -516,8 +534,12 @@ class EdgeFinder {
     for (Index i = 0; i < count(); ++i)
       if (kind_[i] == Kind::open && joints_.beyond[i] > i) order.push_back(i);
     std::ranges::stable_sort(order, [&](Index i, Index j) { return angle_[i] > angle_[j]; });
+    std::vector<Index> of_pyramids;
+    std::ranges::copy_if(order, std::back_inserter(of_pyramids), [&](Index i) { return is_of_pyramid(i); });
+    for (const Index i : of_pyramids) set(i, Kind::sharp);
     std::vector<Open> open;
     for (const Index i : order) {
+      if (kind_[i] != Kind::open) continue;
       if (is_trifle(i, trifle)) {
         set(i, Kind::round);
         continue;
