@@ -13,7 +13,7 @@
 namespace signorini {
 namespace {
 
-constexpr double noticeable = 0.01;  // of the largest displacement
+constexpr double of_motion = 0.01;  // the least overlap beside the largest displacement
 
 bool is_kept_apart(const Scene& scene, const std::string& a, const std::string& b) {
   return std::ranges::any_of(scene.obstacles, [&](const Scene::Obstacle& obstacle) {
@@ -64,7 +64,7 @@ Warnings unheld_overlaps(const Scene& scene, const MovedBoundaries<D>& all) {
         return find_overlap<D>(all.mesh, points, {all.faces[a], all.faces[a]}, {all.faces[b], all.faces[b]});
       };
       const Overlap<D> now = overlap(all.after);
-      if (!(now.depth > noticeable * moved) || overlap(all.mesh.points).depth > now.depth / 2) continue;
+      if (!(now.depth > of_motion * moved) || overlap(all.mesh.points).depth > now.depth / 2) continue;
       out.push_back(warning<"unheld-overlap">(all.body[a], all.body[b], now.depth, fmt::join(now.place, ", ")));
     }
   return out;

@@ -133,8 +133,6 @@ struct ObstacleTerm {
   std::shared_ptr<const DistanceFunction> shape = {};
   /// The same where it was at the last load step; null where that is not known, or it does not move.
   std::shared_ptr<const DistanceFunction> shape_before = {};
-  /// Of a rigid obstacle: conditions of contact are linear about the body displaced by this.
-  std::array<double, B> moved{};
   /// Where it has any: they know what the obstacle wrongly asked of them.
   std::shared_ptr<const Settings> settings = {};
   /// Of an obstacle between two bodies the faces of the second one, the master; those of `on` are the slave's.
@@ -148,6 +146,8 @@ struct ObstacleTerm {
   /// Of bodies that are tied to each other how far apart they may be at the start, see Tying; nothing: they may part.
   std::optional<double> tied = {};
   std::optional<Pretension> pretension = {};  ///< of a tie
+  /// Of a rigid obstacle: conditions of contact are linear about the body displaced by this.
+  std::array<double, B> moved = {};
 };
 
 /// The boundary value problem, free of any mesh. B = 1: diffusion; B = D: elasticity.
