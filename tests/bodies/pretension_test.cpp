@@ -111,10 +111,8 @@ TEST_P(Bolt, IsLockedWhereTheSceneSays) {
   EXPECT_TRUE(report.steps[2].contact[0].bolt->locked);
 }
 
-// Contraction at the walls bends the faces of the cut, which stay on each other as those of one body under a load do:
-// what the force does to a bar that ends in a wall and is pulled at the other end is known from one body.
-TEST_P(Bolt, IsAsCyclesAsTied) {
-  const std::string m = material(1, 0.3, order());
+// With contraction the faces of the cut do not stay plane. The solver takes as many cycles as for a tie.
+TEST_P(Bolt, TakesNoMoreCyclesThanATie) {
   const std::string text = bar("", 0.3) + held() + end("0") + refined(D() == 2 ? 3 : 2);
   const Report open = solved(text + cut("0.01", slave()));
   const Report tied = solved(text + load("upper", in("[0.001, -0.01]", "[0.001, 0, -0.01]")) +
