@@ -123,7 +123,7 @@ A scene is refused in three cases. A twentieth of a body would be pressed throug
 displacements have other units than the body. Or a body would turn by more than half a turn. Or an obstacle is on
 the wrong side, so that it would pull at the body.
 
-**Two bodies.** With `elastic` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
+**Two bodies.** With `elastic`, `elastic_tresca` and `elastic_coulomb` two elastic bodies touch each other. `body` goes with `on` or
 `where`, `other` with `other_on` or `other_where`. Both may be parts of one body. [bodies.md](bodies.md) has examples.
 With `tied` they are glued together ([joints.md](joints.md)), and may be the halves of a bolt that is tightened
 ([bolts.md](bolts.md)). Other types take no `other`.

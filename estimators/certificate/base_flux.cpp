@@ -12,8 +12,8 @@ constexpr double most_poisson = 0.3;
 
 double softer_poisson(double poisson) { return std::min(poisson, most_poisson); }
 
-/// The same shear modulus, and a Poisson ratio of no more than 0.3. Nothing is loaded or in contact; what was
-/// prescribed is zero.
+/// The same shear modulus, and a Poisson ratio of no more than 0.3. Nothing is loaded, heated or in contact; what
+/// was prescribed is zero.
 template <int B>
 Model<B> softer(const Model<B>& model) {
   Model<B> out = model;
@@ -26,6 +26,7 @@ Model<B> softer(const Model<B>& model) {
   if (const auto E = young.constant(); E && poisson.constant())
     out.young = *E * (1 + softer_poisson(*poisson.constant())) / (1 + *poisson.constant());
   out.loads.clear();
+  out.expansion = 0;
   out.obstacles.clear();
   out.pressure = Pressure::none;
   for (Fix<B>& fix : out.fixes)

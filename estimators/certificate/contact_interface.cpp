@@ -11,6 +11,7 @@
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/mortar/boxes.hpp"
 #include "core/mortar/segments.hpp"
+#include "estimators/certificate/friction_laws.hpp"
 
 namespace signorini {
 namespace {
@@ -52,6 +53,7 @@ class InterfaceFinder {
           add(finder.frame(), segment, f, out);
         }
     out.normal = normal_;
+    if (term_.obstacle->friction()) find_laws(out, reasons);
     if (out.pieces.empty())
       reasons.refuse(fmt::format("{}: no faces of the bodies are opposite to each other", term_.origin));
     if (!is_flat_)
@@ -140,6 +142,23 @@ class InterfaceFinder {
         gap_is_linear_ = gap_is_linear_ && std::fabs(there - (out[i] + out[j]) / 2) <= same_value * size_;
       }
     return out;
+  }
+
+  void find_laws(ContactInterface<D>& out, Reasons& reasons) const {
+    out.law.resize(mesh_.points.size());
+    for (const Index face : faces_.slave) {
+      const auto& v = mesh_.boundary[face].vertices;
+      for (const Index p : v) out.law[p] = law_at(mesh_.points[p]);
+      for (int i = 0; i < D; ++i)
+        for (int j = 0; j < i; ++j)
+          check_linear(out.law[v[i]], out.law[v[j]], law_at(midpoint<D>(mesh_.points[v[i]], mesh_.points[v[j]])),
+                       term_.origin, reasons);
+    }
+    if (std::ranges::any_of(out.law, [](const FrictionLaw& law) { return law.coefficient > 0; }))
+      tell_frozen(term_.origin, reasons);
+  }
+  FrictionLaw law_at(const Point<D>& place) const {
+    return law_of(*term_.obstacle, asked_between<D>(term_, place, normal_));
   }
 
   const Mesh<D>& mesh_;

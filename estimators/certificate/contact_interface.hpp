@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fem/model/model.hpp"
+#include "core/sdk/friction.hpp"
 #include "estimators/certificate/incidence.hpp"
 #include "estimators/certificate/reasons.hpp"
 
@@ -23,10 +24,11 @@ template <int D>
 struct ContactInterface {
   Point<D> normal{};  ///< outer one of the slave
   std::vector<FacingPiece<D>> pieces;
+  std::vector<FrictionLaw> law;  ///< per vertex, of the slave's per area; empty: no friction
 };
 
 /// Of an obstacle between two bodies.
-/// @param reasons is told of what is not covered: faces that are not flat, or not parallel
+/// @param reasons is told of what is not covered: faces that are not flat, or not parallel; friction that is not linear
 template <int D>
 ContactInterface<D> contact_interface(const Mesh<D>& mesh, const Model<D>& model, const ObstacleTerm<D>& term,
                                       Reasons& reasons);

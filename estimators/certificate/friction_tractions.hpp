@@ -13,6 +13,40 @@ struct SlipWork {
   double excess() const { return std::max(0.0, most + traction); }
 };
 
+/// Of a slip that is quadratic on a face, or on a piece of one: |v_t| is no more than its Bernstein coefficients say.
+/// @param s the largest traction, linear; t the traction, linear
+/// @param slip at the corners; between Bernstein coefficients of edges
+template <int D, int B>
+SlipWork slip_work(double measure, const std::array<double, D>& s, const std::array<std::array<double, B>, D>& t,
+                   const std::array<std::array<double, B>, D>& slip,
+                   const std::array<std::array<double, B>, D*(D - 1) / 2>& between) {
+  constexpr auto ends = simplex_edges<D - 1>();
+  const auto length = [](const std::array<double, B>& v) { return std::sqrt(dot(v, v)); };
+  const auto integral = [&](const std::array<double, D>& by, const auto& of) {
+    std::array<double, D> corner;
+    std::array<double, ends.size()> bubble;
+    for (int k = 0; k < D; ++k) corner[k] = of(slip[k]);
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      bubble[k] = (of(between[k]) - (corner[ends[k][0]] + corner[ends[k][1]]) / 2) / 2;
+    return measure * integral_over_face<D>(by, corner, bubble);
+  };
+  SlipWork out{integral(s, length)};
+  for (int i = 0; i < B; ++i) {
+    std::array<double, D> component;
+    for (int k = 0; k < D; ++k) component[k] = t[k][i];
+    out.traction += integral(component, [i](const std::array<double, B>& v) { return v[i]; });
+  }
+  return out;
+}
+
+/// Cut down to what friction allows.
+template <std::size_t B>
+std::array<double, B> cut(std::array<double, B> t, double most) {
+  const double size = std::sqrt(dot(t, t));
+  for (double& c : t) c *= size > most ? most / size : 1;
+  return t;
+}
+
 /// Friction of the vertices that it acts at.
 template <int D, int B>
 class Tractions {
@@ -42,56 +76,37 @@ class Tractions {
     std::array<double, B> t = at_.residual[p];
     project(at_.fixed[p], t);
     t = along(gaps_.at_vertex(p)->direction, t.data());
-    double stiffness = 0, square = 0;
+    double stiffness = 0;
     for (int i = 0; i < B; ++i) stiffness = std::max(stiffness, at_.stiffness[p][i * (B + 1)]);
     const std::array<double, B> way = slip(p);
-    for (int i = 0; i < B; ++i) {
-      t[i] = (t[i] - stiffness * way[i]) / area_[p];
-      square += t[i] * t[i];
-    }
-    const double size = std::sqrt(square), most = this->most(p);
-    for (double& c : t) c *= size > most ? most / size : 1;
-    return t;
+    for (int i = 0; i < B; ++i) t[i] = (t[i] - stiffness * way[i]) / area_[p];
+    return cut(t, most(p));
   }
 
-  /// int s |v_t|, at most, and int t . v_t: |v_t| is no more than its Bernstein coefficients say.
+  /// int s |v_t|, at most, and int t . v_t.
   SlipWork work(const OuterFace<D, B>& outer, const std::array<Index, D>& v,
                 const std::array<Index, D*(D - 1) / 2>& edge,
                 const std::array<std::array<double, B>, D>& traction) const {
     constexpr auto ends = simplex_edges<D - 1>();
-    std::array<double, D> s, way;
+    std::array<double, D> s;
     std::array<std::array<double, B>, D> slips;
     for (int k = 0; k < D; ++k) {
       s[k] = most(v[k]);
       slips[k] = slip(v[k]);
-      way[k] = length(slips[k]);
     }
-    std::array<std::array<double, B>, ends.size()> bubble{};
-    std::array<double, ends.size()> of_edge{};
+    std::array<std::array<double, B>, ends.size()> between;
     for (std::size_t k = 0; k < ends.size(); ++k) {
+      std::array<double, B> bubble{};
       const auto* bound = gaps_.at_edge(edge[k]);
       if (bound && !problem_.slip.of_edge.empty())
-        bubble[k] = along(bound->direction, problem_.slip.of_edge.data() + Offset{edge[k]} * B);
+        bubble = along(bound->direction, problem_.slip.of_edge.data() + Offset{edge[k]} * B);
       const auto [a, b] = ends[k];
-      std::array<double, B> middle;
-      for (int i = 0; i < B; ++i) middle[i] = (slips[a][i] + slips[b][i]) / 2 + 2 * bubble[k][i];
-      of_edge[k] = (length(middle) - (way[a] + way[b]) / 2) / 2;
+      for (int i = 0; i < B; ++i) between[k][i] = (slips[a][i] + slips[b][i]) / 2 + 2 * bubble[i];
     }
-    const double measure = signorini::length<D>(outer.normal);
-    SlipWork out{measure * integral_over_face<D>(s, way, of_edge)};
-    for (int i = 0; i < B; ++i) {
-      std::array<double, D> t, x;
-      std::array<double, ends.size()> w;
-      for (int k = 0; k < D; ++k) t[k] = traction[k][i], x[k] = slips[k][i];
-      for (std::size_t k = 0; k < ends.size(); ++k) w[k] = bubble[k][i];
-      out.traction += measure * integral_over_face<D>(t, x, w);
-    }
-    return out;
+    return slip_work<D, B>(length<D>(outer.normal), s, traction, slips, between);
   }
 
  private:
-  static double length(const std::array<double, B>& v) { return std::sqrt(dot(v, v)); }
-
   const TrueProblem<D, B>& problem_;
   const Gaps<D, B>& gaps_;
   const AtVertices<D, B>& at_;

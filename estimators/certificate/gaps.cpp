@@ -8,6 +8,7 @@
 #include "core/component/failure.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
+#include "estimators/certificate/friction_laws.hpp"
 
 namespace signorini {
 namespace {
@@ -45,10 +46,7 @@ class Asked {
     out.faces = faces_;
     out.friction = term_.obstacle->friction() != nullptr;
     if (std::ranges::any_of(out.bounds, [](const auto& bound) { return bound.law.coefficient > 0; }))
-      reasons.add(
-          fmt::format("friction ({}) follows the pressure: the bounds are those of the problem whose friction is "
-                      "at most what the pressure found allows",
-                      term_.origin));
+      tell_frozen(term_.origin, reasons);
   }
 
  private:
@@ -156,7 +154,7 @@ class Asked {
       const typename Gaps<D, B>::Bound from = out.bounds[a], to = out.bounds[b];
       out.bounds.push_back({direction(middle), at_edge(from.lower, to.lower, middle.lower[0], quarter.lower[0]),
                             at_edge(from.upper, to.upper, middle.upper[0], quarter.upper[0])});
-      compare_laws(from.law, to.law, law(middle), reasons);
+      check_linear(from.law, to.law, law(middle), term_.origin, reasons);
     }
     if (!(off <= same_value * largest))
       reasons.add(fmt::format("{} is neither linear nor quadratic between nodes: a quadratic function takes its place",
@@ -169,18 +167,7 @@ class Asked {
     return largest;
   }
 
-  FrictionLaw law(const LocalConstraint<B>& c) const {
-    const Friction* friction = term_.obstacle->friction();
-    return friction ? friction->law(c.data) : FrictionLaw{};
-  }
-  void compare_laws(const FrictionLaw& a, const FrictionLaw& b, const FrictionLaw& middle, Reasons& reasons) const {
-    const auto is_mean = [](double from, double to, double between) {
-      return std::fabs(between - (from + to) / 2) <= same_value * std::max(from, to);
-    };
-    if (!is_mean(a.bound, b.bound, middle.bound) || !is_mean(a.coefficient, b.coefficient, middle.coefficient))
-      reasons.add(
-          fmt::format("friction ({}) is not linear between nodes: its interpolation takes its place", term_.origin));
-  }
+  FrictionLaw law(const LocalConstraint<B>& c) const { return law_of(*term_.obstacle, c); }
   static std::array<double, B> direction(const LocalConstraint<B>& c) {
     std::array<double, B> out;
     std::copy_n(c.direction[0], B, out.begin());

@@ -72,18 +72,24 @@ std::vector<double> JumpConditions<D, B>::left(const std::vector<double>& at_ver
                                                const std::vector<double>& of_edge) const {
   std::vector<double> out;
   out.reserve(rows_.size());
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    double left = rows_[r].gap;
-    const auto last = r + 1 < rows_.size() ? rows_[r + 1].first : static_cast<Offset>(terms_.size());
-    for (Offset k = rows_[r].first; k < last; ++k) {
-      const Term& term = terms_[k];
-      const bool vertex = term.dof < vertices_;
-      if (!vertex && of_edge.empty()) continue;
-      const double* value =
-          vertex ? at_vertex.data() + Offset{term.dof} * B : of_edge.data() + Offset{term.dof - vertices_} * B;
-      for (int i = 0; i < B; ++i) left -= term.factor * rows_[r].normal[i] * value[i];
-    }
-    out.push_back(left);
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    out.push_back(rows_[r].gap - dot(rows_[r].normal, jump(static_cast<Index>(r), at_vertex, of_edge)));
+  return out;
+}
+
+template <int D, int B>
+std::array<double, B> JumpConditions<D, B>::jump(Index row, const std::vector<double>& at_vertex,
+                                                 const std::vector<double>& of_edge) const {
+  std::array<double, B> out{};
+  const std::size_t next = static_cast<std::size_t>(row) + 1;
+  const auto last = next < rows_.size() ? rows_[next].first : static_cast<Offset>(terms_.size());
+  for (Offset k = rows_[row].first; k < last; ++k) {
+    const Term& term = terms_[k];
+    const bool vertex = term.dof < vertices_;
+    if (!vertex && of_edge.empty()) continue;
+    const double* value =
+        vertex ? at_vertex.data() + Offset{term.dof} * B : of_edge.data() + Offset{term.dof - vertices_} * B;
+    for (int i = 0; i < B; ++i) out[i] += term.factor * value[i];
   }
   return out;
 }

@@ -27,6 +27,10 @@ class JumpConditions {
   /// What is left, per row.
   std::vector<double> left(const std::vector<double>& at_vertex, const std::vector<double>& of_edge) const;
 
+  /// By how much the slave of a row moves more than the master: the values at corners of pieces, between them the
+  /// Bernstein coefficients.
+  std::array<double, B> jump(Index row, const std::vector<double>& at_vertex, const std::vector<double>& of_edge) const;
+
   struct Part {
     Index row;
     double factor;

@@ -12,11 +12,9 @@ std::vector<std::string> not_certified(const Nodes<D>& nodes, const Model<B>& mo
   for (const ObstacleTerm<B>& term : model.obstacles) {
     if (!term.other) continue;
     if (term.tied) reasons.emplace_back("bodies that are tied to each other are not covered");
-    if (!term.tied && term.obstacle->friction()) reasons.emplace_back("friction between bodies is not covered");
     if constexpr (B == D)
       if (of_one_body(term)) reasons.emplace_back("a body that touches itself is not covered");
   }
-  if (B > 1 && !ThermalStrain<B>(model).none()) reasons.emplace_back("thermal strains are not covered");
   if (!model.orthotropic.empty()) reasons.emplace_back("orthotropic material is not covered");
   if (std::ranges::any_of(model.loads, [](const Load<B>& load) { return load.where_open.has_value(); }))
     reasons.emplace_back("pressures that act where contact is open are not covered");

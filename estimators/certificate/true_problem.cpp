@@ -103,6 +103,7 @@ class Builder {
     add_elements();
     add_outer_faces();
     out_.edge_load.assign(static_cast<std::size_t>(out_.incidence.edges), {});
+    add_thermal_stress();
     for (const Load<B>& given : model_.loads) {
       const Load<B> load = distributed(nodes_, model_, given);
       load.on ? add_traction(load) : add_source(load);
@@ -143,12 +144,16 @@ class Builder {
   void check_material(const MaterialLaw<B>& law, Index e) {
     const Material<B> middle = law.at(site_in<D>(mesh_, e, model_.t));
     for (const Index p : mesh_.elements[e]) {
-      const Point<D> c = centroid<D>(mesh_, mesh_.elements[e]);
-      Point<D> x;  // inside, so that it belongs to this element's side of a jump
-      for (int i = 0; i < D; ++i) x[i] = 0.9 * mesh_.points[p][i] + 0.1 * c[i];
-      const Material<B> here = law.at(site_in<D>(mesh_, e, x, model_.t));
+      const Material<B> here = law.at(site_in<D>(mesh_, e, nearly(p, e), model_.t));
       if (differs(here, middle)) return out_.reasons.add("coefficients change within elements");
     }
+  }
+  /// Near a vertex inside an element, so that it belongs to this element's side of a jump.
+  Point<D> nearly(Index p, Index e) const {
+    const Point<D> c = centroid<D>(mesh_, mesh_.elements[e]);
+    Point<D> x;
+    for (int i = 0; i < D; ++i) x[i] = 0.9 * mesh_.points[p][i] + 0.1 * c[i];
+    return x;
   }
   static bool differs(const Material<B>& a, const Material<B>& b) {
     if constexpr (B == 1)
@@ -182,6 +187,42 @@ class Builder {
     for (int i = 0; i < D; ++i) outer.normal[i] = -D * element.measure * element.gradient[side.opposite[0]][i];
     out_.outer_of_face[face] = number;
     return number;
+  }
+
+  /// A thermal stress k that is the same all over a body does what a traction k n on all of its boundary does: div(k I)
+  /// is zero.
+  void add_thermal_stress() {
+    if constexpr (B == D) {
+      const ThermalStrain<B> thermal(model_);
+      if (thermal.none()) return;
+      std::vector<double> stress;
+      for (Index e = 0; e < out_.elements(); ++e)
+        stress.push_back(
+            thermal_stress(out_.material[e], thermal.at(site_in<D>(mesh_, e, model_.t)), has_plane_stress(model_)));
+      if (!is_uniform(thermal, stress))
+        out_.reasons.refuse("thermal strains and stresses that change from place to place in a body are not covered");
+      for (OuterFace<D, B>& outer : out_.outer) press(outer, stress[out_.incidence.sides[outer.face].element[0]]);
+    }
+  }
+  bool is_uniform(const ThermalStrain<B>& thermal, const std::vector<double>& stress) const {
+    const auto differ = [](double a, double b) {
+      return std::fabs(a - b) > same_value * std::max(std::fabs(a), std::fabs(b));
+    };
+    for (const auto& sides : out_.incidence.sides)
+      if (!sides.outer() && differ(stress[sides.element[0]], stress[sides.element[1]])) return false;
+    for (Index e = 0; e < out_.elements() && !thermal.constant(); ++e) {
+      const double middle = thermal.at(site_in<D>(mesh_, e, model_.t));
+      for (const Index p : mesh_.elements[e])
+        if (differ(thermal.at(site_in<D>(mesh_, e, nearly(p, e), model_.t)), middle)) return false;
+    }
+    return true;
+  }
+  /// Adds a traction k n.
+  void press(OuterFace<D, B>& outer, double k) {
+    const auto vertices = face_vertices<D>(mesh_, out_.incidence.sides[outer.face]);
+    for (auto& load : outer.load) add(k / D, outer.normal, load);
+    for (const auto [a, b] : simplex_edges<D - 1>())
+      add(4 * k / (D * (D + 1)), outer.normal, out_.edge_load[edge_of(outer, vertices[a], vertices[b])]);
   }
 
   void add_source(const Load<B>& load) {
@@ -348,27 +389,39 @@ class Builder {
         piece.slave = of_boundary_[piece.slave];
         piece.master = of_boundary_[piece.master];
       }
+      if (!added.law.empty()) keep_slip(added);
     }
   }
 
   /// Bubbles with friction move along the obstacle's direction alone: what friction takes stays what it is.
   void keep_slip(const Gaps<D, B>& gaps) {
-    for (const Index number : gaps.faces) {
-      const OuterFace<D, B>& outer = out_.outer[number];
-      if (!outer.open()) out_.reasons.add("friction on faces where something is prescribed is not covered");
-      fix_edges(outer, [&](FixedDirections<B>& fixes, Index edge) {
+    for (const Index number : gaps.faces)
+      keep_slip(number, [&](Index edge) {
         const auto* bound = gaps.at_edge(edge);
-        for (int k = 0; bound && k < B; ++k) {
-          std::array<double, B> along{};
-          along[k] = 1;
-          for (int i = 0; i < B; ++i) along[i] -= bound->direction[k] * bound->direction[i];
-          const double size = std::sqrt(dot(along, along));
-          if (!(size > same_direction)) continue;
-          for (double& c : along) c /= size;
-          fixes.add(along.data(), 0, 0);
-        }
+        return bound ? &bound->direction : nullptr;
       });
-    }
+  }
+  void keep_slip(const ContactInterface<D>& between) requires(B == D) {
+    for (const FacingPiece<D>& piece : between.pieces)
+      for (const Index number : {piece.slave, piece.master}) keep_slip(number, [&](Index) { return &between.normal; });
+  }
+  /// @param direction of an edge; null: it may move
+  template <class Direction>
+  void keep_slip(Index number, const Direction& direction) {
+    const OuterFace<D, B>& outer = out_.outer[number];
+    if (!outer.open()) out_.reasons.add("friction on faces where something is prescribed is not covered");
+    fix_edges(outer, [&](FixedDirections<B>& fixes, Index edge) {
+      const std::array<double, B>* n = direction(edge);
+      for (int k = 0; n && k < B; ++k) {
+        std::array<double, B> along{};
+        along[k] = 1;
+        for (int i = 0; i < B; ++i) along[i] -= (*n)[k] * (*n)[i];
+        const double size = std::sqrt(dot(along, along));
+        if (!(size > same_direction)) continue;
+        for (double& c : along) c /= size;
+        fixes.add(along.data(), 0, 0);
+      }
+    });
   }
 
   const Nodes<D>& nodes_;
@@ -389,6 +442,8 @@ TrueProblem<D, B>::TrueProblem(const Nodes<D>& nodes, const Model<B>& model, con
     : mesh(nodes.mesh()), linear(mesh), incidence(mesh), u(quadratic_function<D, B>(nodes, incidence, u)) {
   Builder<D, B>(model, *this).build();
   if (!friction()) return;
+  if (friction_between() && std::ranges::any_of(rest, [](double x) { return x != 0; }))
+    reasons.add("friction between bodies counts from where they were at rest, which is known at nodes only");
   std::vector<double> moved = u;
   for (std::size_t i = 0; i < rest.size(); ++i) moved[i] -= rest[i];
   slip = quadratic_function<D, B>(nodes, incidence, moved);

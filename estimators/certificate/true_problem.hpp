@@ -60,7 +60,10 @@ struct TrueProblem {
   Reasons reasons;
 
   bool friction() const {
-    return std::ranges::any_of(gaps, [](const auto& of_one) { return of_one.friction; });
+    return std::ranges::any_of(gaps, [](const auto& of_one) { return of_one.friction; }) || friction_between();
+  }
+  bool friction_between() const {
+    return std::ranges::any_of(interfaces, [](const auto& of_one) { return !of_one.law.empty(); });
   }
   Index elements() const { return static_cast<Index>(element.size()); }
   bool in_contact() const { return !gaps.empty() || !interfaces.empty(); }

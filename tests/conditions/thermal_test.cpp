@@ -274,8 +274,9 @@ TEST(Thermal, planes_of_symmetry_see_the_temperature) {
   EXPECT_THAT(refusal([&] { half("40 * x"); }), AllOf(HasSubstr("temperature"), HasSubstr("not symmetric")));
 }
 
-TEST(Thermal, has_no_bounds_of_the_error_and_says_so) {
-  const StepReport step = solved(text_of(plate + heated(0.3, order(1)), on_planes_2), {"solver.estimate=true"});
+TEST(Thermal, has_no_bounds_of_the_error_where_it_changes_and_says_so) {
+  const StepReport step =
+      solved(text_of(plate + heated(0.3, order(1), "40 + x"), on_planes_2), {"solver.estimate=true"});
   ASSERT_TRUE(step.estimate);
   EXPECT_FALSE(step.estimate->guaranteed);
   EXPECT_THAT(step.estimate->reasons, testing::Contains(HasSubstr("thermal")));

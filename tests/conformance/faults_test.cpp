@@ -47,7 +47,8 @@ TEST_P(ShippedPlugin, Conforms) {
     EXPECT_THAT(passed(verdict), Contains(check));
 }
 INSTANTIATE_TEST_SUITE_P(All, ShippedPlugin,
-                         testing::Values("scalar", "contact", "tresca", "coulomb", "elastic", "elastic_coulomb"));
+                         testing::Values("scalar", "contact", "tresca", "coulomb", "elastic", "elastic_tresca",
+                                         "elastic_coulomb"));
 
 TEST(Conformance, OfOptionsThatTheUserGives) {
   EXPECT_TRUE(of_shipped("coulomb",

@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "tests/estimators/estimates.hpp"
@@ -59,6 +61,47 @@ TEST(Energies, OfAColumnAreWithinTheBounds) {
                           "[[obstacle]]\ntype = 'elastic'\nbody = 'a'\non = 'bottom'\nother = 'b'\nother_on = 'top'\n";
   for (const std::string& scene : {one, two})
     for (const int refinements : {1, 2}) expect_within(reported(scene, refinements), -0.7 * 0.3 * 0.3 / (2 * 2 * 3));
+}
+
+/// The same column, heated: it expands by s.
+TEST(Energies, OfAHeatedColumnAreWithinTheBounds) {
+  const double E = 2, w = 0.3, s = 0.04, J = -0.7 / 2 * (w * w / (3 * E) + 2 * E * s * s - w * s);
+  for (const int order : {1, 2})
+    for (const std::string plane : {"strain", "stress"}) {
+      const std::string scene =
+          tables::block("a", "[0, 0]", "[0.7, 1]", "[2, 3]",
+                        fmt::format("order = {}\nplane = '{}'\nyoung = 2\npoisson = 0\nexpansion = 1e-3\n"
+                                    "temperature = 40\n",
+                                    order, plane)) +
+          tables::load("a", "[0, -0.3]") + tables::plane("a", "bottom", "[0, 0]", "[0, 1]") +
+          "[[fix]]\nbody = 'a'\non = 'left'\nvalue = [0, 'free']\n";
+      expect_within(reported(scene, 2), J);
+    }
+}
+
+/// A heated block that is held between a wall and an obstacle: meshes must agree about where the energy is.
+TEST(Energies, OfHeatedBodiesAgreeOnTwoMeshes) {
+  const std::string hot = "order = {}\nyoung = 1\npoisson = 0.3\nexpansion = 1e-3\ntemperature = 50\n";
+  for (const int order : {1, 2}) {
+    const std::string keys = fmt::format(fmt::runtime(hot), order);
+    const std::string cold = fmt::format("order = {}\nyoung = 2\npoisson = 0.2\n", order);
+    const std::string plane = tables::block("a", "[0, 0]", "[1, 1]", "[3, 3]", keys) +
+                              tables::fix("a", "left", "[0, 0]") + tables::plane("a", "right", "[1.01, 0]", "[-1, 0]");
+    const std::string space = tables::block("a", "[0, 0, 0]", "[1, 1, 1]", "[2, 2, 2]", keys) +
+                              tables::fix("a", "left", "[0, 0, 0]") +
+                              tables::plane("a", "right", "[1.01, 0, 0]", "[-1, 0, 0]");
+    const std::string two =
+        tables::block("a", "[0, 0]", "[1, 1]", "[3, 3]", keys) +
+        tables::block("b", "[0, -1]", "[1, 0]", "[3, 3]", cold) + tables::fix("a", "top", "[0, -0.01]") +
+        tables::fix("b", "bottom", "[0, 0]") +
+        "[[obstacle]]\ntype = 'elastic'\nbody = 'a'\non = 'bottom'\nother = 'b'\nother_on = 'top'\n";
+    for (const auto& [scene, in_space] : {std::pair(plane, false), std::pair(space, true), std::pair(two, false)}) {
+      const EstimateReport coarse = reported(scene, in_space ? 0 : 1), fine = reported(scene, in_space ? 1 : 2);
+      EXPECT_TRUE(coarse.guaranteed && fine.guaranteed) << scene;
+      EXPECT_LE(coarse.total - coarse.upper, fine.total - fine.lower) << scene;
+      EXPECT_GE(coarse.total - coarse.lower, fine.total - fine.upper) << scene;
+    }
+  }
 }
 
 TEST(Energies, AreThoseOfTheWholeOfAMirroredBody) {

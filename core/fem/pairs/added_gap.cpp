@@ -8,7 +8,7 @@
 namespace signorini {
 
 template <int D>
-double added_gap(const ObstacleTerm<D>& term, const Point<D>& place, const Point<D>& normal) {
+LocalConstraint<D> asked_between(const ObstacleTerm<D>& term, const Point<D>& place, const Point<D>& normal) {
   SurfaceVertex v{};
   v.measure = 1;
   std::ranges::copy(place, v.position);
@@ -19,7 +19,13 @@ double added_gap(const ObstacleTerm<D>& term, const Point<D>& place, const Point
   LocalConstraint<D> constraint{};
   Status status;
   term.obstacle->assemble(&v, 1, &constraint, status);
-  return status.ok() && constraint.directions == 1 && std::isfinite(constraint.lower[0]) ? -constraint.lower[0] : 0;
+  return status.ok() ? constraint : LocalConstraint<D>{};
+}
+
+template <int D>
+double added_gap(const ObstacleTerm<D>& term, const Point<D>& place, const Point<D>& normal) {
+  const LocalConstraint<D> constraint = asked_between<D>(term, place, normal);
+  return constraint.directions == 1 && std::isfinite(constraint.lower[0]) ? -constraint.lower[0] : 0;
 }
 
 template <int D>
@@ -32,8 +38,9 @@ std::vector<double> added_gaps(const Nodes<D>& nodes, const ObstacleTerm<D>& ter
   return out;
 }
 
-#define SIGNORINI_INSTANTIATE(D)                                                          \
-  template double added_gap<D>(const ObstacleTerm<D>&, const Point<D>&, const Point<D>&); \
+#define SIGNORINI_INSTANTIATE(D)                                                                          \
+  template LocalConstraint<D> asked_between<D>(const ObstacleTerm<D>&, const Point<D>&, const Point<D>&); \
+  template double added_gap<D>(const ObstacleTerm<D>&, const Point<D>&, const Point<D>&);                 \
   template std::vector<double> added_gaps(const Nodes<D>&, const ObstacleTerm<D>&, const std::vector<Index>&);
 SIGNORINI_INSTANTIATE(2)
 SIGNORINI_INSTANTIATE(3)
