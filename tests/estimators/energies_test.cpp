@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/estimators/estimates.hpp"
@@ -109,6 +110,18 @@ TEST(Energies, AreThoseOfTheWholeOfAMirroredBody) {
       tables::block("a", "[-0.35, 0]", "[0.35, 1]", "[4, 3]", "order = 1\nyoung = 2\npoisson = 0\n") +
       tables::load("a", "[0, -0.3]") + tables::plane("a", "bottom", "[0, 0]", "[0, 1]") + "[symmetry]\nx = 0\n";
   expect_within(reported(half, 1), -0.7 * 0.3 * 0.3 / (2 * 2 * 3));
+}
+
+/// A slender beam, on which conjugate gradients take too many steps.
+TEST(Estimate, WarnsWhereTheCorrectiveSolveFails) {
+  Driver driver(parse_scene(tables::block("b", "[0, 0]", "[1000, 1]", "[400, 2]") + tables::fix("b", "left", "[0, 0]") +
+                                tables::load("b", "[0, -1e-9]", "top") + "[solver]\nestimate = true\n",
+                            "test.toml", "."));
+  driver.solve();
+  ASSERT_TRUE(driver.report().last().estimate);
+  EXPECT_TRUE(driver.report().last().estimate->guaranteed);
+  EXPECT_TRUE(std::ranges::any_of(driver.report().warnings,
+                                  [](const Warning& warning) { return warning.id == "bound-not-sharp"; }));
 }
 
 }  // namespace
