@@ -349,7 +349,7 @@ void Driver::finish() {
       run.add_result_warnings(report_, warnings);
       if (run.by_matrix()) report_.hierarchy = "matrix";
     });
-  if (!report_.converged()) return;
+  if (scene_.bodies.size() < 2 || !report_.converged()) return;
   add_unheld_overlaps<2>();
   add_unheld_overlaps<3>();
 }

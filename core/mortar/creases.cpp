@@ -1,6 +1,7 @@
 #include "core/mortar/creases.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/sorted_range.hpp"
 #include "core/mesh/simplex.hpp"
@@ -12,11 +13,6 @@ namespace {
 // Times what the side turns by at the next edges, on that side of an edge where this is less: facets of one size turn
 // by once as much.
 constexpr double sharper = 3;
-
-template <int D>
-double turn(const Point<D>& a, const Point<D>& b) {
-  return length<D>(difference<D>(a, b));
-}
 
 template <int D>
 std::array<double, D> middle_of_edge(int opposite) {
@@ -65,20 +61,23 @@ auto Creases<D>::joints() const -> std::vector<Joint> {
 
 template <int D>
 void Creases<D>::find_sharp(const std::vector<Joint>& joints) {
-  std::vector<double> turns(side_.faces.size() * D);
+  std::vector<Point<D>> turns(side_.faces.size() * D);  // of the normal
   std::vector<const Joint*> candidates;
   for (const Joint& joint : joints) {
-    const double by = turn<D>(normal(joint.face[0], joint.opposite[0]), normal(joint.face[1], joint.opposite[1]));
+    const Point<D> by =
+        difference<D>(normal(joint.face[0], joint.opposite[0]), normal(joint.face[1], joint.opposite[1]));
     for (const int s : {0, 1}) turns[seat(joint.face[s], joint.opposite[s])] = by;
-    if (by >= steepest) candidates.push_back(&joint);
+    if (length<D>(by) >= steepest) candidates.push_back(&joint);
   }
   if (candidates.empty()) return;
   std::vector<std::pair<Index, Index>> around;  // node, face
   for (Index f = 0; f < std::ssize(side_.faces); ++f)
     for (const Index v : side_.faces[f]) around.emplace_back(v, f);
   std::ranges::sort(around);
-  // What it turns by at the next edges, on one side.
+  // What it turns by in that direction at the next edges, on one side: at the corner of a flat face the other edge
+  // turns it in another one.
   const auto beside = [&](const Joint& joint, int s) {
+    const Point<D>& by = turns[seat(joint.face[0], joint.opposite[0])];
     const Point<D>&own = side_.normal[joint.face[s]], &other = side_.normal[joint.face[1 - s]];
     double most = 0;
     for (int i = 0; i < D; ++i) {
@@ -87,14 +86,15 @@ void Creases<D>::find_sharp(const std::vector<Joint>& joints) {
       for (const auto& [node, f] : part_with(around, v, &std::pair<Index, Index>::first)) {
         if (dot(side_.normal[f], own) < dot(side_.normal[f], other)) continue;
         const auto& corners = side_.faces[f];
-        most = std::max(most, turns[seat(f, static_cast<int>(std::ranges::find(corners, v) - corners.begin()))]);
+        const Point<D>& next = turns[seat(f, static_cast<int>(std::ranges::find(corners, v) - corners.begin()))];
+        most = std::max(most, std::fabs(dot(next, by)) / length<D>(by));
       }
     }
     return most;
   };
   for (const Joint* joint : candidates) {
-    if (turns[seat(joint->face[0], joint->opposite[0])] < sharper * std::min(beside(*joint, 0), beside(*joint, 1)))
-      continue;
+    const double by = length<D>(turns[seat(joint->face[0], joint->opposite[0])]);
+    if (by < sharper * std::min(beside(*joint, 0), beside(*joint, 1))) continue;
     sharp_.resize(turns.size());
     for (const int s : {0, 1}) sharp_[seat(joint->face[s], joint->opposite[s])] = true;
   }

@@ -211,7 +211,7 @@ constexpr KeySpec obstacle[] = {
     {"pretension", field, "", "(0, inf)", "",
      "of type \"tied\", across the shank of a bolt: the force in total that pulls the two sides into each other, a "
      "number or an expression in t"},
-    {"lock_at", number, "", "(0, 1)", "",
+    {"lock_at", number, "", "(0, 1]", "",
      "beside `pretension`: after the last step up to this t the bolt keeps its length, and no force is given any more. "
      "By default after the first of several steps"},
 };

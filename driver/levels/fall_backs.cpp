@@ -99,7 +99,7 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
     OtherOptions other(options_, std::move(options));
     otherwise = run(kind, [&] {
       pairs_.forget();
-      return levels_.finest().before.u.empty() ? solve_safely(model).solution : solve_sliding(model);
+      return solve_sliding(model);
     });
     if (otherwise && kind == Kind::levels_of_meshes) other.stay();
   };
@@ -129,8 +129,7 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   for (MeshLevel<D, B>& level : levels_) level.before = {};
-  pairs_.begin();
-  return solve_safely(model).solution;
+  return solve_sliding(model);
 }
 
 template <int D, int B>
@@ -139,7 +138,7 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solve_sliding(model);
 }
 
-/// A step after another one.
+/// Contact is linear about where bodies are. Where the solution takes them elsewhere they are looked at there.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   pairs_.begin_step(model, levels_.finest().before.u);
@@ -151,7 +150,7 @@ Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   const auto may_slide = [&] { return !otherwise && attempts.done().converged(); };
   for (int again = 0; again < automatic::most_slides && may_slide() && !progress_.is_ended(); ++again) {
     if (!pairs_.follow(model, displacement())) break;
-    progress_.phase("bodies have slid past each other, and are paired anew");
+    progress_.phase("bodies have moved past each other or an obstacle, and are looked at where they are now");
     attempts.run(automatic::attempt(Kind::pairs_anew), Start::first, [&] {
       Found found = solve_safely(pairs_.moved(model));
       solution = std::move(found.solution);

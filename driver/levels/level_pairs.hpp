@@ -39,14 +39,15 @@ class LevelPairs {
     return shift_after({shift_, levels_.finest().all_pairs}, model, u) != shift_;
   }
 
-  /// The first load step begins as the undeformed bodies lie.
-  void begin() { shift_.clear(); }
   /// The model whose rigid obstacles are where bodies have found them.
   Model<B> moved(const Model<B>& model) const { return moved(model, shift_); }
   /// Steps after this one begin from where bodies have found each other now.
   void accept() { accepted_ = {shift_, levels_.finest().all_pairs}; }
   /// Such a step begins, or begins again, with the last one's displacement: follows it from there.
-  void begin_step(const Model<B>& model, const std::vector<double>& u) { shift_ = shift_after(accepted_, model, u); }
+  /// @param u empty: there is none, and bodies lie as they are drawn
+  void begin_step(const Model<B>& model, const std::vector<double>& u) {
+    shift_ = u.empty() ? std::vector<Point<B>>() : shift_after(accepted_, model, u);
+  }
 
   /// What a solve has found.
   struct Found {

@@ -205,7 +205,8 @@ TEST(OpenJointOfTwoBodies, presses_the_other_one_where_it_is) {
         fix("lid", "top", "[0, 0]") + fix("seat", "bottom", "[0, 0]") + seal("lid", "bottom", "1e-4") +
         pair("lid", "bottom", "seat", "top", "gap = 0.01\n"));
     EXPECT_NEAR(step.balance[0].applied[1], 1e-4 * 40, 1e-12);
-    EXPECT_NEAR(step.balance[1].applied[1], -1e-4 * 20.3, 1e-12);
+    // Of quadratic elements, where it ends within a face, the shares of nodes are not exactly its part of them.
+    EXPECT_NEAR(step.balance[1].applied[1], -1e-4 * 20.3, order == 1 ? 1e-12 : 0.002 * 1e-4 * 20.3);
   }
 }
 

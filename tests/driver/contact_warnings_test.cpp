@@ -39,9 +39,9 @@ TEST(ApartWarnings, are_of_distances_that_there_are) {
         "1000\npoisson = 0.3\n",
         name, x, y, size);
   };
-  const auto all =
-      warnings(disk("a", 0, 0, "1") + disk("b", 0.3, 25.002, "4") + tables::fix("a", "boundary", "[0, 0]") +
-               tables::fix("b", "boundary", "[0, 0]") + "[contact]\nbetween = 'all'\n");
+  const auto all = warnings(disk("a", 0, 0, "1") + disk("b", 0.3, 25.002, "4") +
+                            "[[fix]]\nbody = 'a'\nwhere = 'y < -6'\nvalue = [0, 0]\n" +
+                            "[[fix]]\nbody = 'b'\nwhere = 'y > 31'\nvalue = [0, 0]\n" + "[contact]\nbetween = 'all'\n");
   EXPECT_THAT(all, Not(Contains(HasSubstr("overlap"))));
 }
 

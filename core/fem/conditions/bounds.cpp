@@ -85,6 +85,17 @@ void count_from_rest(const ObstacleTerm<B>& term, std::size_t first, std::vector
   }
 }
 
+/// What a functional counts on, such as a coefficient of friction, is that of where the body was drawn.
+template <int B>
+void take_numbers(const ObstacleTerm<B>& term, const std::vector<SurfaceVertex>& drawn, const std::vector<Index>& of,
+                  std::vector<FunctionalNumbers<B>>& numbers) {
+  std::vector<LocalConstraint<B>> constraints(drawn.size());
+  Status status;
+  term.obstacle->assemble(drawn.data(), drawn.size(), constraints.data(), status);
+  for (std::size_t k = 0; k < of.size() && status.ok(); ++k)
+    std::copy(std::begin(constraints[k].data), std::end(constraints[k].data), numbers[of[k]].data.begin());
+}
+
 template <int D, int B>
 void collect(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>* pairing, Index obstacle,
              std::vector<Bound<B>>& bounds, std::vector<FunctionalNumbers<B>>& numbers) {
@@ -93,16 +104,29 @@ void collect(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
   const Candidates<D> candidates(nodes, model, model.obstacles[obstacle]);
   if (bounds.empty()) bounds.reserve(static_cast<std::size_t>(candidates.size(nodes)));
   BoundCollector<B> collector(places, obstacle, bounds, numbers);
-  if (model.obstacles[obstacle].other)
+  const ObstacleTerm<B>& term = model.obstacles[obstacle];
+  if (term.other)
     collect_paired(nodes, candidates, *pairing, obstacle, collector);
   else
     candidates.each(nodes, [&](Index p, const Point<D>& normal, double measure) {
       SurfaceVertex v = vertex_at<D>(nodes, p, normal, measure);
-      move<D>(model.obstacles[obstacle], v);
+      move<D>(term, v);
       collector.push(p, v);
     });
   collector.flush();
-  count_from_rest(model.obstacles[obstacle], first, bounds);
+  if (term.moved == std::array<double, B>{}) return;
+  count_from_rest(term, first, bounds);
+  std::vector<SurfaceVertex> drawn;
+  std::vector<Index> of;
+  std::size_t next = first;
+  candidates.each(nodes, [&](Index p, const Point<D>& normal, double measure) {
+    for (; next < bounds.size() && bounds[next].vertex == p; ++next)
+      if (bounds[next].data >= 0) {
+        drawn.push_back(vertex_at<D>(nodes, p, normal, measure));
+        of.push_back(bounds[next].data);
+      }
+  });
+  take_numbers(term, drawn, of, numbers);
 }
 
 }  // namespace

@@ -6,81 +6,134 @@
 #include "core/base/dot.hpp"
 #include "core/base/rounding.hpp"
 #include "core/fem/conditions/bounds.hpp"
+#include "core/fem/elements/select.hpp"
 
 namespace signorini {
 namespace {
 
-constexpr double touching = 1e-6;    // of how far nodes have come along their normals: what tolerances leave
-constexpr double noticeable = 0.01;  // of what contact flattens, or of how far nodes have come
+constexpr double touching = 1e-6;     // of how far nodes have come along their normals: what tolerances leave
+constexpr double noticeable = 0.002;  // of what contact flattens
+constexpr double better = 0.5;        // of the error before: where each node has a way of its own the mean is no better
 
-/// A bound, and what is left of it.
+/// What is left of a bound.
 template <int D>
-struct Left {
-  const Bound<D>* bound;
-  double along, left;
-};
-
-template <int D>
-Left<D> left_of(const Bound<D>& bound, const std::vector<double>& u) {
+double left_of(const Bound<D>& bound, const std::vector<double>& u) {
   double along = 0;
   for (int i = 0; i < D; ++i) along += bound.direction[i] * u[Offset{bound.vertex} * D + i];
-  return {&bound, along, std::min(along - bound.lower, bound.upper - along)};
+  return std::min(along - bound.lower, bound.upper - along);
 }
 
-/// Of those that touch, and of all, how far they have come.
-struct Way {
-  double least = infinity, most = -infinity, closed = 0;
-};
-
-/// By how much other bounds differ most from these at the same vertices.
+/// Nodes that touch a rigid obstacle in a solution.
 template <int D>
-double largest_change(const std::vector<Left<D>>& touch, const std::vector<Bound<D>>& other,
-                      const std::vector<double>& u) {
-  double out = 0;
-  for (const Left<D>& at : touch) {
-    double nearest = infinity;
-    for (auto bound = std::ranges::lower_bound(other, at.bound->vertex, {}, &Bound<D>::vertex);
-         bound != other.end() && bound->vertex == at.bound->vertex; ++bound)
-      nearest = std::min(nearest, std::fabs(left_of(*bound, u).left - at.left));
-    out = std::max(out, nearest);
+class Touching {
+ public:
+  Touching(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const std::vector<double>& u)
+      : nodes_(nodes), model_(model), obstacle_(obstacle), u_(u) {
+    const std::vector<Bound<D>> bounds = bounds_of(nodes, model, obstacle);
+    double nearest = infinity, closed = 0;
+    for (const Bound<D>& bound : bounds) {
+      closed = std::max(closed, std::fabs(along(bound.direction, displacement(bound.vertex))));
+      nearest = std::min(nearest, left_of(bound, u));
+    }
+    const double reach = std::max(nearest, 0.0) + touching * closed;
+    for (const Bound<D>& bound : bounds)
+      if (left_of(bound, u) <= reach) bounds_.push_back(bound);
   }
-  return out;
-}
+
+  bool none() const { return bounds_.empty(); }
+
+  Point<D> mean() const {
+    Point<D> out{};
+    for (const Bound<D>& bound : bounds_)
+      for (int i = 0; i < D; ++i) out[i] += displacement(bound.vertex)[i] / static_cast<double>(bounds_.size());
+    return out;
+  }
+
+  /// By how much more some of them have come along their normals than others, but for a motion of all of them.
+  double flattened(const Point<D>& motion) const {
+    double least = infinity, most = -infinity;
+    for (const Bound<D>& bound : bounds_) {
+      const double by = along(bound.direction, difference<D>(displacement(bound.vertex), motion));
+      least = std::min(least, by);
+      most = std::max(most, by);
+    }
+    return most - least;
+  }
+
+  double size() const {
+    double out = 0;
+    for (const Bound<D>& bound : bounds_)
+      for (int i = 0; i < D; ++i)
+        out = std::max(out, std::fabs(nodes_.at(bound.vertex)[i]) + std::fabs(displacement(bound.vertex)[i]));
+    return out;
+  }
+
+  /// How far conditions that are linear about a motion of all are from the true distances, at corners of elements:
+  /// there coefficients are displacements. 0: none of them touches.
+  double error_about(const Point<D>& motion) const {
+    Model<D> there = model_;
+    there.obstacles[obstacle_].moved = motion;
+    const std::vector<Bound<D>> linear = bounds_of(nodes_, there, obstacle_);
+    const ObstacleTerm<D>& term = model_.obstacles[obstacle_];
+    const Surface<D> faces =
+        term.on ? surface(nodes_, select_faces(nodes_.mesh(), *term.on, model_.t)) : surface(nodes_);
+    const std::vector<Point<D>> normals = node_normals(nodes_, faces);
+    double out = 0;
+    for (const Bound<D>& bound : bounds_) {
+      const Index p = bound.vertex;
+      const auto place = std::ranges::lower_bound(faces.nodes, p);
+      if (nodes_.ends(p)[0] != nodes_.ends(p)[1] || place == faces.nodes.end() || *place != p) continue;
+      double left = infinity;
+      for (auto at = std::ranges::lower_bound(linear, p, {}, &Bound<D>::vertex); at != linear.end() && at->vertex == p;
+           ++at)
+        left = std::min(left, left_of(*at, u_));
+      const double there_is = distance(term, p, normals[static_cast<std::size_t>(place - faces.nodes.begin())]);
+      if (std::isfinite(there_is) && std::isfinite(left)) out = std::max(out, std::fabs(there_is - left));
+    }
+    return out;
+  }
+
+ private:
+  Point<D> displacement(Index p) const {
+    Point<D> out;
+    std::copy_n(u_.data() + Offset{p} * D, D, out.begin());
+    return out;
+  }
+
+  static double along(const std::array<double, D>& direction, const Point<D>& by) { return dot(direction, by); }
+
+  /// Of where the node is; infinite where the obstacle cannot tell.
+  double distance(const ObstacleTerm<D>& term, Index p, const Point<D>& normal) const {
+    SurfaceVertex v{};
+    for (int i = 0; i < D; ++i) v.position[i] = nodes_.at(p)[i] + displacement(p)[i];
+    std::copy_n(normal.data(), D, v.normal);
+    LocalConstraint<D> constraint;
+    Status status;
+    term.obstacle->assemble(&v, 1, &constraint, status);
+    double out = infinity;
+    for (int k = 0; status.ok() && k < constraint.directions; ++k)
+      out = std::min({out, -constraint.lower[k], constraint.upper[k]});
+    return out;
+  }
+
+  const Nodes<D>& nodes_;
+  const Model<D>& model_;
+  const Index obstacle_;
+  const std::vector<double>& u_;
+  std::vector<Bound<D>> bounds_;
+};
 
 }  // namespace
 
 template <int D>
 std::optional<Point<D>> moved_on(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,
                                  const std::vector<double>& u) {
-  const std::vector<Bound<D>> bounds = bounds_of(nodes, model, obstacle);
-  std::vector<Left<D>> touch;
-  Way way;
-  double nearest = infinity;
-  for (const Bound<D>& bound : bounds) {
-    const Left<D>& at = touch.emplace_back(left_of(bound, u));
-    way.closed = std::max(way.closed, std::fabs(at.along));
-    nearest = std::min(nearest, at.left);
-  }
-  if (touch.empty()) return {};
-  const double reach = std::max(nearest, 0.0) + touching * way.closed;
-  std::erase_if(touch, [&](const Left<D>& at) { return at.left > reach; });
-  Model<D> there = model;
-  Point<D>& mean = there.obstacles[obstacle].moved;
-  mean = {};
-  double size = 0;
-  for (const Left<D>& at : touch) {
-    way.least = std::min(way.least, at.along);
-    way.most = std::max(way.most, at.along);
-    for (int i = 0; i < D; ++i) {
-      const double by = u[Offset{at.bound->vertex} * D + i];
-      mean[i] += by / static_cast<double>(touch.size());
-      size = std::max(size, std::fabs(nodes.at(at.bound->vertex)[i]) + std::fabs(by));
-    }
-  }
-  const double flattened = way.most - way.least;
-  const double scale = flattened > touching * way.closed ? flattened : way.closed;
-  const double change = largest_change(touch, bounds_of(nodes, there, obstacle), u);
-  if (!(change > std::max(noticeable * scale, rounding_of_differences * size))) return {};
+  const Touching<D> touch(nodes, model, obstacle, u);
+  if (touch.none()) return {};
+  const Point<D> mean = touch.mean();
+  const double error = touch.error_about(model.obstacles[obstacle].moved);
+  if (!(error > std::max(noticeable * touch.flattened(mean), rounding_of_differences * touch.size()))) return {};
+  if (!(touch.error_about(mean) < better * error)) return {};
   return mean;
 }
 

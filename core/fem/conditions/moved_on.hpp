@@ -7,9 +7,9 @@
 
 namespace signorini {
 
-/// The mean motion of the nodes that touch a rigid obstacle, or of the nearest one: where the condition of contact
-/// about the body so displaced is noticeably another one than about ObstacleTerm::moved. Else nothing: on a plane
-/// always.
+/// The mean motion of the nodes that touch a rigid obstacle, or of the nearest one: where conditions of contact that
+/// are linear about the body so displaced are nearer to the true distances than those about ObstacleTerm::moved, and
+/// these are noticeably off. Else nothing: on a plane always, and where each node has a way of its own, as on a drum.
 /// @param u global coordinates, D per node
 template <int D>
 std::optional<Point<D>> moved_on(const Nodes<D>& nodes, const Model<D>& model, Index obstacle,

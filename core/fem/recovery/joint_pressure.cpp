@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/fem/assembly/resultant.hpp"
 #include "core/fem/elements/select_nodes.hpp"
+#include "core/fem/pairs/paired_sides.hpp"
 #include "core/fem/recovery/contact.hpp"
 #include "core/mesh/connected.hpp"
 
@@ -132,11 +133,29 @@ std::vector<double> JointPressure<D, B>::own_force(const Joint& joint, const std
   return force;
 }
 
+/// Calls use(row, node, weight) for nodes of the master; rows have nodes of the slave as well, whose share theirs takes
+/// over.
+template <int D, int B>
+template <class Use>
+void JointPressure<D, B>::each_master(const MasterMeans& means, const Use& use) const {
+  const std::vector<Index> body = connected_parts(nodes_.mesh());
+  std::vector<char> slave(static_cast<std::size_t>(nodes_.size()));  // of any obstacle, by its side
+  if constexpr (D == B)
+    for (const ObstacleTerm<B>& term : model_.obstacles) {
+      if (!term.other) continue;
+      for (const Index p : surface(nodes_, paired_faces(nodes_.mesh(), term, model_.t).slave).nodes) slave[p] = true;
+    }
+  const auto is_own = [&](Index p, Index q) { return slave[q] && body[nodes_.ends(p)[0]] == body[nodes_.ends(q)[0]]; };
+  for (std::size_t s = 0; s < means.node.size(); ++s)
+    for (Offset k = means.row[s]; k < means.row[s + 1]; ++k)
+      if (!is_own(means.node[s], means.column[k])) use(s, means.column[k], means.weight[k]);
+}
+
 template <int D, int B>
 void JointPressure<D, B>::refuse_master(const Joint& joint, const PairedBodies<B>& pairs) const {
   const std::vector<Index>& slaves = pairs.means->node;
   std::vector<char> faced(static_cast<std::size_t>(nodes_.size()));
-  for (const Index q : pairs.means->column) faced[q] = true;
+  each_master(*pairs.means, [&](std::size_t, Index q, double) { faced[q] = true; });
   for (const Index face : joint.faces.faces) {
     const auto around = nodes_.of_face(face);
     const bool master = std::ranges::all_of(around, [&](Index q) { return faced[q]; }) &&
@@ -155,24 +174,16 @@ void JointPressure<D, B>::refuse_master(const Joint& joint, const PairedBodies<B
 template <int D, int B>
 void JointPressure<D, B>::hand_over(const std::vector<double>& own, const PairedBodies<B>& pairs,
                                     std::vector<double>& force) const {
-  const std::vector<Index> body = connected_parts(nodes_.mesh());
-  const auto body_of = [&](Index p) { return body[nodes_.ends(p)[0]]; };
   std::vector<double> bears(static_cast<std::size_t>(nodes_.size()));  // part of the node's area
   for (const PairedNode<B>& node : pairs.nodes) bears[node.node] += node.covered + node.taken;
   for (const TiedNode& tie : pairs.ties) bears[tie.node] += tie.bears;
   const MasterMeans& means = *pairs.means;
-  for (std::size_t s = 0; s < means.node.size(); ++s) {
+  std::vector<double> sum(means.node.size());
+  each_master(means, [&](std::size_t s, Index, double weight) { sum[s] += weight; });
+  each_master(means, [&](std::size_t s, Index q, double weight) {
     const Index p = means.node[s];
-    double sum = 0;  // without the slave's own nodes, whose share p takes over
-    const auto each_master = [&](const auto& use) {
-      for (Offset k = means.row[s]; k < means.row[s + 1]; ++k)
-        if (body_of(means.column[k]) != body_of(p)) use(means.column[k], means.weight[k]);
-    };
-    each_master([&](Index, double weight) { sum += weight; });
-    each_master([&](Index q, double weight) {
-      for (int i = 0; i < B; ++i) force[Offset{q} * B + i] -= bears[p] * weight / sum * own[Offset{p} * B + i];
-    });
-  }
+    for (int i = 0; i < B; ++i) force[Offset{q} * B + i] -= bears[p] * weight / sum[s] * own[Offset{p} * B + i];
+  });
 }
 
 template <int D, int B>

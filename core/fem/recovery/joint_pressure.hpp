@@ -64,6 +64,8 @@ class JointPressure {
   std::vector<char> spread(const Joint& joint, const Pressed& pressed) const;
   std::vector<double> pressures(const Joint& joint) const;
   std::vector<double> own_force(const Joint& joint, const std::vector<char>& wetted, JointLoad<B>& out) const;
+  template <class Use>
+  void each_master(const MasterMeans& means, const Use& use) const;
   void hand_over(const std::vector<double>& own, const PairedBodies<B>& pairs, std::vector<double>& force) const;
   void refuse_master(const Joint& joint, const PairedBodies<B>& pairs) const;
 

@@ -1,10 +1,12 @@
 #include "core/fem/recovery/rigid_gap.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
+#include "core/base/dense.hpp"
 #include "core/base/rounding.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
@@ -162,17 +164,29 @@ bool turns_at_once(const Nodes<D>& nodes, const Surface<D>& at, Index p, const O
   return whole > least && turn(before, after) > most * whole;
 }
 
-/// See DeformedContact.
+/// See DeformedContact. The motion of all vertices is the one next to what they have come by, in the mean.
 template <int D>
 double depth(const ContactState<D>& state, Index obstacle, double displacement) {
+  std::vector<const ContactNode<D>*> touch;
+  Eigen::Matrix<double, D, D> square = Eigen::Matrix<double, D, D>::Zero();
+  Eigen::Matrix<double, D, 1> right = Eigen::Matrix<double, D, 1>::Zero();
+  for (const ContactNode<D>& node : state.nodes) {
+    if (!node.contact || node.obstacle != obstacle || !std::isfinite(node.start)) continue;
+    touch.push_back(&node);
+    const Eigen::Map<const Eigen::Matrix<double, D, 1>> n(node.direction.data());
+    square += n * n.transpose();
+    right += node.start * n;
+  }
+  if (touch.empty()) return 0;
+  square.diagonal().array() += of_tolerance * static_cast<double>(touch.size());  // along what no normal has a part
+  const Eigen::Matrix<double, D, 1> common = SymmetricFactors(square).solve(right);
   double least = infinity, most = -infinity;
-  for (const ContactNode<D>& node : state.nodes)
-    if (node.contact && node.obstacle == obstacle && std::isfinite(node.start)) {
-      least = std::min(least, node.start);
-      most = std::max(most, node.start);
-    }
-  const double size = std::max({std::abs(least), std::abs(most), displacement});
-  return most - least > of_tolerance * size ? most - least : 0;
+  for (const ContactNode<D>* node : touch) {
+    const double by = node->start - Eigen::Map<const Eigen::Matrix<double, D, 1>>(node->direction.data()).dot(common);
+    least = std::min(least, by);
+    most = std::max(most, by);
+  }
+  return most - least > of_tolerance * std::max(common.norm(), displacement) ? most - least : 0;
 }
 
 template <int B>

@@ -11,8 +11,8 @@ struct DeformedContact {
   double penetration = 0;   ///< of the deformed boundary's vertices, the largest
   double opening = 0;       ///< the largest distance of vertices where contact is claimed
   double displacement = 0;  ///< largest of a vertex in contact or inside the obstacle, or difference of any two
-  /// By how much more some vertices in contact have come along the obstacle's normal than others: what contact
-  /// flattens; 0: nothing but rounding.
+  /// By how much more some vertices in contact have come along the obstacle's normal than others, but for a motion of
+  /// all of them: what contact flattens; 0: nothing but rounding.
   double depth = 0;
   Index beyond = 0;         ///< vertices where contact is claimed and the other body is no longer in front
   double sagitta = 0;       ///< largest of a triangulated obstacle where the body touches it, see FacetedDistance
