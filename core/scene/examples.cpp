@@ -97,8 +97,8 @@ force divides between the fix and the obstacle. What presses counts as the obsta
 such nodes. All keys are in [results.md](results.md).
 
 **Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before
-it moves. Where the solution takes the body along a curved obstacle, or to it from afar, that is another condition: the
-step is solved again with the obstacle seen from where the body has come to. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
+it moves. In the second of `[steps]` and later, a curved obstacle is seen from where the body has come to: let the body
+slide along it, or come to it from afar, in a few steps. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
 
 | key of the report | says |
 | --- | --- |

@@ -99,7 +99,7 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
     OtherOptions other(options_, std::move(options));
     otherwise = run(kind, [&] {
       pairs_.forget();
-      return solve_sliding(model);
+      return levels_.finest().before.u.empty() ? solve_safely(model).solution : solve_sliding(model);
     });
     if (otherwise && kind == Kind::levels_of_meshes) other.stay();
   };
@@ -129,7 +129,8 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   for (MeshLevel<D, B>& level : levels_) level.before = {};
-  return solve_sliding(model);
+  pairs_.begin_step(model, {});
+  return solve_safely(model).solution;
 }
 
 template <int D, int B>
@@ -138,7 +139,8 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solve_sliding(model);
 }
 
-/// Contact is linear about where bodies are. Where the solution takes them elsewhere they are looked at there.
+/// A step after another one. Contact is linear about where bodies are: where the solution takes them elsewhere they are
+/// looked at there.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   pairs_.begin_step(model, levels_.finest().before.u);

@@ -106,7 +106,7 @@ std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Mo
                                                     const std::vector<double>& u) const {
   std::vector<Point<B>> shift = place.shift;
   if constexpr (D == B) {
-    if (given_ || model.obstacles.empty()) return shift;
+    if (given_ || !model.follows) return shift;
     const Nodes<D>& nodes = levels_.finest().nodes;
     shift.resize(model.obstacles.size());
     const Model<B> here = moved(model, shift);

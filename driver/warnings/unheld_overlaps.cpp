@@ -17,8 +17,7 @@ constexpr double of_motion = 1e-3;  // the least overlap beside the largest disp
 
 bool is_kept_apart(const Scene& scene, const std::string& a, const std::string& b) {
   return std::ranges::any_of(scene.obstacles, [&](const Scene::Obstacle& obstacle) {
-    const bool glued = obstacle.type == "tied" && !obstacle.pretension;  // a bolt's cut is pulled together
-    return !glued && std::minmax(obstacle.body, obstacle.other) == std::minmax(a, b);
+    return std::minmax(obstacle.body, obstacle.other) == std::minmax(a, b);
   });
 }
 
