@@ -47,7 +47,7 @@ TEST(MovedObstacle, IsSeenFromWhereABodyComesTo) {
 TEST(MovedOn, DoesNothingOnAPlane) {
   Model<2> model = resting_block<2>({0, -1e-6}, {});
   Mesh<2> mesh = cube<2>(0, 1, 4);
-  const Nodes<2> nodes(mesh, 2);
+  const Nodes<2> nodes(mesh);
   std::vector<double> u;
   for (Index p = 0; p < nodes.size(); ++p) u.insert(u.end(), {5.0, -0.01});
   EXPECT_FALSE(moved_on(nodes, model, 0, u));
