@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import json
-from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
+from ctypes import POINTER, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_uint, c_void_p
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +61,45 @@ class Cycle(ctypes.Structure):
                 ("residual", c_double), ("algebraic_error", c_double), ("energy", c_double)]
 
 
+class SlotStruct(ctypes.Structure):
+    """signorini_slot"""
+
+    unknowns: int
+    lower: int
+    upper: int
+    number: int
+    last: int
+    before: int
+    tangential: int
+
+    _fields_ = [("unknowns", c_int32), ("lower", c_void_p), ("upper", c_void_p), ("number", c_void_p),
+                ("last", c_void_p), ("before", c_void_p), ("tangential", c_uint)]
+
+
+# Of an energy, called often: pointers arrive as addresses, which is fast.
+_doubles, _at = POINTER(c_double), c_void_p
+ChangeFunction = SlopeFunction = ctypes.CFUNCTYPE(c_double, _at, _at, _at, _at)
+MinimiseFunction = RenewFunction = LineariseFunction = ctypes.CFUNCTYPE(None, _at, _at, _at, _at, _at, _at)
+ScaleFunction = ctypes.CFUNCTYPE(None, c_double, _at, _at)
+
+
+class EnergyStruct(ctypes.Structure):
+    """signorini_energy"""
+
+    _fields_ = [("size", c_size_t), ("change", ChangeFunction), ("slope", SlopeFunction),
+                ("minimise", MinimiseFunction), ("linearise", LineariseFunction), ("renew", RenewFunction),
+                ("scale", ScaleFunction), ("data", c_void_p)]
+
+
+class ObstacleStruct(ctypes.Structure):
+    """signorini_obstacle"""
+
+    _fields_ = [("size", c_size_t), ("name", c_char_p), ("blocks", c_int32), ("block", POINTER(c_int32)),
+                ("directions", c_int32), ("direction", _doubles), ("lower", _doubles), ("upper", _doubles),
+                ("friction", _doubles), ("energy", POINTER(EnergyStruct)), ("numbers", c_int32),
+                ("number", _doubles)]
+
+
 MonitorFunction = ctypes.CFUNCTYPE(c_int, c_int, c_double, c_double, c_void_p)
 
 _arguments = {
@@ -72,6 +111,9 @@ _arguments = {
     "signorini_set_monitor": [c_void_p, MonitorFunction, c_void_p],
     "signorini_current_cycle": [c_void_p, POINTER(Cycle)],
     "signorini_history": [c_void_p, c_int32, c_void_p, POINTER(c_int32)],
+    "signorini_set_obstacles": [c_void_p, c_int32, POINTER(POINTER(ObstacleStruct))],
+    "signorini_next_step": [c_void_p],
+    "signorini_touching": [c_void_p, c_void_p],
 }
 
 

@@ -52,13 +52,14 @@ class KeptInterrupt:
 class Monitor:
     """Set while a solve runs. What the callback raises is raised again once the library has returned."""
 
-    def __init__(self, solver: ctypes.c_void_p, callback: Callback | None, interrupt: KeptInterrupt) -> None:
-        self._solver, self._callback, self._interrupt = solver, callback, interrupt
+    def __init__(self, solver: ctypes.c_void_p, callback: Callback | None, interrupt: KeptInterrupt,
+                 failed: Callable[[], bool] | None = None) -> None:
+        self._solver, self._callback, self._interrupt, self._failed = solver, callback, interrupt, failed
         self._error: BaseException | None = None
         self._function: Any = MonitorFunction(self._after_cycle)
 
     def __enter__(self) -> Monitor:
-        if self._callback or self._interrupt.listens:
+        if self._callback or self._interrupt.listens or self._failed:
             library().signorini_set_monitor(self._solver, self._function, None)
         return self
 
@@ -72,7 +73,7 @@ class Monitor:
 
     def _after_cycle(self, _iteration: int, _residual: float, _error: float, _data: int | None) -> int:
         try:
-            return 1 if self._interrupt.arrived is not False or (self._callback and self._call()) else 0
+            return 1 if (self._failed and self._failed()) or self._interrupt.arrived is not False or (self._callback and self._call()) else 0
         except BaseException as error:  # whatever it is, it cannot pass through C
             self._error = error
             return 1

@@ -18,6 +18,7 @@ from ._library import RowsStruct, Setup, Summary, library
 from ._monitor import Callback, KeptInterrupt, Monitor
 from ._rows import Rows, rows, square_rows
 from .errors import Infeasible, NotConverged, Unbounded
+from .obstacles import Handed, Obstacle
 
 _cycle_type = np.dtype([(name, of) for name, of in (
     ("iteration", np.int32), ("finest", np.int32), ("contact", np.int32), ("changed", np.int32),
@@ -82,6 +83,8 @@ class Solver:
         if status != _library.SOLVED:
             _fail(status)
         self._handle = handle
+        self._block = setup.block
+        self._obstacles = Handed([], self._block)
         weakref.finalize(self, library().signorini_destroy, handle)
 
     @property
@@ -101,11 +104,12 @@ class Solver:
             raise ValueError(f"callback: found {callback!r}, expected a function")
         x, multiplier, summary = np.empty(self._size), np.empty(self._size), Summary()
         with _Alone(self), KeptInterrupt() as interrupt:
-            with Monitor(self._handle, callback, interrupt):
+            with Monitor(self._handle, callback, interrupt, self._obstacles.failed if self._obstacles.energies else None):
                 status = library().signorini_solve(
                     self._handle, _address(load), _address(lower), _address(upper), _address(start), float(tol),
                     _address(x), _address(multiplier), ctypes.byref(summary))
                 message = _library.message()
+            self._obstacles.raise_error()
             if status not in (_library.SOLVED, _library.ITERATION_LIMIT, _library.INTERRUPTED):
                 _fail(status, message, lower, upper)
             result = self._result(status, message, summary, x, multiplier)
@@ -123,6 +127,28 @@ class Solver:
             if status != _library.SOLVED:
                 _fail(status)
 
+    def set_obstacles(self, obstacles: Sequence[Obstacle]) -> None:
+        """For the solves from now on, in place of those before, which also forget the last load step.
+
+        They act together with the bounds of solve(). `multiplier` is then all of Ax - b at their blocks, and `touching`
+        of the result lists the blocks that they hold.
+        """
+        if obstacles and not self._block:
+            raise ValueError("obstacles: act on blocks of unknowns, expected Solver(A, block=...) or coordinates")
+        handed = Handed(obstacles, self._block)
+        with _Alone(self):
+            status = library().signorini_set_obstacles(self._handle, handed.count, handed.pointers)
+            if status != _library.SOLVED:
+                _fail(status)
+            self._obstacles = handed
+
+    def next_step(self) -> None:
+        """A load step ends with the last solution with obstacles: friction counts slip from there."""
+        with _Alone(self):
+            status = library().signorini_next_step(self._handle)
+            if status != _library.SOLVED:
+                _fail(status)
+
     def _result(self, status: int, message: str, summary: Summary, x: FloatArray,
                 multiplier: FloatArray) -> OptimizeResult:
         active = np.empty(self._size, dtype=np.int8)
@@ -131,11 +157,15 @@ class Solver:
         library().signorini_history(self._handle, 0, None, ctypes.byref(count))
         history = np.empty(count.value, dtype=_cycle_type)
         library().signorini_history(self._handle, count.value, _address(history), ctypes.byref(count))
+        touching = np.zeros(self._size // max(self._block, 1), dtype=np.int8)
+        if self._obstacles.count:
+            library().signorini_touching(self._handle, _address(touching))
         return OptimizeResult(
             x=x, success=status == _library.SOLVED, status=status, message=message, nit=summary.iterations,
             fun=summary.energy, multiplier=multiplier, active_mask=active, history=history, residual=summary.residual,
             algebraic_error=summary.algebraic_error, rate=summary.rate, rounding_error=summary.rounding_error,
-            limited_by_rounding=bool(summary.limited_by_rounding), levels=summary.levels)
+            limited_by_rounding=bool(summary.limited_by_rounding), levels=summary.levels,
+            touching=np.flatnonzero(touching))
 
 
 class _Alone:

@@ -1,6 +1,7 @@
 #!/bin/sh
 # pip installs ./python offline into a virtual environment with system packages, and pytest runs there: these tests, the
-# examples in the package, and those of docs/python.md. Exit status 77: what this needs is not installed.
+# examples in the package, and those of docs/python.md and docs/python_obstacles.md. Exit status 77: what this needs is
+# not installed.
 #   package.sh BUILD SOURCE ENVIRONMENT
 set -eu
 build=$1 source=$2 environment=$3
@@ -23,5 +24,5 @@ SIGNORINI_LIBRARY=$build/lib "$python" -m pip install --quiet --no-index --disab
 unset SIGNORINI_LIBRARY
 export SIGNORINI_BUILD="$build" SIGNORINI_PROGRAM="$build/bin/signorini"
 cd "$source"
-"$python" -m pytest -q -p no:cacheprovider --doctest-modules --doctest-glob=python.md --pyargs signorini tests/python \
-  docs/python.md
+"$python" -m pytest -q -p no:cacheprovider --doctest-modules --doctest-glob='*.md' --pyargs signorini tests/python \
+  docs/python.md docs/python_obstacles.md
