@@ -14,6 +14,7 @@
 #include "core/base/heap.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
+#include "core/fem/recovery/rigid_gap.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/families.hpp"
 #include "core/solver/attainable.hpp"
@@ -249,6 +250,35 @@ void add_once(Warning warning, Warnings& warnings) {
 
 }  // namespace
 
+/// Takes what is large of a solution.
+template <int D, int B>
+void BodyRun<D, B>::take(Solution<B>& solution) {
+  results_ = signorini::results<D, B>(nodes(), solver_.moved(model_), solution.discretization, std::move(solution.x),
+                                      solution.pressure, slaves_, solver_.shift(), std::move(solution.joints));
+}
+
+/// How far conditions that are linear about where bodies were looked at are off where these have come to.
+template <int D, int B>
+double BodyRun<D, B>::off(const Solution<B>& solution) const {
+  const Model<B> model = solver_.moved(model_);
+  const ContactState<B> state = contact_state(nodes(), model, solution.discretization, solution.x);
+  const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
+  return noticeably_off(deformed_contacts(nodes(), model, state, u), state);
+}
+
+/// In the first step, if need be; others begin where the last one has come to, see NestedSolver::solve_after().
+template <int D, int B>
+void BodyRun<D, B>::look_where_it_came(Solution<B>& solution) {
+  const double was = noticeably_off(results_.deformed, results_.contact);
+  if (D != B || turns_ || follows_ || !solution.summary.converged() || !(was > 1)) return;
+  solution.x = to_local(solution.discretization.problem, results_.u);
+  solution.pressure = results_.pressure;
+  solution.joints = results_.joints;
+  solver_.follow(
+      model_, was, [&](const Solution<B>& now) { return off(now); }, solution);
+  take(solution);
+}
+
 template <int D, int B>
 StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   const double t = step.to;
@@ -260,13 +290,13 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   if (step.halvings == 0) solver_.set_spent(false);
   Solution<B> solution = solve(model_, step);
   if (!solution.summary.converged()) solver_.set_spent(true);
-  model_ = solver_.moved(model_);
   const Stopwatch watch;
   // What cycles leave free is in pieces: a list of nearly all nodes would come on top of it.
   const bool long_list = 2 * solution.discretization.problem.constraints.size() > nodes().size();
   if (long_list) give_freed_memory_back();
-  results_ = signorini::results<D, B>(nodes(), model_, solution.discretization, std::move(solution.x),
-                                      solution.pressure, slaves_, solver_.shift(), std::move(solution.joints));
+  take(solution);
+  look_where_it_came(solution);
+  model_ = solver_.moved(model_);
   if constexpr (D == B)
     if (solution.summary.converged()) {
       refuse_pulling(nodes(), model_, results_.contact);

@@ -88,6 +88,9 @@ class BodyRun {
   double shortening_of(Index obstacle, const std::string& origin) const;
   Solution<B> solve(const Model<B>& model, const LoadStep& step);
   Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
+  void take(Solution<B>& solution);
+  double off(const Solution<B>& solution) const;
+  void look_where_it_came(Solution<B>& solution);
   void add_estimate(StepReport& report, Warnings& warnings);
 
   const Scene& scene_;

@@ -215,9 +215,21 @@ const std::vector<Attempt>& attempts_around() {
        .kind = Kind::pairs_anew,
        .method = "auto",
        .solver = "",
-       .begins = fmt::format("if bodies have slid past each other in the step; up to {} times", most_slides),
-       .purpose = "contact between the nodes that face each other now",
+       .begins = fmt::format("if bodies have moved past each other, or along or up to an obstacle, in a step that "
+                             "follows another one; up to {} times",
+                             most_slides),
+       .purpose = "contact where bodies are now",
        .starts = {Start::first}},
+      {.name = "pairs anew, in the first step",
+       .kind = Kind::pairs_anew_first,
+       .method = "auto",
+       .solver = "",
+       .begins = "if they have done so in the first step, and contact is noticeably off (`too-curved`, `slid-past`)",
+       .purpose =
+           "bodies that are drawn far from where they touch. It fails where contact is not less than half as far "
+           "off then",
+       .starts = {Start::first},
+       .keep = Keep::solved},
       {.name = "cycles with sweeps below",
        .kind = Kind::sweeps_below,
        .method = "auto",

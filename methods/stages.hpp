@@ -51,6 +51,7 @@ enum class Kind {
   levels_of_meshes,
   newton_by_meshes,
   pairs_anew,
+  pairs_anew_first,
   sweeps_below,
   cycles_away,
   refinement

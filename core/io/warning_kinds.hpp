@@ -102,13 +102,12 @@ inline constexpr WarningKind warning_kinds[] = {
      "smaller faces, or a smaller `crease` where an edge is meant"},
 
     {WarningKind::About::result, "too-curved",
-     "{}: the deformed body is up to {:.3g} {}, where {}displacements are up to {:.3g}{}: contact is linearised about "
-     "the undeformed body, and {}",
+     "{}: the deformed body is up to {:.3g} {}, where {}displacements are up to {:.3g}{}: contact is linear in the "
+     "displacements, and {}",
      "the deformed body reaches into the obstacle, or does not reach it at nodes that count as in contact. "
      "Displacements are too large for this curvature, or move the body over an edge of the obstacle, or elements are "
      "too large for this contact",
-     "a body that begins near where it comes to touch; smaller displacements; a finer mesh; between bodies, more "
-     "`[steps]`"},
+     "smaller displacements; a finer mesh; several `[steps]`, where parts of the body come from different places"},
     {WarningKind::About::result, "between-nodes",
      "{}: between its nodes the deformed body is up to {:.3g} inside the obstacle, {}{}: the condition of contact "
      "holds at nodes only; expected smaller elements there",

@@ -168,9 +168,12 @@ void check_rigids(const Scene& scene) {
 /// Bodies that touch each other: elastic ones, alike but for mesh and material.
 void check_other(const Scene& scene, const Scene::Obstacle& obstacle) {
   if (obstacle.other.empty()) {
-    for (const char* key : {"other_on", "other_where", "slave", "pairing", "resolve", "renew", "pretension", "lock_at"})
+    for (const char* key : {"other_on", "other_where", "slave", "pairing", "resolve", "pretension", "lock_at"})
       if (obstacle.source.given(key))
         input_error(obstacle.source.of(key), fmt::format("'{}' has no meaning without 'other', the second body", key));
+    if (obstacle.source.given("renew") && !obstacle.shape)
+      input_error(obstacle.source.of("renew"),
+                  "'renew' has no meaning without 'other', the second body, or 'shape', a rigid obstacle");
     return;
   }
   const std::string& place = obstacle.source.of("other");

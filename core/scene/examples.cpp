@@ -96,9 +96,12 @@ is the whole force of the obstacle. A fix may hold a node along the obstacle's n
 force divides between the fix and the obstacle. What presses counts as the obstacle's, and `undetermined_nodes` counts
 such nodes. All keys are in [results.md](results.md).
 
-**Small displacements.** Contact is linearised about the undeformed body: distance and normal of a node are those before
-it moves. In the second of `[steps]` and later, a curved obstacle is seen from where the body has come to: let the body
-slide along it, or come to it from afar, in a few steps. After the solve the program compares the nodes of the deformed boundary with the true obstacle:
+**Small displacements.** Contact is linear in the displacements: distance and normal of a node are those before it moves.
+A body may slide along a curved obstacle, or come to it from afar. Then the program looks at it where the solution has
+taken it, and solves again. It is shifted for that by the mean motion of the nodes that touch, and not turned. The program
+does so where it would have to warn of too large a length, see below; in the second of `[steps]` and later where a fifth
+of a percent of `depth` is wrong. With `renew = false` it never does. After the solve the nodes of the deformed boundary
+are compared with the true obstacle:
 
 | key of the report | says |
 | --- | --- |

@@ -191,8 +191,8 @@ constexpr KeySpec renew_key = {
     "true",
     "",
     "",
-    "with `[steps]` faces of two bodies are paired anew where the last step has moved them to; else as they are "
-    "undeformed"};
+    "bodies that slide or come from afar are looked at where they come to, as a rigid obstacle is; false: contact is "
+    "linear about the bodies as they are drawn"};
 
 constexpr KeySpec obstacle[] = {
     {"type", text, nullptr, "", "", "id of an obstacle plugin, such as \"contact\""},

@@ -99,7 +99,7 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
     OtherOptions other(options_, std::move(options));
     otherwise = run(kind, [&] {
       pairs_.forget();
-      return levels_.finest().before.u.empty() ? solve_safely(model).solution : solve_sliding(model);
+      return model.follows ? solve_sliding(model) : solve_safely(model).solution;
     });
     if (otherwise && kind == Kind::levels_of_meshes) other.stay();
   };
@@ -123,14 +123,13 @@ auto NestedSolver<D, B>::solve_safely(const Model<B>& model) -> Found {
                   "friction does not come to rest: once more by Newton's method");
   }
   place.now.summary = attempts.result();
-  return {std::move(place.now), otherwise};
+  return {std::move(place.now), otherwise && model.follows};
 }
 
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve(const Model<B>& model) {
   for (MeshLevel<D, B>& level : levels_) level.before = {};
-  pairs_.begin_step(model, {});
-  return solve_safely(model).solution;
+  return solve_sliding(model);
 }
 
 template <int D, int B>
@@ -139,36 +138,74 @@ Solution<B> NestedSolver<D, B>::solve_after(const Model<B>& model, const std::ve
   return solve_sliding(model);
 }
 
-/// A step after another one. Contact is linear about where bodies are: where the solution takes them elsewhere they are
-/// looked at there.
+/// Steps that follow another one look at bodies where they have come to; others do where follow() is asked for.
 template <int D, int B>
 Solution<B> NestedSolver<D, B>::solve_sliding(const Model<B>& model) {
   pairs_.begin_step(model, levels_.finest().before.u);
-  Found first = solve_safely(pairs_.moved(model));
-  Solution<B>& solution = first.solution;
-  bool& otherwise = first.otherwise;
+  Found found = solve_safely(pairs_.moved(model));
+  if (model.follows) follow_on(model, found);
+  return std::move(found.solution);
+}
+
+namespace {
+
+constexpr const char* look_there =
+    "bodies have moved past each other or an obstacle, and are looked at where they are now";
+
+}  // namespace
+
+/// Contact is linear about where bodies are: where the solution takes them elsewhere they are looked at there.
+template <int D, int B>
+void NestedSolver<D, B>::follow_on(const Model<B>& model, Found& found) {
+  Solution<B>& solution = found.solution;
   Attempts attempts(std::move(solution.summary));
   const auto displacement = [&] { return to_global(solution.discretization.problem, solution.x); };
-  const auto may_slide = [&] { return !otherwise && attempts.done().converged(); };
+  const auto may_slide = [&] { return !found.otherwise && attempts.done().converged(); };
   for (int again = 0; again < automatic::most_slides && may_slide() && !progress_.is_ended(); ++again) {
-    if (!pairs_.follow(model, displacement())) break;
-    progress_.phase("bodies have moved past each other or an obstacle, and are looked at where they are now");
+    auto shift = pairs_.shift_after(model, displacement());
+    if (shift == pairs_.shift()) break;
+    progress_.phase(look_there);
     attempts.run(automatic::attempt(Kind::pairs_anew), Start::first, [&] {
-      Found found = solve_safely(pairs_.moved(model));
-      solution = std::move(found.solution);
-      otherwise = found.otherwise;
+      pairs_.find_about(std::move(shift));
+      found = solve_safely(pairs_.moved(model));
       return std::move(solution.summary);
     });
   }
-  if (!otherwise) solution.slides_on = may_slide() && pairs_.would_follow(model, displacement());
+  if (!found.otherwise) solution.slides_on = may_slide() && pairs_.would_follow(model, displacement());
   solution.summary = attempts.result();
-  return std::move(solution);
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                \
-  template bool NestedSolver<D, B>::may_fall_back() const;         \
-  template Solution<B> NestedSolver<D, B>::solve(const Model<B>&); \
-  template Solution<B> NestedSolver<D, B>::solve_after(const Model<B>&, const std::vector<double>&);
+template <int D, int B>
+void NestedSolver<D, B>::follow(const Model<B>& model, double was, const std::function<double(const Solution<B>&)>& off,
+                                Solution<B>& solution) {
+  constexpr double truer = 0.5;
+  auto shift = pairs_.shift_after(model, to_global(solution.discretization.problem, solution.x));
+  if (shift == pairs_.shift() || progress_.is_ended()) return;
+  progress_.phase(look_there);
+  Place place{levels_, pairs_, std::move(solution)};
+  Attempts attempts(std::move(place.now.summary));
+  attempts.run(automatic::attempt(Kind::pairs_anew_first), Start::first, place, [&] {
+    pairs_.find_about(std::move(shift));
+    Found found = solve_safely(pairs_.moved(model));
+    follow_on(model, found);
+    place.now = std::move(found.solution);
+    Summary& summary = place.now.summary;
+    if (summary.converged() && !(off(place.now) < truer * was)) {
+      summary.outcome = Outcome::stuck;
+      summary.reason = "contact is no truer about where bodies have come to";
+    }
+    return std::move(summary);
+  });
+  solution = std::move(place.now);
+  solution.summary = attempts.result();
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                                                   \
+  template bool NestedSolver<D, B>::may_fall_back() const;                                                            \
+  template Solution<B> NestedSolver<D, B>::solve(const Model<B>&);                                                    \
+  template Solution<B> NestedSolver<D, B>::solve_after(const Model<B>&, const std::vector<double>&);                  \
+  template void NestedSolver<D, B>::follow(const Model<B>&, double, const std::function<double(const Solution<B>&)>&, \
+                                           Solution<B>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

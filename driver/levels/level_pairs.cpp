@@ -18,6 +18,8 @@ namespace {
 /// Elements that bodies slip past each other before they find each other anew: a little more than a quarter, so that
 /// rounding does not decide where they are moved by just that.
 constexpr double far_slip = 0.2501;
+/// The same where no step came before: what is looked at anew there is off, and answers of either slave are to agree.
+constexpr double far_slip_at_first = 0.025;
 
 }  // namespace
 
@@ -44,7 +46,6 @@ void LevelPairs<D, B>::put_back(Found found) {
 template <int D, int B>
 void LevelPairs<D, B>::forget() {
   if (given_) return;
-  shift_.clear();
   held_ = false;
   for (MeshLevel<D, B>& level : levels_) level.all_pairs = level.pairs = nullptr;
 }
@@ -94,33 +95,27 @@ bool LevelPairs<D, B>::held(const Model<B>& model) const {
 
 /// The shape stays the undeformed one: in the dent of a body that slides the next step would have to climb its slope.
 template <int D, int B>
-bool LevelPairs<D, B>::follow(const Model<B>& model, const std::vector<double>& u) {
-  std::vector<Point<B>> shift = shift_after({shift_, levels_.finest().all_pairs}, model, u);
-  if (shift == shift_) return false;
-  shift_ = std::move(shift);
-  return true;
-}
-
-template <int D, int B>
 std::vector<Point<B>> LevelPairs<D, B>::shift_after(const Place& place, const Model<B>& model,
                                                     const std::vector<double>& u) const {
   std::vector<Point<B>> shift = place.shift;
   if constexpr (D == B) {
-    if (given_ || !model.follows) return shift;
+    if (given_) return shift;
     const Nodes<D>& nodes = levels_.finest().nodes;
     shift.resize(model.obstacles.size());
     const Model<B> here = moved(model, shift);
     const bool paired = is_paired(model) && place.all;
     const Pairs near = paired ? near_contact(nodes, model, *place.all, u) : nullptr;
+    const double far = model.follows ? far_slip : far_slip_at_first;
     bool any = false;
     for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
       const ObstacleTerm<B>& term = model.obstacles[k];
       std::optional<Point<D>> to;
+      if (!term.renew) continue;
       if (term.shape) {
         to = moved_on(nodes, here, k, u);
-      } else if (paired && term.other && term.renew && !term.tied) {
+      } else if (paired && term.other && !term.tied) {
         const Slip<D> slip = slip_past(nodes, model, k, *place.all, *near, u);
-        if (length<D>(difference<D>(slip.mean, shift[k])) > far_slip * slip.length) to = slip.mean;
+        if (length<D>(difference<D>(slip.mean, shift[k])) > far * slip.length) to = slip.mean;
       }
       if (!to) continue;
       shift[k] = *to;

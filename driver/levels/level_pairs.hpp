@@ -27,26 +27,27 @@ class LevelPairs {
   /// @return whether they stay
   bool find(const Model<B>& model);
 
-  /// In a load step that follows another one: where a displacement of the finest mesh has taken bodies past each other,
-  /// in the mean of where they nearly touch, by a part of an element since they last found each other, find() finds
-  /// them there from now on. The conditions of rigid obstacles are linear about the displacement there, see moved_on().
-  /// That depends on the displacement and on where they found each other, not on where
-  /// unknowns are jumps: these are others for every start and hierarchy.
-  /// @return whether it has
-  bool follow(const Model<B>& model, const std::vector<double>& u);
-  /// Whether it would.
-  bool would_follow(const Model<B>& model, const std::vector<double>& u) const {
-    return shift_after({shift_, levels_.finest().all_pairs}, model, u) != shift_;
+  /// Where a displacement of the finest mesh has taken bodies past each other, in the mean of where they nearly touch,
+  /// by a part of an element since they last found each other, the shift() about which find() is to find them from now
+  /// on. The conditions of rigid obstacles are linear about the displacement there, see moved_on(). That depends on the
+  /// displacement and on where they found each other, not on where unknowns are jumps: these are others for every start
+  /// and hierarchy. Elsewhere the shift() that there is.
+  std::vector<Point<B>> shift_after(const Model<B>& model, const std::vector<double>& u) const {
+    return shift_after({shift_, levels_.finest().all_pairs}, model, u);
   }
+  bool would_follow(const Model<B>& model, const std::vector<double>& u) const {
+    return shift_after(model, u) != shift_;
+  }
+  void find_about(std::vector<Point<B>> shift) { shift_ = std::move(shift); }
 
   /// The model whose rigid obstacles are where bodies have found them.
   Model<B> moved(const Model<B>& model) const { return moved(model, shift_); }
   /// Steps after this one begin from where bodies have found each other now.
   void accept() { accepted_ = {shift_, levels_.finest().all_pairs}; }
-  /// Such a step begins, or begins again, with the last one's displacement: follows it from there.
-  /// @param u empty: there is none, and bodies lie as they are drawn
+  /// A step that follows another one begins, or begins again, with that one's displacement: follows it from there. In
+  /// another one bodies lie as they are drawn.
   void begin_step(const Model<B>& model, const std::vector<double>& u) {
-    shift_ = u.empty() ? std::vector<Point<B>>() : shift_after(accepted_, model, u);
+    shift_ = model.follows ? shift_after(accepted_, model, u) : std::vector<Point<B>>();
   }
 
   /// What a solve has found.
@@ -56,7 +57,7 @@ class LevelPairs {
   };
   Found found() const;
   void put_back(Found found);
-  /// The next solve finds pairs as if there had been none, but for those that are given.
+  /// The next solve finds pairs about shift() as if there had been none, but for those that are given.
   void forget();
 
   /// From now on these are all that may touch, per mesh, whatever the model says.

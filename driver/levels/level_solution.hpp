@@ -13,6 +13,7 @@ struct LevelSolution {
   OwnNumbers<B> numbers;
   std::vector<double> pressure;
   Wetted wetted;  ///< by pressure in joints; on the finest mesh only
+  double t = 0;   ///< the step parameter; likewise
 };
 
 }  // namespace signorini

@@ -103,9 +103,17 @@ void NestedSolver<D, B>::choose_levels() {
   times_.setup += watch.elapsed();
 }
 
+/// What there is to come begins anew, see extrapolated().
+template <int D, int B>
+void NestedSolver<D, B>::forget_way() {
+  earlier_.clear();
+  earlier_t_ = infinity;
+}
+
 template <int D, int B>
 void NestedSolver<D, B>::append(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
   spared_ = nullptr;
+  forget_way();
   levels_.append(mesh, refinement, std::move(nodes));
   chosen_for_.clear();
   choose_levels();
@@ -114,6 +122,7 @@ void NestedSolver<D, B>::append(const Mesh<D>& mesh, const Refinement& refinemen
 template <int D, int B>
 void NestedSolver<D, B>::drop_finest() {
   spared_ = nullptr;
+  forget_way();
   levels_.drop_finest();
   chosen_for_.clear();
   choose_levels();
@@ -122,6 +131,7 @@ void NestedSolver<D, B>::drop_finest() {
 template <int D, int B>
 void NestedSolver<D, B>::replace_finest(const Mesh<D>& mesh, const Refinement& refinement, Nodes<D> nodes) {
   spared_ = nullptr;
+  forget_way();
   levels_.replace_finest(mesh, refinement, std::move(nodes));
   chosen_for_.clear();
   choose_levels();
@@ -411,6 +421,8 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
     solve_finest(model, options_, solution);
   else
     solve_open(model, joints, spreading, solution);
+  levels_[finest].now.t = model.t;
+  followed_ = model.follows;
   levels_[finest].now.wetted = spreading.now();
   levels_[finest].now.numbers = {solution.discretization.problem, solution.discretization.functional, solution.x};
   levels_[finest].now.pressure = solution.pressure;
@@ -421,6 +433,9 @@ Solution<B> NestedSolver<D, B>::start_and_solve(const Model<B>& model) {
 template <int D, int B>
 void NestedSolver<D, B>::accept() {
   pairs_.accept();
+  LevelSolution<B>& last = levels_.finest().before;
+  earlier_ = followed_ ? std::move(last.u) : std::vector<double>();
+  earlier_t_ = followed_ ? last.t : 0;
   for (MeshLevel<D, B>& level : levels_) level.before = std::exchange(level.now, {});
 }
 

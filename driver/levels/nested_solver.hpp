@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,6 +68,11 @@ class NestedSolver {
   /// a start as for the first step, or u and the change that coarser meshes see; with "zero" from u. What coarser
   /// meshes know of that step is what the last accept() was about.
   Solution<B> solve_after(const Model<B>& model, const std::vector<double>& u);
+  /// What solve() has found holds near where bodies were drawn: looks at them where it has taken them, solves again,
+  /// and so on until they rest. Where conditions of contact are not truer by that it stays as it is.
+  /// @param was, off how far they are off, in any unit, with what was found, and with another solution
+  void follow(const Model<B>& model, double was, const std::function<double(const Solution<B>&)>& off,
+              Solution<B>& solution);
   /// The next step comes after the last solve; until then every solve comes after the same one.
   void accept();
 
@@ -107,16 +113,20 @@ class NestedSolver {
   struct Found;
 
   void choose_levels();
+  void forget_way();
   bool may_fall_back() const;
   bool newton_may_do(const Solution<B>& solution) const;
   Found solve_safely(const Model<B>& model);
   Solution<B> solve_sliding(const Model<B>& model);
+  void follow_on(const Model<B>& model, Found& found);
   Solution<B> discretize_level(const Model<B>& model, std::size_t level);
   Solution<B> start_and_solve(const Model<B>& model);
   bool begin_near(const Model<B>& model, std::optional<Solution<B>>& solution);
   Solution<B> begin_level(const Model<B>& model, std::size_t level, Solution<B>& coarse,
                           std::optional<Solution<B>> begun = {});
-  void start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const;
+  std::vector<double> extrapolated(const Model<B>& model) const;
+  void start_after_step(const Model<B>& model, std::size_t level, const Solution<B>& coarse,
+                        Solution<B>& solution) const;
   void pair_levels(const Model<B>& model);
   void pair_near_contact(const Model<B>& model, std::size_t level, const Solution<B>& coarse);
   void come_near(const Model<B>& model, Solution<B>& solution);
@@ -153,6 +163,9 @@ class NestedSolver {
   Times& times_;
   const Monitor monitor_;
   LevelMatrices<B> matrices_;
+  std::vector<double> earlier_;  // the solution before the last one that was accepted; empty: the body as it is drawn
+  double earlier_t_ = 0;
+  bool followed_ = false;  // the last solve was one of a step that follows another one
   bool spent_ = false;
   bool continued_ = false;      // algebraic levels have been looked for
   std::vector<Stage> dropped_;  // starts that coarser levels did not give, and rough ones

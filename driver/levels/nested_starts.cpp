@@ -32,8 +32,21 @@ void NestedSolver<D, B>::choose_levels_below(const Model<B>& model) {
   matrices_.forget_products();
 }
 
+/// On the finest mesh, global coordinates: where bodies would come to if they went on as in the last step. While
+/// contact stays the same and loads grow evenly that is the solution. Empty: nothing is known.
 template <int D, int B>
-void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& coarse, Solution<B>& solution) const {
+std::vector<double> NestedSolver<D, B>::extrapolated(const Model<B>& model) const {
+  const LevelSolution<B>& last = levels_.finest().before;
+  if (!model.follows || last.u.empty() || options_.start != "nested" || !(last.t > earlier_t_)) return {};
+  const double part = (model.t - last.t) / (last.t - earlier_t_);
+  std::vector<double> u = last.u;
+  for (std::size_t k = 0; k < u.size(); ++k) u[k] += part * (u[k] - (earlier_.empty() ? 0 : earlier_[k]));
+  return u;
+}
+
+template <int D, int B>
+void NestedSolver<D, B>::start_after_step(const Model<B>& model, std::size_t level, const Solution<B>& coarse,
+                                          Solution<B>& solution) const {
   const MeshLevel<D, B>& here = levels_[level];
   const DiscreteProblem<B>& problem = solution.discretization.problem;
   std::optional<CoarserStep<B>> coarser;
@@ -47,11 +60,13 @@ void NestedSolver<D, B>::start_after_step(std::size_t level, const Solution<B>& 
   } else {
     std::vector<std::vector<double>> starts;
     if (options_.start == "nested") starts.push_back(std::move(solution.x));
+    if (std::vector<double> on = level + 1 == levels_.size() ? extrapolated(model) : std::vector<double>(); !on.empty())
+      starts.push_back(to_local(problem, std::move(on)));
     solution.x = start_after(problem, here.before, known, std::move(starts));
   }
 }
 
-/// The problem on the finest mesh, with the solution of the last step if that is so near that no coarser one is asked.
+/// The problem on the finest mesh, with what the last steps lead to if that is so near that no coarser one is asked.
 /// Where bodies touch, what slides and nearly incompressible material are always begun on the coarsest mesh.
 /// @param solution none: coarser meshes come first in any case
 template <int D, int B>
@@ -65,7 +80,9 @@ bool NestedSolver<D, B>::begin_near(const Model<B>& model, std::optional<Solutio
   const auto matrices = matrices_.matrices_below(finest);
   if (matrices.empty()) return false;
   const Stopwatch watch;
-  std::vector<double> x = to_local(problem, here.before.u);
+  std::vector<std::vector<double>> starts;
+  if (std::vector<double> on = extrapolated(model); !on.empty()) starts.push_back(to_local(problem, std::move(on)));
+  std::vector<double> x = start_after<B>(problem, here.before, nullptr, std::move(starts));
   const bool near = is_near(problem, matrices_.below(finest), matrices, x);
   if (near) solution->x = std::move(x);
   times_.solve += watch.elapsed();
@@ -97,7 +114,7 @@ Solution<B> NestedSolver<D, B>::begin_level(const Model<B>& model, std::size_t l
     solution.x = nested_start(problem, matrices_.between_algebraic(), options_, registry_, monitor_, &dropped_);
   }
   if (refined) solution.pressure = refined_pressure(level, coarse.pressure);
-  if (!levels_[level].before.u.empty()) start_after_step(level, coarse, solution);
+  if (!levels_[level].before.u.empty()) start_after_step(model, level, coarse, solution);
   times_.solve += watch.elapsed();
   if (refined) {
     const Stopwatch sharing;

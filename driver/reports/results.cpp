@@ -61,15 +61,10 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discre
   out.joints = std::move(joints);
   for (std::size_t k = 0; k < out.joints.total.size(); ++k)
     for (int i = 0; i < B; ++i) out.forces.applied[k][i] += out.joints.total[k][i];
-  for (Index k = 0; k < std::ssize(model.obstacles); ++k) {
-    if (model.obstacles[k].tied) {
-      out.deformed.emplace_back();
-      out.between_nodes.push_back(std::numeric_limits<double>::quiet_NaN());
-      continue;
-    }
-    out.deformed.push_back(deformed_contact(nodes, model, k, out.contact, out.u));
-    out.between_nodes.push_back(violation_between_nodes(nodes, model, k, out.contact, out.u));
-  }
+  out.deformed = deformed_contacts(nodes, model, out.contact, out.u);
+  for (Index k = 0; k < std::ssize(model.obstacles); ++k)
+    out.between_nodes.push_back(model.obstacles[k].tied ? std::numeric_limits<double>::quiet_NaN()
+                                                        : violation_between_nodes(nodes, model, k, out.contact, out.u));
   return out;
 }
 

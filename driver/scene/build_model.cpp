@@ -293,13 +293,13 @@ Model<B> build_model(const Scene& scene, int dimension, const Registry& registry
     const Scene::Obstacle& obstacle = scene.obstacles[k];
     ObstacleTerm<B>& term = model.obstacles.emplace_back(create_obstacle<B>(obstacle, dimension, registry, step));
     if (term.on) term.on = on_mesh_of(body, obstacle.body, *term.on);
+    term.renew = obstacle.renew;
     if (obstacle.other.empty()) continue;
     term.other =
         on_mesh_of(body, obstacle.other, obstacle.other_on.value_or(Selection{{}, {}, obstacle.source.of("other")}));
     term.slave = slave_of(scene, obstacle);
     term.pairing = obstacle.pairing;
     term.resolve = obstacle.resolve;
-    term.renew = obstacle.renew;
     term.adjust = obstacle.adjust;
     term.tied = adjust<B>(obstacle, *term.obstacle);
     term.pretension = pretension(scene, obstacle, term, step.to);

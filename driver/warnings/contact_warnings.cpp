@@ -26,18 +26,13 @@ static_assert(largest_turn == geometry::default_crease);
 
 constexpr double deep = 0.1;         // of the body's extent along the obstacle's normal
 constexpr double noticeable = 0.01;  // of the displacements
-constexpr double of_depth = 0.05;    // of what contact flattens: the largest pressure is wrong by about as much
 constexpr double coarse = 0.1;       // of these, between nodes
-constexpr double many = 0.1;         // of the nodes in contact
 constexpr double edged =
     1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
-/// How far off the linearised condition is, in parts of what is noticeable: a body may come from far to where it is
-/// then pressed in by little.
 double off(const ContactReport& contact) {
   const double by = std::max(contact.largest_penetration, contact.largest_opening);
-  const double moved = noticeable * contact.largest_displacement, flattened = of_depth * contact.depth;
-  return moved > 0 ? by / (flattened > 0 ? std::min(moved, flattened) : moved) : 0;
+  return noticeably_off(by, contact.largest_displacement, contact.depth);
 }
 
 std::string why_off(const ContactReport& contact) {
@@ -53,10 +48,7 @@ double off_between(const ContactReport& contact) {
   return contact.force.size() > 1 && by > contact.largest_penetration ? by / contact.largest_displacement : 0;
 }
 
-/// Part of the nodes in contact.
-double beyond(const ContactReport& contact) {
-  return contact.nodes > 0 ? double(contact.beyond_nodes) / contact.nodes : 0;
-}
+double beyond(const ContactReport& contact) { return noticeably_beyond(contact.beyond_nodes, contact.nodes); }
 
 double undetermined(const ContactReport& contact) {
   double square = 0;
@@ -200,7 +192,7 @@ Warnings contact_warnings(const Scene& scene, const Report& report) {
     else if (c.peaks_at_edge)
       warnings.push_back(warning<"peak-at-edge">(origin));
     const StepReport& past = worst(report, k, beyond);
-    if (const ContactReport& c = past.contact[k]; beyond(c) > many)
+    if (const ContactReport& c = past.contact[k]; beyond(c) > 1)
       warnings.push_back(warning<"slid-past">(origin, c.beyond_nodes, c.nodes, at_step(report, past)));
     const StepReport& held = worst(report, k, undetermined);
     if (const ContactReport& c = held.contact[k]; c.undetermined_nodes > 0)

@@ -79,7 +79,8 @@ TEST(Turns, GoThroughARowOfBodies) {
               "[[obstacle]]\ntype = \"contact\"\nbody = \"a\"\nwhere = \"x > 1.99 && y > 0.4\"\nshape = "
               "\"plane\"\npoint = [1.999, 0]\nnormal = [-1, 0]\n"
               "[[load]]\nbody = \"b\"\nvalue = [0, -0.001]\n" +
-              pair("b", "bottom", "a", "top") + pair("c", "bottom", "b", "top") + "[refine]\nuniform = 2\n");
+              pair("b", "bottom", "a", "top", "renew = false") + pair("c", "bottom", "b", "top", "renew = false") +
+              "[refine]\nuniform = 2\n");
 }
 
 TEST(Turns, StepsStartFromTheLastOne) {

@@ -1,4 +1,4 @@
-// Rigid obstacles past which load steps move a body, or up to which: as if it were drawn where it comes to.
+// Rigid obstacles past which a body is moved, or up to which: as if it were drawn where it comes to.
 #include "core/fem/conditions/moved_on.hpp"
 
 #include "core/fem/elements/nodes.hpp"
@@ -42,6 +42,28 @@ TEST(MovedObstacle, IsSeenFromWhereABodyComesTo) {
   const ContactReport drawn = contact_of(on_obstacle("[0, 0]", "[2, 1]", "[0, -0.02]", disk, ""));
   EXPECT_NEAR(come.force[1], drawn.force[1], 0.01 * drawn.force[1]);
   EXPECT_NEAR(come.max_pressure, drawn.max_pressure, 0.02 * drawn.max_pressure);
+}
+
+// Without [steps] as well.
+TEST(MovedObstacle, IsSeenFromThereInASingleStep) {
+  const std::string by = "[1.5, -0.01]", at = "[0, 0]", to = "[2, 1]";
+  const ContactReport slid = contact_of(on_obstacle(at, to, by, arch, ""));
+  const ContactReport drawn = contact_of(on_obstacle("[1.5, 0]", "[3.5, 1]", "[0, -0.01]", arch, ""));
+  EXPECT_NEAR(slid.force[1], drawn.force[1], 0.01 * drawn.force[1]);
+  EXPECT_NEAR(slid.max_pressure, drawn.max_pressure, 0.01 * drawn.max_pressure);
+  const ContactReport linear = contact_of(on_obstacle(at, to, by, arch + "renew = false\n", ""));
+  EXPECT_GT(linear.force[1], 3 * drawn.force[1]);
+}
+
+// A coefficient is that of where the body was drawn; where it comes to it may mean nothing.
+TEST(MovedObstacle, HasTheFrictionOfWhereTheBodyWasDrawn) {
+  const auto friction = [](const std::string& coefficient) {
+    std::string text = on_obstacle("[0, 0]", "[2, 1]", "[1.5, -0.01]", arch, "friction = " + coefficient + "\n");
+    return contact_of(text.replace(text.find("\"contact\""), 9, "\"coulomb\"")).force;
+  };
+  const std::vector<double> even = friction("0.2"), part = friction("\"0.2 * sqrt(2.001 - x) / sqrt(2.001 - x)\"");
+  EXPECT_NEAR(part[0], even[0], 1e-6 * even[1]);
+  EXPECT_LT(even[0], -0.1 * even[1]);
 }
 
 TEST(MovedOn, DoesNothingOnAPlane) {

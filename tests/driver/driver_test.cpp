@@ -181,6 +181,7 @@ TEST(Driver, keeps_matrices_with_every_method) {
     SCOPED_TRACE(options.front() + " " + options.back());
     Scene scene = scene_of(elastic, options);
     scene.fixes.pop_back();
+    scene.obstacles[0].renew = false;  // what is tried in vain assembles, too
     Driver driver(scene);
     driver.solve();
     for (const double radius : {2.985, 2.98}) {

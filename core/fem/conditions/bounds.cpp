@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/component/failure.hpp"
 #include "core/constraints/bound_collector.hpp"
 #include "core/fem/conditions/model_places.hpp"
 #include "core/fem/elements/element.hpp"
@@ -9,6 +10,8 @@
 
 namespace signorini {
 namespace {
+
+constexpr double asks_for_distance = 0;  // a SurfaceVertex::measure
 
 // The nodes an obstacle may touch; on the boundary with normals of the faces it may touch.
 template <int D>
@@ -92,7 +95,8 @@ void take_numbers(const ObstacleTerm<B>& term, const std::vector<SurfaceVertex>&
   std::vector<LocalConstraint<B>> constraints(drawn.size());
   Status status;
   term.obstacle->assemble(drawn.data(), drawn.size(), constraints.data(), status);
-  for (std::size_t k = 0; k < of.size() && status.ok(); ++k)
+  if (!status.ok()) throw_failure(status, term.origin);
+  for (std::size_t k = 0; k < of.size(); ++k)
     std::copy(std::begin(constraints[k].data), std::end(constraints[k].data), numbers[of[k]].data.begin());
 }
 
@@ -105,16 +109,17 @@ void collect(const Nodes<D>& nodes, const Model<B>& model, const PairedBodies<B>
   if (bounds.empty()) bounds.reserve(static_cast<std::size_t>(candidates.size(nodes)));
   BoundCollector<B> collector(places, obstacle, bounds, numbers);
   const ObstacleTerm<B>& term = model.obstacles[obstacle];
+  const bool moved = term.moved != std::array<double, B>{};
   if (term.other)
     collect_paired(nodes, candidates, *pairing, obstacle, collector);
   else
     candidates.each(nodes, [&](Index p, const Point<D>& normal, double measure) {
-      SurfaceVertex v = vertex_at<D>(nodes, p, normal, measure);
+      SurfaceVertex v = vertex_at<D>(nodes, p, normal, moved ? asks_for_distance : measure);
       move<D>(term, v);
       collector.push(p, v);
     });
   collector.flush();
-  if (term.moved == std::array<double, B>{}) return;
+  if (!moved) return;
   count_from_rest(term, first, bounds);
   std::vector<SurfaceVertex> drawn;
   std::vector<Index> of;

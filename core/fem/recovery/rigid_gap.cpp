@@ -17,7 +17,9 @@
 namespace signorini {
 namespace {
 
-constexpr double of_tolerance = 1e-6;  // of displacements: what tolerances leave, and rounding
+constexpr double of_tolerance = 1e-6;                      // of displacements: what tolerances leave, and rounding
+constexpr double of_displacement = 0.01, of_depth = 0.05;  // what is noticeable
+constexpr double many = 0.1;                               // of the nodes in contact
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a node to an obstacle and the direction away from it.
@@ -261,6 +263,13 @@ double extent(const Nodes<D>& nodes, const std::vector<Index>& some, const std::
 
 }  // namespace
 
+double noticeably_off(double by, double displacement, double depth) {
+  const double moved = of_displacement * displacement, flattened = of_depth * depth;
+  return moved > 0 ? by / (flattened > 0 ? std::min(moved, flattened) : moved) : 0;
+}
+
+double noticeably_beyond(Index beyond, Index touching) { return touching > 0 ? beyond / (many * touching) : 0; }
+
 template <int D, int B>
 std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
                                                 const ContactState<B>& state, const std::vector<double>& u) {
@@ -268,6 +277,26 @@ std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Mod
     if (model.obstacles[obstacle].shape || model.obstacles[obstacle].other)
       return true_contact(nodes, model, obstacle, state, u);
   return violation(state, obstacle);
+}
+
+template <int D, int B>
+std::vector<std::optional<DeformedContact>> deformed_contacts(const Nodes<D>& nodes, const Model<B>& model,
+                                                              const ContactState<B>& state,
+                                                              const std::vector<double>& u) {
+  std::vector<std::optional<DeformedContact>> out(model.obstacles.size());
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (!model.obstacles[k].tied) out[k] = deformed_contact(nodes, model, static_cast<Index>(k), state, u);
+  return out;
+}
+
+template <int B>
+double noticeably_off(const std::vector<std::optional<DeformedContact>>& deformed, const ContactState<B>& state) {
+  double out = 0;
+  for (std::size_t k = 0; k < deformed.size(); ++k)
+    if (const auto& at = deformed[k])
+      out = std::max({out, noticeably_off(std::max(at->penetration, at->opening), at->displacement, at->depth),
+                      noticeably_beyond(at->beyond, state.obstacles[k].nodes)});
+  return out;
 }
 
 template <int D>
@@ -287,14 +316,19 @@ std::optional<StartDepth> start_depth(const Nodes<D>& nodes, const Model<D>& mod
   return StartDepth{-deepest.distance, extent(nodes, boundary.nodes, deepest.normal), completely};
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                 \
-  template std::optional<DeformedContact> deformed_contact(const Nodes<D>&, const Model<B>&, Index, \
-                                                           const ContactState<B>&, const std::vector<double>&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                             \
+  template std::optional<DeformedContact> deformed_contact(const Nodes<D>&, const Model<B>&, Index,             \
+                                                           const ContactState<B>&, const std::vector<double>&); \
+  template std::vector<std::optional<DeformedContact>> deformed_contacts(                                       \
+      const Nodes<D>&, const Model<B>&, const ContactState<B>&, const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)
 SIGNORINI_INSTANTIATE(3, 3)
 #undef SIGNORINI_INSTANTIATE
+template double noticeably_off(const std::vector<std::optional<DeformedContact>>&, const ContactState<1>&);
+template double noticeably_off(const std::vector<std::optional<DeformedContact>>&, const ContactState<2>&);
+template double noticeably_off(const std::vector<std::optional<DeformedContact>>&, const ContactState<3>&);
 template std::optional<StartDepth> start_depth(const Nodes<2>&, const Model<2>&, Index, bool);
 template std::optional<StartDepth> start_depth(const Nodes<3>&, const Model<3>&, Index, bool);
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "core/fem/recovery/contact.hpp"
 #include "core/mesh/chords.hpp"
@@ -21,6 +22,14 @@ struct DeformedContact {
   bool over_edge = false;
 };
 
+/// How far off linear conditions of contact are, in parts of what is noticeable: of a hundredth of the displacements,
+/// and of a twentieth of what contact flattens, by about which the largest pressure is wrong. A body may come from far
+/// to where it is then pressed in by little.
+/// @param by DeformedContact: the larger one of penetration and opening
+double noticeably_off(double by, double displacement, double depth);
+/// The same of nodes that touch and have slid past the other body: of a tenth of all that touch.
+double noticeably_beyond(Index beyond, Index touching);
+
 /// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between
 /// rigid shapes and the boundary where it has come to. Nothing where the obstacle cannot tell them there; NaN where
 /// nothing of the other body is in front. Obstacles without a shape have no other conditions than those that were
@@ -29,6 +38,16 @@ struct DeformedContact {
 template <int D, int B>
 std::optional<DeformedContact> deformed_contact(const Nodes<D>& nodes, const Model<B>& model, Index obstacle,
                                                 const ContactState<B>& state, const std::vector<double>& u);
+
+/// Of every obstacle; nothing of bodies that are tied.
+template <int D, int B>
+std::vector<std::optional<DeformedContact>> deformed_contacts(const Nodes<D>& nodes, const Model<B>& model,
+                                                              const ContactState<B>& state,
+                                                              const std::vector<double>& u);
+
+/// The worst of these, see noticeably_off(): above 1 it is noticeable.
+template <int B>
+double noticeably_off(const std::vector<std::optional<DeformedContact>>& deformed, const ContactState<B>& state);
 
 /// How far the undeformed body is inside a rigid obstacle.
 struct StartDepth {
