@@ -6,8 +6,14 @@ endif()
 
 # signorini_plugin(ID sources...): the module libsignorini_obstacle_ID.so that exports nothing but `signorini_plugin`
 # and whose every reference is met when it is linked. Used in this tree and, after find_package(signorini), outside it.
+# signorini_estimator(ID sources...): the same of an estimator, libsignorini_estimator_ID.so.
 function(signorini_plugin id)
-  set(target signorini_obstacle_${id})
+  signorini_plugin_library(signorini_obstacle_${id} ${ARGN})
+endfunction()
+function(signorini_estimator id)
+  signorini_plugin_library(signorini_estimator_${id} ${ARGN})
+endfunction()
+function(signorini_plugin_library target)
   set(map ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/signorini_plugin.map)
   add_library(${target} MODULE ${ARGN})
   target_link_libraries(${target} PRIVATE signorini::sdk)

@@ -65,7 +65,7 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
           if (!scene.refine.adaptive) return build_hierarchy<D>(scene, B, &warnings, progress, body, promised);
           if (!adaptation_)
             adaptation_ = std::make_shared<Adaptation<D>>(coarsest_mesh<D>(scene, body, B, &warnings, progress),
-                                                          scene.refine.uniform);
+                                                          scene.refine.uniform, scene.bodies[body].order);
           return hierarchy_of<D>(adaptation_->mesh(), 0, scene, B, &warnings, body, promised);
         };
         auto hierarchy = meshes();
@@ -80,10 +80,10 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 
 template <int D, int B>
 std::unique_ptr<BodyRun<D, B>> BodyRun<D, B>::refined(double growth, Warnings& warnings) const {
-  const std::vector<double> u = solution();
-  adaptation_->refine(estimate_of_element_, growth);
+  const SolvedOn<D> before{hierarchy_, nodes()};
+  adaptation_->refine(before, estimate_of_element_, growth);
   auto out = std::make_unique<BodyRun>(scene_, body_, registry_, progress_, times_, warnings, nullptr, adaptation_);
-  out->start_from(adaptation_->carried_over(u, B));
+  out->start_from(adaptation_->carried_over(before, results_.u, {out->hierarchy_, out->nodes()}, B));
   return out;
 }
 
@@ -331,23 +331,29 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
 }
 
 template <int D, int B>
-Estimate BodyRun<D, B>::estimate(bool cheap) const {
+Estimate BodyRun<D, B>::estimate(bool cheap, const std::string& estimator) const {
   EstimateOptions<B> options{{}, algebraic_error_, rest_};
   options.paired_anew = std::ranges::any_of(solver_.shift(), [](const auto& by) { return dot(by, by) > 0; });
   if (nodes().order() > 1 || (B > 1 && !cheap)) options.solve = rough_solve<B>(registry_);
-  const auto estimator = registry_.create<Estimator<D, B>>("estimator", "certificate");
-  return estimator->estimate(nodes(), model_, results_.u, options);
+  if constexpr (B > 1) options.pressure = {solver_.pressure_space(), &results_.pressure};
+  return create_estimator<D, B>(registry_, estimator)->estimate(nodes(), model_, results_.u, options);
 }
 
 template <int D, int B>
 void BodyRun<D, B>::add_estimate(StepReport& report, Warnings& warnings) {
   estimate_of_element_.clear();
   const std::string& asked = scene_.solver.estimate;
-  if ((asked == "false" && !scene_.refine.adaptive) || !report.summary.converged()) return;
+  const std::string estimator = scene_.estimator();
+  if (estimator.empty() || !report.summary.converged()) return;
   progress_.phase("estimating the error");
   const Stopwatch watch;
   const bool cheap = asked == "cheap" || (asked == "auto" && B == 3);
-  Estimate found = of_whole(estimate(cheap), report.bodies.front().copies);
+  Estimate all = estimate(cheap, estimator);
+  if (scene_.refine.adaptive && !std::isfinite(all.estimated)) {
+    const std::vector<std::string> reasons = std::exchange(all, estimate(cheap, "recovery")).reasons;
+    all.reasons.insert(all.reasons.end(), reasons.begin(), reasons.end());
+  }
+  Estimate found = of_whole(std::move(all), report.bodies.front().copies);
   found.seconds = watch.elapsed();
   if (found.solve_failed) add_once(warning<"bound-not-sharp">(model_.origin), warnings);
   estimate_of_element_ = std::move(found.of_element);

@@ -74,9 +74,9 @@ class BodyRun {
   std::vector<double> solution() const { return nodes().at_vertices(results_.u, B); }
   /// Per vertex, computed when it is asked for; empty for a scalar body.
   std::vector<Stress> stress() const;
-  /// Bounds of the energy error of the last step, whether or not the scene asks for them.
-  Estimate estimate(bool cheap = false) const;
-  /// The shares of elements in that of the last step; empty: there is none.
+  /// The energy error of the last step by an estimator, whether or not the scene asks for it; by default bounds.
+  Estimate estimate(bool cheap = false, const std::string& estimator = "certificate") const;
+  /// The shares of elements in that of the last step, per element of nodes(); empty: there is none.
   const std::vector<double>& estimate_of_element() const { return estimate_of_element_; }
   /// Whether all levels below the finest mesh are chosen by its matrix.
   bool by_matrix() const { return solver_.by_matrix(); }

@@ -65,6 +65,13 @@ std::vector<PluginReport> load_plugins(const Scene& scene, Registry& registry) {
     const Entry& entry = registry.entry("obstacle", obstacle.type);
     plugins.push_back({entry.id, entry.file, entry.version});
   }
+  if (const std::string estimator = scene.estimator(); !registry.has("estimator", estimator) && !estimator.empty())
+    try {
+      loader.require(estimator, "estimator");
+    } catch (const Error& error) {
+      throw Error(error.status(), scene.solver.source.of("estimate") + ": " + error.what());
+    }
+  if (scene.refine.adaptive) loader.require("recovery", "estimator");  // where there are no bounds
   return plugins;
 }
 

@@ -90,10 +90,9 @@ void Driver::prepare() {
 
 void Driver::check_adaptive() const {
   const auto fail = [&](const std::string& what) { input_error(scene_.refine.source.of("adaptive"), what); };
-  if (bodies() > 1 || !solved_.bodies[0].parts.empty())
-    fail(fmt::format("there are {} bodies, expected one", scene_.bodies.size()));
-  if (solved_.bodies[0].order > 1)
-    fail("elements are quadratic (order = 2), expected linear ones, which can be cut in part");
+  if (bodies() > 1)
+    fail(fmt::format("there are {} bodies that nothing lets touch each other, expected one, or some that may touch",
+                     bodies()));
   if (scene_.steps.count() > 1) fail(fmt::format("there are {} steps, expected one", scene_.steps.count()));
 }
 
@@ -189,14 +188,14 @@ bool Driver::refine(double seconds) {
     return false;
   }
   const std::optional<EstimateReport>& error = last.estimate;
-  if (!error || !std::isfinite(error->relative_upper()))
+  if (!error || !std::isfinite(error->relative_estimated()))
     input_error(scene_.refine.source.of("adaptive"),
-                fmt::format("the energy error has no bound here: {}",
+                fmt::format("the energy error is not known here: {}",
                             error ? fmt::format("{}", fmt::join(error->reasons, "; ")) : "there is no estimate"));
-  past.steps.push_back({visit(0, [](const auto& run) { return static_cast<Index>(run.mesh().elements.size()); }),
-                        last.summary.level_unknowns.back(), last.summary.iterations, last.summary.energy, error->lower,
-                        error->upper, error->relative_lower(), error->relative_upper(), error->guaranteed, seconds});
-  past.reached = error->relative_upper() <= scene_.refine.tolerance;
+  past.steps.push_back({visit(0, [](const auto& run) { return static_cast<Index>(run.estimate_of_element().size()); }),
+                        last.summary.level_unknowns.back(), last.summary.iterations, last.summary.energy, *error,
+                        seconds});
+  past.reached = error->relative_estimated() <= scene_.refine.tolerance;
   past.reason = past.reached ? "refine.tolerance is reached" : why_not_refined(past);
   if (past.reason.empty()) {
     const double growth =
@@ -219,7 +218,8 @@ bool Driver::refine(double seconds) {
   }
   if (!past.reached)
     report_.warnings.push_back(warning<"accuracy-not-reached">(
-        scene_.refine.source.of("tolerance"), error->relative_upper(), scene_.refine.tolerance, past.reason));
+        scene_.refine.source.of("tolerance"), std::isfinite(error->upper) ? "at most" : "about",
+        error->relative_estimated(), scene_.refine.tolerance, past.reason));
   return false;
 }
 

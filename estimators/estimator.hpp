@@ -1,10 +1,13 @@
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/component/registry.hpp"
 #include "core/fem/elements/nodes.hpp"
 #include "core/fem/model/model.hpp"
+#include "core/fem/recovery/stress.hpp"
 #include "core/solver/discrete_problem.hpp"
 #include "estimators/estimate.hpp"
 
@@ -21,6 +24,7 @@ struct EstimateOptions {
   double algebraic_error = 0;  ///< of the solution, relative, in the energy norm: for parts.algebra alone
   std::vector<double> rest{};  ///< where friction holds back nothing, as u; empty: at zero
   bool paired_anew = false;    ///< faces of bodies find each other where load steps have moved them
+  OwnPressure<B> pressure{};   ///< of an elastic body
 };
 
 /// How far a discrete solution is from the solution of its model. D is the dimension of the mesh, B the components of
@@ -35,5 +39,10 @@ class Estimator {
   virtual Estimate estimate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                             const EstimateOptions<B>& options) const = 0;
 };
+
+/// The estimator of this id: one of plugins knows stresses alone, see ErrorEstimator, and has no bounds.
+/// Errors: Error(Exit::input) for an id that is not registered, Error(Exit::plugin) from plugins.
+template <int D, int B>
+std::unique_ptr<Estimator<D, B>> create_estimator(const Registry& registry, const std::string& id);
 
 }  // namespace signorini

@@ -55,14 +55,14 @@ constexpr std::string_view first_keys[] = {"tolerance", "max_iterations", "metho
 std::string told(const std::string& licence) { return licence.empty() ? "the library does not say" : licence; }
 
 /// Whose paths are long, and differ in the last name: their folders are told once.
-bool is_plugin(const Entry& entry) { return entry.kind == "obstacle"; }
+bool is_plugin(const Entry& entry) { return !entry.version.empty(); }
 
 void print_entry(const Entry& entry) {
   say("  {:<16}  {}\n", entry.id, entry.help);
   for (const OptionSpec& option : entry.options) print_option(option);
   say("      from {}{}{}\n", is_plugin(entry) ? std::filesystem::path(entry.file).filename().string() : entry.file,
       entry.version.empty() ? "" : ", version ", entry.version);
-  if (entry.kind == "obstacle") say("      licence: {}\n", told(licence_of(entry.file)));
+  if (is_plugin(entry)) say("      licence: {}\n", told(licence_of(entry.file)));
   if (!entry.optimised) say("      compiled without optimisation: solves take several times as long\n");
 }
 
@@ -141,7 +141,7 @@ void list_command(const std::string& kinds) {
   for (const Kind& kind : kinds_table)
     if (kinds.empty() || kinds == kind.plural) print_kind(kind, all);
   if (kinds.empty() || kinds == libraries) print_libraries();
-  if (!kinds.empty() && kinds != "obstacles") return;
+  if (!kinds.empty() && kinds != "obstacles" && kinds != "estimators") return;
   for (const auto& rejected : all.rejected) say("rejected: {}\n  {}\n", rejected.file, rejected.reason);
 }
 

@@ -162,11 +162,16 @@ void print_steps(const Report& report) {
 /// The meshes of a run that refines where its error is.
 void print_meshes(const Report& report) {
   if (!report.adaptive) return;
-  fmt::print("{:>4} {:>10} {:>10} {:>15} {:>15} {:>9}\n", "mesh", "unknowns", "iterations", "error at least", "at most",
-             "seconds");
+  const auto bounds = [](const AdaptiveStep& mesh) { return std::isfinite(mesh.error.upper); };
+  const bool some = std::ranges::any_of(report.adaptive->steps, bounds);
+  fmt::print("{:>4} {:>10} {:>10} {:>15} {:>15} {:>9}\n", "mesh", "unknowns", "iterations",
+             some ? "error at least" : "", some ? "at most" : "error estimated", "seconds");
   for (int number = 1; const AdaptiveStep& mesh : report.adaptive->steps)
-    fmt::print("{:>4} {:>10} {:>10} {:>13.3g} % {:>13.3g} % {:>9.2f}\n", number++, mesh.unknowns, mesh.iterations,
-               100 * mesh.relative_lower, 100 * mesh.relative_upper, mesh.seconds);
+    fmt::print("{:>4} {:>10} {:>10} {:>15} {:>13.3g} % {:>9.2f}\n", number++, mesh.unknowns, mesh.iterations,
+               bounds(mesh) ? fmt::format("{:.3g} %", 100 * mesh.error.relative_lower())
+               : some       ? "about"
+                            : "",
+               100 * mesh.error.relative_estimated(), mesh.seconds);
   fmt::print("refined {} times: {}\n", report.adaptive->steps.size() - 1, report.adaptive->reason);
 }
 

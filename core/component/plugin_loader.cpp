@@ -22,17 +22,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view prefix = "libsignorini_obstacle_", suffix = ".so";
+constexpr std::string_view prefix = "libsignorini_", suffix = ".so";
+constexpr std::string_view kinds[] = {"obstacle", "estimator"};  // of plugins
 
 [[noreturn]] void reject(const fs::path& file, std::string_view reason) {
   throw Error(Exit::plugin, fmt::format("{}: {}", file.string(), reason));
 }
 
-// The id in the name of a library, or "" for any other file.
-std::string id_of(const fs::path& file) {
+/// What the name of a library says that it provides; "" for any other file.
+struct Provided {
+  std::string kind, id;
+  auto operator<=>(const Provided&) const = default;
+};
+
+Provided provided_by(const fs::path& file) {
   const std::string name = file.filename().string();
-  if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) || !name.ends_with(suffix)) return {};
-  return name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+  if (!name.ends_with(suffix)) return {};
+  for (const std::string_view kind : kinds)
+    if (const std::string start = fmt::format("{}{}_", prefix, kind);
+        name.starts_with(start) && name.size() > start.size() + suffix.size())
+      return {std::string(kind), name.substr(start.size(), name.size() - start.size() - suffix.size())};
+  return {};
 }
 
 std::vector<fs::path> folders_of_environment() {
@@ -142,20 +152,21 @@ void PluginLoader::load(const fs::path& name) {
   add_all_of(file, registry_);
 }
 
-void PluginLoader::require(const std::string& id) {
-  if (registry_.has("obstacle", id)) return;
+void PluginLoader::require(const std::string& id, const std::string& kind) {
+  if (registry_.has(kind, id)) return;
   for (const fs::path& file : found()) {
-    if (id_of(file) != id) continue;
+    if (provided_by(file) != Provided{kind, id}) continue;
     load(file);
-    if (registry_.has("obstacle", id)) return;
-    reject(file, fmt::format("it provides no obstacle '{}'", id));
+    if (registry_.has(kind, id)) return;
+    reject(file, fmt::format("it provides no {} '{}'", kind, id));
   }
-  not_found(id);
+  not_found(id, kind);
 }
 
 std::vector<PluginLoader::Rejected> PluginLoader::load_all() {
   std::set<std::string> loaded;
-  for (const Entry& entry : registry_.entries("obstacle")) loaded.insert(entry.file);
+  for (const std::string_view kind : kinds)
+    for (const Entry& entry : registry_.entries(kind)) loaded.insert(entry.file);
   std::vector<Rejected> rejected;
   for (const fs::path& file : found()) {
     try {
@@ -171,32 +182,33 @@ std::vector<PluginLoader::Rejected> PluginLoader::load_all() {
 // The libraries in all folders, those of one name only where they come first; within a folder by name.
 std::vector<fs::path> PluginLoader::found() const {
   std::vector<fs::path> files;
-  std::set<std::string> seen;
+  std::set<Provided> seen;
   for (const fs::path& folder : folders_) {
     std::vector<fs::path> here;
     std::error_code ignored;
     for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
-      if (!id_of(entry->path()).empty()) here.push_back(entry->path());
+      if (!provided_by(entry->path()).id.empty()) here.push_back(entry->path());
     std::sort(here.begin(), here.end());
     for (const fs::path& file : here)
-      if (seen.insert(id_of(file)).second) files.push_back(file);
+      if (seen.insert(provided_by(file)).second) files.push_back(file);
   }
   return files;
 }
 
-void PluginLoader::not_found(const std::string& id) const {
+void PluginLoader::not_found(const std::string& id, const std::string& kind) const {
   std::vector<std::string> ids, places;
-  for (const Entry& entry : registry_.entries("obstacle")) ids.push_back(entry.id);
-  for (const fs::path& file : found()) ids.push_back(id_of(file));
+  for (const Entry& entry : registry_.entries(kind)) ids.push_back(entry.id);
+  for (const fs::path& file : found())
+    if (const Provided provided = provided_by(file); provided.kind == kind) ids.push_back(provided.id);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   std::error_code ignored;
   for (const fs::path& folder : folders_)
     places.push_back(folder.string() + (fs::is_directory(folder, ignored) ? "" : " (no such folder)"));
   throw Error(Exit::plugin,
-              fmt::format("there is no obstacle plugin '{}'{} (available: {}); looked for {}{}{} in {}", id,
+              fmt::format("there is no {} plugin '{}'{} (available: {}); looked for {}{}_{}{} in {}", kind, id,
                           did_you_mean(id, ids), ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", ")), prefix,
-                          id, suffix, fmt::join(places, ", ")));
+                          kind, id, suffix, fmt::join(places, ", ")));
 }
 
 Catalogue catalogue(Registry& registry, PluginLoader& loader, std::string_view kind) {

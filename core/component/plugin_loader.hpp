@@ -7,7 +7,8 @@
 
 namespace signorini {
 
-/// Finds the shared libraries libsignorini_obstacle_ID.so and registers what they provide. Searched in this order: the
+/// Finds the shared libraries libsignorini_KIND_ID.so, where the kind is obstacle or estimator, and registers what they
+/// provide. Searched in this order: the
 /// scene's folders, SIGNORINI_PLUGIN_PATH (separated by colons), the folder signorini/plugins beside the core library;
 /// never the current folder, never folders below. A library once loaded stays loaded until the program ends, so that
 /// objects cannot outlive their code.
@@ -21,9 +22,9 @@ class PluginLoader {
   /// @param scene_folders searched first, in this order
   explicit PluginLoader(Registry& registry, std::vector<std::filesystem::path> scene_folders = {});
 
-  /// Loads the library of an obstacle unless it is registered already. Errors are Error(Exit::plugin): where it was
-  /// looked for and the nearest id there is, or why the library found was rejected.
-  void require(const std::string& id);
+  /// Loads the library of an obstacle, or of an estimator, unless it is registered already. Errors are
+  /// Error(Exit::plugin): where it was looked for and the nearest id there is, or why the library found was rejected.
+  void require(const std::string& id, const std::string& kind = "obstacle");
 
   /// Loads a library by its file name and registers all it provides, or nothing and throws Error(Exit::plugin).
   void load(const std::filesystem::path& file);
@@ -35,7 +36,7 @@ class PluginLoader {
 
  private:
   std::vector<std::filesystem::path> found() const;
-  [[noreturn]] void not_found(const std::string& id) const;
+  [[noreturn]] void not_found(const std::string& id, const std::string& kind) const;
 
   Registry& registry_;
   std::vector<std::filesystem::path> folders_;

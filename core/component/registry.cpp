@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/error.hpp"
+#include "core/sdk/error_estimator.hpp"
 
 namespace signorini {
 
@@ -29,6 +30,15 @@ void Registry::add_obstacle(const ObstacleType& type, Entry entry) {
   entry.options.assign(type.options, type.options + type.option_count);
   Creators offered;
   offered.emplace(typeid(ObstacleType), type);
+  insert(std::move(entry), std::move(offered));
+}
+
+void Registry::add_estimator(const EstimatorType& type, Entry entry) {
+  entry.kind = "estimator";
+  entry.id = type.id;
+  entry.help = type.help;
+  Creators offered;
+  offered.emplace(typeid(EstimatorType), type);
   insert(std::move(entry), std::move(offered));
 }
 
@@ -55,6 +65,11 @@ const ObstacleType& Registry::obstacle(std::string_view id) const {
   const std::any* type = offered("obstacle", id, typeid(ObstacleType));
   if (!type) wrong_interface("obstacle", id);
   return std::any_cast<const ObstacleType&>(*type);
+}
+
+const EstimatorType* Registry::estimator(std::string_view id) const {
+  const std::any* type = offered("estimator", id, typeid(EstimatorType));
+  return type ? &std::any_cast<const EstimatorType&>(*type) : nullptr;
 }
 
 bool Registry::has(std::string_view kind, std::string_view id) const {

@@ -38,8 +38,10 @@ class Registry {
     insert(std::move(entry), std::move(offered));
   }
 
-  /// Adds an obstacle type; kind, id and help of `entry` are taken from it.
+  /// Adds what plugins provide; kind, id and help of `entry` are taken from it.
   void add_obstacle(const ObstacleType& type, Entry entry);
+
+  void add_estimator(const EstimatorType& type, Entry entry);
 
   /// A new component. An unknown id is an Error(Exit::input) that names the nearest one and all there are.
   template <class Interface>
@@ -53,6 +55,8 @@ class Registry {
   void require_free(std::string_view kind, std::string_view id, std::string_view file) const;
 
   const ObstacleType& obstacle(std::string_view id) const;
+  /// Null where an estimator is no plugin's.
+  const EstimatorType* estimator(std::string_view id) const;
   bool has(std::string_view kind, std::string_view id) const;
   const Entry& entry(std::string_view kind, std::string_view id) const;
   /// The entries of a kind, or all when `kind` is empty, in alphabetical order.

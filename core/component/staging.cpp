@@ -61,27 +61,45 @@ void check(const ObstacleType& type, const std::vector<ObstacleType>& others) {
   check_options(type);
 }
 
+void check(const EstimatorType& type, const std::vector<EstimatorType>& others) {
+  require(type.id && is_id(type.id),
+          fmt::format("'{}' is no estimator id: lower-case letters, digits and '_' were expected",
+                      type.id ? type.id : "(null)"));
+  require(type.help, fmt::format("estimator '{}': no help", type.id));
+  require(type.create, fmt::format("estimator '{}': no constructor", type.id));
+  require(type.element_size == sizeof(SampledElement),
+          fmt::format("estimator '{}': SampledElement has {} bytes in the plugin, {} here: it has to be rebuilt",
+                      type.id, type.element_size, sizeof(SampledElement)));
+  for (const EstimatorType& other : others)
+    require(std::string_view(other.id) != type.id, fmt::format("estimator '{}' is registered twice", type.id));
+}
+
 }  // namespace
 
-void StagingRegistrar::obstacle(const ObstacleType& type, Status& status) noexcept {
+template <class Type>
+void StagingRegistrar::add(const Type& type, std::vector<Type>& to, Status& status) noexcept {
   try {
-    check(type, obstacles_);
-    obstacles_.push_back(type);
+    check(type, to);
+    to.push_back(type);
   } catch (const std::exception& error) {
     status.fail(static_cast<int>(Exit::plugin), error.what());
     if (first_failure_.ok()) first_failure_ = status;
   }
 }
 
+void StagingRegistrar::obstacle(const ObstacleType& type, Status& status) noexcept { add(type, obstacles_, status); }
+void StagingRegistrar::estimator(const EstimatorType& type, Status& status) noexcept { add(type, estimators_, status); }
+
 void StagingRegistrar::commit(Registry& registry, const std::string& file, const std::string& version,
                               bool optimised) const {
   require(first_failure_.ok(), first_failure_.message);
-  require(!obstacles_.empty(), "it registers nothing");
+  require(!obstacles_.empty() || !estimators_.empty(), "it registers nothing");
   for (const ObstacleType& type : obstacles_) registry.require_free("obstacle", type.id, file);
-  for (const ObstacleType& type : obstacles_)
-    registry.add_obstacle(
-        type,
-        {.kind = {}, .id = {}, .help = {}, .options = {}, .file = file, .version = version, .optimised = optimised});
+  for (const EstimatorType& type : estimators_) registry.require_free("estimator", type.id, file);
+  const Entry entry{
+      .kind = {}, .id = {}, .help = {}, .options = {}, .file = file, .version = version, .optimised = optimised};
+  for (const ObstacleType& type : obstacles_) registry.add_obstacle(type, entry);
+  for (const EstimatorType& type : estimators_) registry.add_estimator(type, entry);
 }
 
 }  // namespace signorini

@@ -51,6 +51,8 @@ Range::Range(std::string_view text) : text_(text), low_(-infinity), high_(infini
     choices_.push_back(trimmed(text.substr(begin, end - begin)));
     begin = end + 1;
   }
+  any_other_ = choices_.back() == "...";
+  if (any_other_) choices_.pop_back();
 }
 
 bool Range::contains(double number) const {
@@ -64,7 +66,7 @@ double Range::rounded(double number, double slack) const {
 }
 
 bool Range::contains(std::string_view text) const {
-  return choices_.empty() || std::find(choices_.begin(), choices_.end(), text) != choices_.end();
+  return choices_.empty() || any_other_ || std::find(choices_.begin(), choices_.end(), text) != choices_.end();
 }
 
 std::string Range::expected(std::string_view kind) const {

@@ -26,6 +26,7 @@ class Range {
   double low_, high_;
   bool closed_low_ = true, closed_high_ = true;
   std::vector<std::string> choices_;
+  bool any_other_ = false;
 };
 
 }  // namespace signorini

@@ -13,9 +13,10 @@ struct EstimateParts {
 /// u_h, moved to the right side of obstacles between nodes. NaN: not known.
 struct EstimateReport {
   double lower = 0, upper = 0;
-  double total = 0;   ///< J(v): J(u) is at least total - upper, and at most total - lower
-  double lifted = 0;  ///< J(v) - J(u_h)
-  double energy = 0;  ///< of deformation, 1/2 a(v, v)
+  double estimated = 0;  ///< what meshes are refined by: the upper bound, or of estimators without one what they find
+  double total = 0;      ///< J(v): J(u) is at least total - upper, and at most total - lower
+  double lifted = 0;     ///< J(v) - J(u_h)
+  double energy = 0;     ///< of deformation, 1/2 a(v, v)
   bool guaranteed = false;
   std::vector<std::string> reasons;  ///< why not
   EstimateParts parts;
@@ -23,6 +24,7 @@ struct EstimateReport {
 
   double relative_lower() const { return lower / energy; }
   double relative_upper() const { return upper / energy; }
+  double relative_estimated() const { return estimated / energy; }
 };
 
 }  // namespace signorini

@@ -162,10 +162,8 @@ struct AdaptiveStep {
   Index unknowns = 0;
   int iterations = 0;
   double energy = 0;
-  double lower = 0, upper = 0;                    ///< bounds of the energy error, see EstimateReport
-  double relative_lower = 0, relative_upper = 0;  ///< likewise
-  bool guaranteed = false;
-  double seconds = 0;  ///< since the beginning of the run
+  EstimateReport error;  ///< of the energy
+  double seconds = 0;    ///< since the beginning of the run
 };
 
 struct AdaptiveReport {

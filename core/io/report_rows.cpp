@@ -443,27 +443,44 @@ struct Table<EstimateParts> {
   }
 };
 
+namespace {
+
+/// How large an error is.
+std::vector<Row<EstimateReport>> error_numbers() {
+  using E = EstimateReport;
+  return {
+      member("lower", &E::lower,
+             "what the energy is at least above that of the true solution, see `total`; null: there are no bounds"),
+      member("upper", &E::upper, "and at most"),
+      member("estimated", &E::estimated,
+             "what meshes are refined by: `upper`, or where there are no bounds what the estimator takes it for"),
+      {{"relative_lower", Kind::number, "the same, relative to the energy of deformation, 1/2 a(v, v)"},
+       [](const E& e) -> Json { return e.relative_lower(); }},
+      {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
+      {{"relative_estimated", Kind::number, "and about"}, [](const E& e) -> Json { return e.relative_estimated(); }},
+      member("guaranteed", &E::guaranteed,
+             "whether the true number certainly lies between the bounds, apart from rounding")};
+}
+
+}  // namespace
+
 template <>
 struct Table<EstimateReport> {
   static constexpr const char* name = "estimate";
   static std::vector<Row<EstimateReport>> rows() {
     using E = EstimateReport;
-    return {
-        member("lower", &E::lower, "what `total` is at least above the energy of the true solution"),
-        member("upper", &E::upper, "and at most"),
-        member("total", &E::total,
-               "the energy J(v) = 1/2 a(v, v) - f(v), with what friction takes, of v: the solution u_h of the finite "
-               "elements, moved to the right side of obstacles between nodes. The energy of the true solution is "
-               "between `total` - `upper` and `total` - `lower`"),
-        member("lifted", &E::lifted, "J(v) - J(u_h): what moving it took"),
-        {{"relative_lower", Kind::number, "the same, relative to `energy` of this object"},
-         [](const E& e) -> Json { return e.relative_lower(); }},
-        {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
-        member("energy", &E::energy, "that of deformation, 1/2 a(v, v), of v"),
-        member("guaranteed", &E::guaranteed, "whether the true number certainly lies between, apart from rounding"),
-        member("reasons", &E::reasons, "why not, in sentences"),
-        object("parts", &E::parts, "what `upper` consists of"),
-        member("seconds", &E::seconds, "the time that it took")};
+    std::vector<Row<E>> all = error_numbers();
+    add(all,
+        {member("total", &E::total,
+                "the energy J(v) = 1/2 a(v, v) - f(v), with what friction takes, of v: the solution u_h of the finite "
+                "elements, moved to the right side of obstacles between nodes. The energy of the true solution is "
+                "between `total` - `upper` and `total` - `lower`"),
+         member("lifted", &E::lifted, "J(v) - J(u_h): what moving it took"),
+         member("energy", &E::energy, "that of deformation, 1/2 a(v, v), of v"),
+         member("reasons", &E::reasons, "why nothing is guaranteed, in sentences"),
+         object("parts", &E::parts, "what `upper` consists of"),
+         member("seconds", &E::seconds, "the time that it took")});
+    return all;
   }
 };
 
@@ -472,16 +489,12 @@ struct Table<AdaptiveStep> {
   static constexpr const char* name = "refinement";
   static std::vector<Row<AdaptiveStep>> rows() {
     using S = AdaptiveStep;
-    return {member("elements", &S::elements, "of the mesh"),
-            member("unknowns", &S::unknowns, "on it"),
-            member("iterations", &S::iterations, "that the solve took, from the solution before"),
-            member("energy", &S::energy, "that is minimised"),
-            member("lower", &S::lower, "bound of the energy error from below"),
-            member("upper", &S::upper, "and from above"),
-            member("relative_lower", &S::relative_lower, "the same, relative to the energy of deformation"),
-            member("relative_upper", &S::relative_upper, "and from above"),
-            member("guaranteed", &S::guaranteed, "see `estimate`"),
-            member("seconds", &S::seconds, "since the beginning of the run")};
+    std::vector<Row<S>> all{member("elements", &S::elements, "of the mesh"), member("unknowns", &S::unknowns, "on it"),
+                            member("iterations", &S::iterations, "that the solve took, from the solution before"),
+                            member("energy", &S::energy, "that is minimised")};
+    add(all, of_part<S>(error_numbers(), [](const S& s) -> const EstimateReport& { return s.error; }));
+    all.push_back(member("seconds", &S::seconds, "since the beginning of the run"));
+    return all;
   }
 };
 

@@ -44,6 +44,7 @@ class Forest {
   MadeMesh<D> mesh() const;
   /// The ends of the edge that a vertex is the midpoint of; on the coarsest mesh itself twice.
   std::array<VertexId, 2> parents(VertexId id) const { return ids_.parents(id); }
+  const VertexIds& ids() const { return ids_; }
   /// How often a leaf's element of the coarsest mesh was cut to make it.
   int generation(Index leaf) const { return tree_[leaf_[leaf]].generation; }
   /// Vertices that are off the curve they belong to, or elements would be inverted.

@@ -12,9 +12,10 @@ void check_pretension(const Scene& scene, const Scene::Obstacle& obstacle) {
       input_error(obstacle.source.of("lock_at"), "'lock_at' has no meaning without 'pretension', the bolt's force");
     return;
   }
-  if (scene.solver.estimate != "false")
+  if (scene.solver.estimate != "false" && scene.estimator() == "certificate")
     input_error(obstacle.source.of("pretension"),
-                "bounds of the error are not available with pretension in this version; expected estimate = false");
+                "bounds of the error are not available with pretension in this version; expected estimate = false, or "
+                "recovery");
   const std::vector<double>& at = scene.steps.at;
   if (!obstacle.lock_at || at.empty()) return;
   const std::string& place = obstacle.source.of("lock_at");

@@ -212,7 +212,7 @@ struct Scene {
     std::string bodies = "jumps";    ///< that touch each other: jumps or dirichlet-neumann
     std::string hierarchy = "auto";  ///< coarser levels: meshes, matrix (all algebraic), or auto: the latter where
                                      ///< cells are stretched
-    std::string estimate = "false";  ///< of the error of the mesh: false, true, auto or cheap
+    std::string estimate = "false";  ///< of the error of the mesh: false, true, auto, cheap or an estimator's id
     Source source;
   };
 
@@ -266,6 +266,9 @@ struct Scene {
   const Body& body(std::string_view body_name) const;
   /// Whether `contact` looks for obstacles of that body.
   bool looks_for_pairs(const Body& body) const;
+  /// The id of the estimator of the error that `solver.estimate` and `refine.adaptive` ask for: "certificate" of what
+  /// asks for bounds; empty: none.
+  std::string estimator() const;
 };
 
 /// Reads and validates a scene. Errors are Error(Exit::input) naming file and line, key, what was found, what was

@@ -29,9 +29,10 @@ constexpr OptionRow<Solver> of_scenes[] = {
     {"start", &Solver::start, "nested | zero", "nested: from the solution on the next coarser mesh", false,
      "Below the coarsest mesh it comes from the next algebraic level. Coarser meshes that have a start themselves get "
      "one cycle for scalar problems, at most five for elastic bodies."},
-    {"estimate", &Solver::estimate, "false | true | auto | cheap",
+    {"estimate", &Solver::estimate, "false | true | auto | cheap | recovery | ...",
      "bounds of the energy error of the mesh, in the report and in a line at the end; cheap: in less time and less "
-     "sharp for elastic bodies; auto: cheap for elastic bodies in space",
+     "sharp for elastic bodies; auto: cheap for elastic bodies in space; recovery, or another one of `signorini list "
+     "estimators`: no bounds, but about how large the error is",
      false, "See docs/how_good.md."},
 };
 
@@ -144,6 +145,12 @@ std::string solver_options_page() {
   for (const auto& row : option_table()) add(*key++, row.more);
   for (const auto& row : of_scenes) add(*key++, row.more);
   return text;
+}
+
+std::string Scene::estimator() const {
+  const std::string& asked = solver.estimate;
+  if (asked == "false" && !refine.adaptive) return {};
+  return asked == "false" || asked == "true" || asked == "auto" || asked == "cheap" ? "certificate" : asked;
 }
 
 Scene::Solver read_solver(const RawTable& table, const std::filesystem::path& folder) {

@@ -276,14 +276,15 @@ constexpr KeySpec refine[] = {
     {"uniform", integer, "0", "[0, 30]", "", "uniform refinements of the coarsest mesh"},
     {"adaptive", boolean, "false", "", "",
      "solve, estimate the error, cut the elements that have most of it, and solve again, until one of the next four "
-     "keys "
-     "ends that: one body with linear elements, one step"},
+     "keys ends that: one body, or some that may touch each other; one step"},
     {"tolerance", number, "0.01", "(0, 1)", "",
-     "adaptive runs end where the upper bound of the energy error is at most this part of the energy"},
+     "adaptive runs end where the upper bound of the energy error, or an estimate where there are no bounds, is at "
+     "most "
+     "this part of the energy"},
     {"max_unknowns", integer, "1000000", "[1, 2000000000]", "", "or where the next mesh would have more unknowns"},
     {"max_steps", integer, "30", "[0, 1000]", "", "or after so many refinements"},
     {"max_seconds", number, "3600", "(0, inf)", "", "or where this time is over"},
-    {"estimator", text, "", "", every_value, "an estimator of `signorini list estimators`"},
+    {"goal", text, "", "", every_value, "what meshes are refined for, in place of the energy"},
 };
 
 constexpr KeySpec symmetry[] = {

@@ -1,4 +1,5 @@
 // The destructors of the interfaces live here, so that each of them exists once, in the core library.
+#include "core/sdk/error_estimator.hpp"
 #include "core/sdk/obstacle.hpp"
 #include "core/sdk/registrar.hpp"
 #include "core/sdk/stepping.hpp"
@@ -9,6 +10,8 @@ namespace signorini {
 DistanceFunction::~DistanceFunction() = default;
 Settings::~Settings() = default;
 Registrar::~Registrar() = default;
+SampledStress::~SampledStress() = default;
+ErrorEstimator::~ErrorEstimator() = default;
 Scaling::~Scaling() = default;
 Friction::~Friction() = default;
 Stepping::~Stepping() = default;

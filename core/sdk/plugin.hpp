@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/sdk/error_estimator.hpp"
 #include "core/sdk/fingerprint.hpp"
 #include "core/sdk/registrar.hpp"
 
@@ -57,6 +58,12 @@ std::invoke_result_t<Body> guarded(Status& status, Body&& body) noexcept {
 template <class T, int B>
 Obstacle<B>* create(const Settings& settings, Status& status) noexcept {
   return guarded(status, [&]() -> Obstacle<B>* { return new T(settings); });
+}
+
+/// Likewise that of an estimator.
+template <class T>
+ErrorEstimator* create_estimator(Status& status) noexcept {
+  return guarded(status, []() -> ErrorEstimator* { return new T; });
 }
 
 template <auto Function>

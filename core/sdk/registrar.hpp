@@ -22,11 +22,14 @@ struct ObstacleType {
   bool takes_body = false;
 };
 
+struct EstimatorType;
+
 /// Where a plugin registers what it provides. Nothing becomes visible before all of it succeeded.
 class Registrar {
  public:
   virtual ~Registrar();
   virtual void obstacle(const ObstacleType& type, Status& status) noexcept = 0;
+  virtual void estimator(const EstimatorType& type, Status& status) noexcept = 0;
 };
 
 }  // namespace signorini

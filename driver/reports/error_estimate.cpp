@@ -19,6 +19,7 @@ constexpr double EstimateParts::*all_parts[] = {&EstimateParts::discretisation, 
 void add(const EstimateReport& from, EstimateReport& to) {
   to.lower += from.lower;
   to.upper += from.upper;
+  to.estimated += from.estimated;
   to.total += from.total;
   to.lifted += from.lifted;
   to.energy += from.energy;
@@ -52,6 +53,7 @@ template LinearSolve<3> rough_solve(const Registry&);
 Estimate of_whole(Estimate estimate, int copies) {
   estimate.lower *= copies;
   estimate.upper *= copies;
+  estimate.estimated *= copies;
   estimate.total *= copies;
   estimate.lifted *= copies;
   estimate.energy *= copies;
@@ -69,8 +71,10 @@ std::optional<EstimateReport> added_up(const std::vector<std::optional<EstimateR
 std::string error_text(const EstimateReport& estimate) {
   const std::string why =
       estimate.guaranteed ? "guaranteed" : fmt::format("not guaranteed: {}", fmt::join(estimate.reasons, "; "));
-  if (!std::isfinite(estimate.relative_upper()))
+  if (!std::isfinite(estimate.relative_estimated()))
     return fmt::format("energy error not known: {}", fmt::join(estimate.reasons, "; "));
+  if (!std::isfinite(estimate.relative_upper()))
+    return fmt::format("energy error estimated as {:.2g} %, {}", 100 * estimate.relative_estimated(), why);
   return fmt::format("energy error between {:.2g} % and {:.2g} %, {}", 100 * estimate.relative_lower(),
                      100 * estimate.relative_upper(), why);
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "estimators/certificate/balance.hpp"
@@ -11,6 +10,7 @@
 #include "estimators/certificate/contact_forces.hpp"
 #include "estimators/certificate/energy.hpp"
 #include "estimators/certificate/misfit.hpp"
+#include "estimators/certificate/numbers.hpp"
 
 namespace signorini {
 namespace {
@@ -18,57 +18,32 @@ namespace {
 /// Of the largest force: what counts as equilibrium.
 constexpr double balanced = 1e-9;
 
-/// Sweeps over the bubbles, for the bound from below: in the plane one wins 0.4 to 0.9 of the energy that is there,
-/// three 0.75 to 1; in space two take a quarter more time than one. Of quadratic elements one wins too little.
-constexpr int sweeps(int dimension, int order) { return dimension == 2 || order == 2 ? 3 : 1; }
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-
-Estimate no_numbers(std::vector<std::string> reasons) {
-  Estimate none;
-  none.lower = none.upper = none.total = none.lifted = none.energy = not_known;
-  none.parts = {not_known, not_known, not_known, not_known, not_known, not_known};
-  none.reasons = std::move(reasons);
-  return none;
-}
-
 template <int D, int B>
 class Certificate {
  public:
-  Certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+  Certificate(const Nodes<D>& nodes, const Model<B>& model, TrueProblem<D, B>& problem,
               const EstimateOptions<B>& options)
       : nodes_(nodes),
         model_(model),
         options_(options),
-        problem_(nodes, model, u, options.rest),
+        problem_(problem),
         of_u_(problem_),
-        lifted_(of_u_) {}
+        better_(problem_, nodes.order()) {}
 
   Estimate compute() {
-    if (problem_.reasons.refused) return no_numbers(problem_.reasons.all);
-    if (!lifted_.lift()) problem_.reasons.add("what is prescribed keeps the body from the right side between nodes");
-    if (lifted_.lifted()) lifted_.sweep(true);
+    if (!better_.possible) problem_.reasons.add("what is prescribed keeps the body from the right side between nodes");
     out_.lifted = lifted_.energy();
     out_.energy = deformation_energy(problem_, lifted_);
-    Bubbles<D, B> swept = lifted_;
-    for (int k = 0; k < sweeps(D, nodes_.order()); ++k) out_.lower += swept.sweep();
-    bound_from_above(swept);
+    out_.lower = better_.won;
+    bound_from_above(better_.swept);
     out_.total = out_.energy - work_of_loads(problem_, lifted_) + friction_;
-    if (nodes_.order() > 1) gather_children();
+    gather_children(nodes_, out_.of_element);
     out_.guaranteed = problem_.reasons.none();
     out_.reasons = problem_.reasons.all;
     return std::move(out_);
   }
 
  private:
-  /// Quadratic elements have the shares of their children.
-  void gather_children() {
-    std::vector<double> of_father(nodes_.mesh().families.size());
-    const std::vector<Index> father = fathers(nodes_);
-    for (std::size_t e = 0; e < father.size(); ++e) of_father[father[e]] += out_.of_element[e];
-    out_.of_element = std::move(of_father);
-  }
-
   ElementFlux<D, B> flux_of(const Bubbles<D, B>& v) const {
     return [&](Index e) {
       std::array<Gradient<D, B>, D + 1> out = v.gradients(e);
@@ -124,17 +99,18 @@ class Certificate {
     parts.oscillation = with_oscillation - of_misfit;
     parts.algebra = std::min(of_misfit, options_.algebraic_error * options_.algebraic_error * out_.energy);
     parts.discretisation = of_misfit - parts.algebra;
-    out_.upper = with_oscillation + parts.contact + parts.friction;
+    out_.upper = out_.estimated = with_oscillation + parts.contact + parts.friction;
     out_.of_element = std::move(misfit);
   }
 
   const Nodes<D>& nodes_;
   const Model<B>& model_;
   const EstimateOptions<B>& options_;
-  TrueProblem<D, B> problem_;
+  TrueProblem<D, B>& problem_;
   const Bubbles<D, B> of_u_;
-  Bubbles<D, B> lifted_;  // v
-  double friction_ = 0;   // its part of J(v)
+  const LiftedAndSwept<D, B> better_;
+  const Bubbles<D, B>& lifted_ = better_.lifted;  // v
+  double friction_ = 0;                           // its part of J(v)
   Estimate out_;
 };
 
@@ -143,11 +119,11 @@ class Certificate {
 template <int D, int B>
 Estimate certificate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                      const EstimateOptions<B>& options) {
-  std::vector<std::string> reasons = not_certified<D, B>(nodes, model);
-  if (options.paired_anew)
-    reasons.emplace_back("bodies that load steps have moved past each other or past an obstacle are not covered");
+  std::vector<std::string> reasons = not_covered<D, B>(nodes, model, options);
   if (!reasons.empty()) return no_numbers(std::move(reasons));
-  return Certificate<D, B>(nodes, model, u, options).compute();
+  TrueProblem<D, B> problem(nodes, model, u, options.rest);
+  if (problem.reasons.refused) return no_numbers(problem.reasons.all);
+  return Certificate<D, B>(nodes, model, problem, options).compute();
 }
 
 template Estimate certificate(const Nodes<2>&, const Model<1>&, const std::vector<double>&, const EstimateOptions<1>&);

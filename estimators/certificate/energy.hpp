@@ -4,20 +4,25 @@
 /// The parts of J(v) = 1/2 a(v, v) - f(v) for a function v with bubbles. Friction has a part of its own.
 namespace signorini {
 
-/// 1/2 a(v, v), with int phi_x phi_y = |T| (1 + [x = y]) / ((D + 1) (D + 2)).
+/// 1/2 a(v, v) in an element where v has the gradient sum over x of phi_x gradients[x], with
+/// int phi_x phi_y = |T| (1 + [x = y]) / ((D + 1) (D + 2)).
+template <int D, int B>
+double deformation_energy(const TrueProblem<D, B>& problem, Index e,
+                          const std::array<Gradient<D, B>, D + 1>& gradients) {
+  Gradient<D, B> sum{};
+  double squares = 0;
+  for (const auto& g : gradients) {
+    add(1, g, sum);
+    squares += contract(g, flux(problem.material[e], g));
+  }
+  squares += contract(sum, flux(problem.material[e], sum));
+  return problem.element[e].measure / (2 * (D + 1) * (D + 2)) * squares;
+}
+
 template <int D, int B>
 double deformation_energy(const TrueProblem<D, B>& problem, const Bubbles<D, B>& v) {
   double energy = 0;
-  for (Index e = 0; e < problem.elements(); ++e) {
-    Gradient<D, B> sum{};
-    double squares = 0;
-    for (const auto& g : v.gradients(e)) {
-      add(1, g, sum);
-      squares += contract(g, flux(problem.material[e], g));
-    }
-    squares += contract(sum, flux(problem.material[e], sum));
-    energy += problem.element[e].measure / (2 * (D + 1) * (D + 2)) * squares;
-  }
+  for (Index e = 0; e < problem.elements(); ++e) energy += deformation_energy<D, B>(problem, e, v.gradients(e));
   return energy;
 }
 

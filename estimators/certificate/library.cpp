@@ -1,14 +1,19 @@
 #include "estimators/certificate/certificate.hpp"
+#include "estimators/certificate/hierarchical.hpp"
 
 namespace signorini {
 namespace {
 
 template <int D, int B>
-class CertificateEstimator final : public Estimator<D, B> {
+using Function = Estimate (*)(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
+                              const EstimateOptions<B>& options);
+
+template <int D, int B, Function<D, B> function>
+class ByFunction final : public Estimator<D, B> {
  public:
   Estimate estimate(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                     const EstimateOptions<B>& options) const override {
-    return certificate<D, B>(nodes, model, u, options);
+    return function(nodes, model, u, options);
   }
 };
 
@@ -16,17 +21,18 @@ class CertificateEstimator final : public Estimator<D, B> {
 }  // namespace signorini
 
 // What estimators/registration.cpp looks for, and all that the library exports.
+#define SIGNORINI_EXPORT(name, D, B)                                                                          \
+  __attribute__((visibility("default"))) void* signorini_##name##_##D##_##B() {                               \
+    return static_cast<signorini::Estimator<D, B>*>(new signorini::ByFunction<D, B, &signorini::name<D, B>>); \
+  }
 extern "C" {
-__attribute__((visibility("default"))) void* signorini_certificate_2_1() {
-  return static_cast<signorini::Estimator<2, 1>*>(new signorini::CertificateEstimator<2, 1>);
+SIGNORINI_EXPORT(certificate, 2, 1)
+SIGNORINI_EXPORT(certificate, 3, 1)
+SIGNORINI_EXPORT(certificate, 2, 2)
+SIGNORINI_EXPORT(certificate, 3, 3)
+SIGNORINI_EXPORT(hierarchical, 2, 1)
+SIGNORINI_EXPORT(hierarchical, 3, 1)
+SIGNORINI_EXPORT(hierarchical, 2, 2)
+SIGNORINI_EXPORT(hierarchical, 3, 3)
 }
-__attribute__((visibility("default"))) void* signorini_certificate_3_1() {
-  return static_cast<signorini::Estimator<3, 1>*>(new signorini::CertificateEstimator<3, 1>);
-}
-__attribute__((visibility("default"))) void* signorini_certificate_2_2() {
-  return static_cast<signorini::Estimator<2, 2>*>(new signorini::CertificateEstimator<2, 2>);
-}
-__attribute__((visibility("default"))) void* signorini_certificate_3_3() {
-  return static_cast<signorini::Estimator<3, 3>*>(new signorini::CertificateEstimator<3, 3>);
-}
-}
+#undef SIGNORINI_EXPORT

@@ -167,7 +167,7 @@ TEST(ContactReport, TellsForcesOnBothBodies) {
 
 EstimateReport estimate(double scale, bool guaranteed, std::vector<std::string> reasons) {
   EstimateReport out;
-  out.lower = 1 * scale, out.upper = 2 * scale, out.energy = 100 * scale, out.seconds = scale;
+  out.lower = 1 * scale, out.upper = out.estimated = 2 * scale, out.energy = 100 * scale, out.seconds = scale;
   out.guaranteed = guaranteed, out.reasons = std::move(reasons);
   out.parts = {0.1 * scale, 0.2 * scale, 0.3 * scale, 0.4 * scale, 0.5 * scale, 0.6 * scale};
   return out;
@@ -180,6 +180,7 @@ TEST(ErrorEstimate, AddsUpBodies) {
   ASSERT_TRUE(all);
   EXPECT_DOUBLE_EQ(all->lower, 6);
   EXPECT_DOUBLE_EQ(all->upper, 12);
+  EXPECT_DOUBLE_EQ(all->estimated, 12);
   EXPECT_DOUBLE_EQ(all->energy, 600);
   EXPECT_FALSE(all->guaranteed);
   EXPECT_THAT(all->reasons, ElementsAre("a", "b"));
@@ -194,6 +195,7 @@ TEST(ErrorEstimate, OfAWholeIsThatOfItsCopies) {
   const Estimate whole = of_whole(of, 4);
   EXPECT_EQ(whole.lower, 4);
   EXPECT_EQ(whole.upper, 8);
+  EXPECT_EQ(whole.estimated, 8);
   EXPECT_EQ(whole.relative_upper(), of.relative_upper());
   EXPECT_DOUBLE_EQ(whole.parts.geometry, 2);
 }
@@ -203,6 +205,8 @@ TEST(ErrorEstimate, IsToldInPercent) {
   EXPECT_EQ(error_text(estimate(7, false, {"x", "y"})), "energy error between 1 % and 2 %, not guaranteed: x; y");
   EstimateReport unknown = estimate(1, false, {"friction"});
   unknown.upper = nan;
+  EXPECT_EQ(error_text(unknown), "energy error estimated as 2 %, not guaranteed: friction");
+  unknown.estimated = nan;
   EXPECT_EQ(error_text(unknown), "energy error not known: friction");
 }
 

@@ -112,7 +112,7 @@ void print_case(const Case& of, bool quick) {
   const Report& report = driver.solve();
   for (const AdaptiveStep& mesh : report.adaptive->steps)
     fmt::print("| adaptive | {} | {} | {:.3g} % | {:.3g} % | {:.2f} |\n", mesh.unknowns, mesh.iterations,
-               100 * mesh.relative_lower, 100 * mesh.relative_upper, mesh.seconds);
+               100 * mesh.error.relative_lower(), 100 * mesh.error.relative_upper(), mesh.seconds);
   std::fflush(stdout);
 }
 

@@ -245,7 +245,7 @@ struct Later {
   const char* assignment;
 };
 
-const std::vector<Later> later = {{membrane, "refine.estimator=hierarchical"}};
+const std::vector<Later> later = {{membrane, "refine.goal=force"}};
 
 TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
   for (const Later& l : later) {

@@ -84,7 +84,7 @@ TEST(KeyPage, SaysTypeRangeDefaultAndHowToSetIt) {
                            "signorini solve SCENE.toml --set solver.cycle=W", "full multigrid"})
     EXPECT_THAT(page, HasSubstr(text));
   EXPECT_THAT(key_page(keys_named("body.young").front()), HasSubstr("young = 210000"));
-  EXPECT_THAT(key_page(keys_named("refine.estimator").front()), HasSubstr("Not yet available."));
+  EXPECT_THAT(key_page(keys_named("refine.goal").front()), HasSubstr("Not yet available."));
 }
 
 TEST(KeyPage, ChoicesThatAreExplainedHaveALineEach) {
