@@ -53,7 +53,7 @@ void choose_elements(Scene& scene) {
         if (touching->order == 0) touching->order = 1;
     });
   for (Scene::Body& body : scene.bodies) {
-    if (body.order == 0) body.order = scene.refine.adaptive ? 1 : best_order(body);  // which errors are bounded of
+    if (body.order == 0) body.order = best_order(body);
     if (body.order == 1 || body.equation == Scene::Equation::diffusion || body.plane == Plane::stress)
       body.pressure = Pressure::none;
     if (!body.pressure) body.pressure = Pressure::linear;
