@@ -145,6 +145,24 @@ TEST(StagingRegistrar, RefusesFaultyTypes) {
   EXPECT_THAT(complaint(without), HasSubstr("no constructor"));
 }
 
+TEST(StagingRegistrar, TakesEstimatorsAndRefusesFaultyOnes) {
+  const auto create = [](Status&) noexcept -> ErrorEstimator* { return nullptr; };
+  const auto complaint_of = [](const EstimatorType& type) {
+    StagingRegistrar staging;
+    Status status;
+    staging.estimator(type, status);
+    Registry registry;
+    if (status.ok()) staging.commit(registry, "a.so", "1");
+    EXPECT_EQ(registry.has("estimator", "a"), status.ok());
+    return std::string(status.message);
+  };
+  EXPECT_EQ(complaint_of({"a", "help", create}), "");
+  EXPECT_THAT(complaint_of({"A b", "help", create}), HasSubstr("'A b' is no estimator id"));
+  EXPECT_THAT(complaint_of({"a", nullptr, create}), HasSubstr("no help"));
+  EXPECT_THAT(complaint_of({"a", "help", nullptr}), HasSubstr("no constructor"));
+  EXPECT_THAT(complaint_of({"a", "help", create, 8}), HasSubstr("SampledElement has 8 bytes in the plugin"));
+}
+
 TEST(StagingRegistrar, RefusesToRegisterNothing) {
   Registry registry;
   EXPECT_THAT(error_of(Exit::plugin, [&] { StagingRegistrar().commit(registry, "a.so", "1"); }), HasSubstr("nothing"));
