@@ -119,6 +119,19 @@ TEST(Recovery, FindsNoErrorInLinearFunctions) {
   EXPECT_LT(solved(scene, 1, "recovery").estimate->estimated, 1e-20);
 }
 
+/// A strip of two materials, stretched and held across: the stress across is another in each, and the same everywhere.
+TEST(Recovery, DoesNotSmoothAcrossMaterials) {
+  for (const int order : {1, 2}) {
+    const std::string scene =
+        "[[body]]\nname = 'b'\nmesh = '" SIGNORINI_SOURCE_DIR "/tests/estimators/two_materials.msh'\n" +
+        elastic(order) + "[[material]]\nbody = 'b'\nvolume = 'stiff'\nyoung = 10\npoisson = 0.2\n" +
+        tables::fix("b", "left", "[0, 'free']") + tables::fix("b", "right", "[0.01, 'free']") +
+        tables::fix("b", "sides", "['free', 0]");
+    const EstimateReport found = *solved(scene, 2, "recovery").estimate;
+    EXPECT_LT(found.estimated, 1e-12 * found.energy);
+  }
+}
+
 /// Two bodies that are pressed on each other evenly: the stress along the contact is another in each.
 TEST(Recovery, DoesNotSmoothAcrossBodies) {
   const auto body = [](const char* name, const char* from, const char* to, double young) {
