@@ -8,6 +8,7 @@
 
 #include "core/solver/functional.hpp"
 #include "core/solver/rounding.hpp"
+#include "core/solver/smooth_interpolation.hpp"
 #include "core/solver/sticking.hpp"
 #include "methods/automatic.hpp"
 
@@ -65,6 +66,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
+      smooth_(!prolongations.empty() && is_smooth(prolongations.back())),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear) {
   if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints, options.tolerance);
@@ -185,6 +187,7 @@ template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
   if (!may_turn_) return false;
+  if (smooth_) return true;
   const bool may_bend = B > 1;
   if (blocks_ || (rests_ && may_bend)) return !bounds_pay_;
   if (rests_) return true;

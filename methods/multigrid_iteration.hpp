@@ -55,6 +55,7 @@ class MultigridIteration final : public Iteration<B> {
   Recombination<B> recombination_;
   std::optional<LoadRenewal<B>> load_;  // where one follows the solution
   bool blocks_;                         // among the interpolations' weights
+  bool smooth_;                         // the interpolation to the finest level has no kinks
   bool may_turn_;                       // "auto" may make corrections without bounds
   bool nonlinear_;                      // obstacles add to the energy
   bool rests_ = false;                  // few phases changed in the last cycle

@@ -11,6 +11,7 @@
 #include "core/solver/admissible.hpp"
 #include "core/solver/interpolate.hpp"
 #include "core/solver/multigrid.hpp"
+#include "core/solver/smooth_interpolation.hpp"
 #include "core/solver/sticking.hpp"
 #include "core/solver/weights.hpp"
 #include "methods/near_start.hpp"
@@ -29,7 +30,8 @@ void inherit(const std::vector<T>& from, Index slot, int width, std::vector<T>& 
 }
 
 template <int B>
-void inherit_constraints(const DiscreteProblem<B>& fine, const std::vector<Index>& twin, Constraints<B>& coarse) {
+void inherit_constraints(const DiscreteProblem<B>& fine, const std::vector<Index>& twin,
+                         const std::vector<double>& base, Constraints<B>& coarse) {
   const Constraints<B>& c = fine.constraints;
   coarse.slot.assign(twin.size(), -1);
   coarse.width = c.width;
@@ -44,6 +46,11 @@ void inherit_constraints(const DiscreteProblem<B>& fine, const std::vector<Index
     inherit(c.before, slot, c.width, coarse.before);
     inherit(c.last, slot, B, coarse.last);
     inherit(c.tangential, slot, 1, coarse.tangential);
+    for (int k = 0; k < B; ++k) {
+      const double done = base[Offset{twin[q]} * B + k];
+      coarse.lower[coarse.lower.size() - B + k] -= done;
+      coarse.upper[coarse.upper.size() - B + k] -= done;
+    }
   }
 }
 
@@ -93,8 +100,8 @@ bool scale_functionals(const std::vector<double>& ratio, const std::vector<Segme
 /// Obstacles as if they were assembled on the coarser level. Where a functional does not scale, bounds alone are there.
 template <int B>
 void inherit_obstacles(const DiscreteProblem<B>& fine, const Prolongation& P, const std::vector<Index>& twin,
-                       DiscreteProblem<B>& coarse) {
-  inherit_constraints(fine, twin, coarse.constraints);
+                       const std::vector<double>& base, DiscreteProblem<B>& coarse) {
+  inherit_constraints(fine, twin, base, coarse.constraints);
   std::vector<Segment<B>> segments = inherited_segments(fine, twin);
   if (!has_functional(segments) || scale_functionals(slots_per_vector(fine, P), segments, coarse.constraints))
     coarse.segments = std::move(segments);
@@ -109,9 +116,18 @@ std::vector<double> free_forces(const DiscreteProblem<B>& problem) {
   return r;
 }
 
+/// A sweep to either side.
+template <int B>
+void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
+  Level<B> level = finest_level(problem);
+  level.x = x.data();
+  level.sweep(Order::forward);
+  level.sweep(Order::backward);
+}
+
 /// Relaxes the vectors between the twins while these rest. Interpolation knows no forces, and next to prescribed
 /// values, which are forces here, nothing else gives the solution. Blocks are interpolated by weights that sum to one
-/// there too, and this would make their corrections worse.
+/// there too, and this would make their corrections worse. What is smooth would get kinks at the twins.
 template <int B>
 void relax_between_twins(const DiscreteProblem<B>& problem, const std::vector<Index>& twin,
                          const std::vector<double>& forces, std::vector<double>& x) {
@@ -120,6 +136,18 @@ void relax_between_twins(const DiscreteProblem<B>& problem, const std::vector<In
   for (const Index p : twin)
     if (p >= 0) resting[p] = (1u << B) - 1;
   symmetric_gauss_seidel<B>(problem.A, resting, forces, x);
+}
+
+/// What sweeps make of the start. Smooth interpolation knows nothing of forces that are rough, such as pairs of
+/// opposite ones at neighbours: the bending that these cause is left to the coarser level once sweeps have met them.
+template <int B>
+std::vector<double> relaxed_start(const DiscreteProblem<B>& problem) {
+  constexpr int sweeps = 6;
+  std::vector<double> x = problem.start;
+  make_admissible(problem, x);
+  for (int k = 0; k < sweeps; ++k) sweep(problem, x);
+  apply_mask<B>(problem.fixed, x);
+  return x;
 }
 
 /// Smooths a start of a problem with friction while nothing slips. The bounds of friction come from the forces on it,
@@ -170,9 +198,13 @@ DiscreteProblem<B> coarse_problem(const DiscreteProblem<B>& problem, const Prolo
     if (const Index p = twin[k / B]; out.fixed[k / B] >> (k % B) & 1u)
       out.b[k] = out.start[k] = p < 0 ? 0 : problem.start[Offset{p} * B + k % B];
   out.frames = std::move(coarse.frames);
-  inherit_obstacles(problem, P, twin, out);
+  inherit_obstacles(problem, P, twin, base, out);
   return out;
 }
+
+/// On each coarser level of smooth interpolation: contact grows and shrinks there, which takes many more cycles on
+/// finer ones.
+constexpr int cycles_on_smooth_levels = 20;
 
 /// The problem on the next coarser level than `fine`, to which it refers.
 template <int B>
@@ -180,12 +212,14 @@ struct Coarser {
   const DiscreteProblem<B>& fine;
   const Prolongation& P;
   std::vector<Index> twin = P.twins();
+  const bool smooth = is_smooth(P);
   std::vector<double> forces, base;  // on the free components of the finer level; what corrections are added to
   DiscreteProblem<B> problem;
 
   Coarser(const DiscreteProblem<B>& fine_problem, const Prolongation& prolongation, Transfer<B>& transfer)
       : fine(fine_problem), P(prolongation), forces(free_forces(fine)), base(forces.size(), 0.0) {
-    relax_between_twins(fine, twin, forces, base);
+    if (smooth && !has_functional(fine.segments)) base = relaxed_start(fine);
+    if (!smooth) relax_between_twins(fine, twin, forces, base);
     problem = coarse_problem(fine, P, twin, transfer, forces, base);
   }
 
@@ -193,21 +227,12 @@ struct Coarser {
   std::vector<double> start_above(const std::vector<double>& x) const {
     std::vector<double> out = interpolate(problem, x, P, fine);
     for (std::size_t k = 0; k < out.size(); ++k) out[k] += base[k];
-    relax_between_twins(fine, twin, forces, out);
+    if (!smooth) relax_between_twins(fine, twin, forces, out);
     stick_between(problem, x, P, fine, out);
     settle_beneath_friction(fine, out);
     return out;
   }
 };
-
-/// A sweep to either side.
-template <int B>
-void sweep(const DiscreteProblem<B>& problem, std::vector<double>& x) {
-  Level<B> level = finest_level(problem);
-  level.x = x.data();
-  level.sweep(Order::forward);
-  level.sweep(Order::backward);
-}
 
 /// The start that a coarser level gave, where it is better than none: a body that a coarser level hardly holds may have
 /// been carried away there. What is merely rough is smoothed. Nothing where it is worse.
@@ -309,7 +334,9 @@ std::vector<double> nested_start(const DiscreteProblem<B>& problem, std::span<co
       x = level.start_above(x);
       return "";
     }
-    const Summary summary = solve(level.problem, prolongations.first(left_out + k), x, own, registry, monitor);
+    SolverOptions mine = own;
+    if (level.smooth) mine.max_iterations = std::min(options.max_iterations, cycles_on_smooth_levels);
+    const Summary summary = solve(level.problem, prolongations.first(left_out + k), x, mine, registry, monitor);
     ended = summary.outcome == Outcome::interrupted;
     if (summary.outcome == Outcome::unbounded) return summary.reason;
     auto better = better_start(level.fine, level.start_above(x));

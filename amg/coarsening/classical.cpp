@@ -180,16 +180,16 @@ Prolongation interpolation(const StrengthGraph& graph, const CoarseVectors& coar
 }  // namespace
 
 template <int B>
-Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off) {
+Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off, bool gently) {
   const StrengthGraph graph = strong_couplings(A, off);
   const CoarseVectors coarse(split(graph, VectorKind::fine));  // the smoother solves for what is coupled to nothing
   if (coarse.size() <= many * graph.size()) return interpolation(graph, coarse);
-  const StrengthGraph further = couplings_among(coarse, graph);
+  const StrengthGraph further = couplings_among(coarse, graph, gently);
   return interpolation(graph, coarse, interpolation(further, CoarseVectors(split(further, VectorKind::coarse))));
 }
 
-template Prolongation classical_interpolation(const BlockMatrix<1>&, const std::vector<Flags>&);
-template Prolongation classical_interpolation(const BlockMatrix<2>&, const std::vector<Flags>&);
-template Prolongation classical_interpolation(const BlockMatrix<3>&, const std::vector<Flags>&);
+template Prolongation classical_interpolation(const BlockMatrix<1>&, const std::vector<Flags>&, bool);
+template Prolongation classical_interpolation(const BlockMatrix<2>&, const std::vector<Flags>&, bool);
+template Prolongation classical_interpolation(const BlockMatrix<3>&, const std::vector<Flags>&, bool);
 
 }  // namespace signorini

@@ -12,7 +12,8 @@ namespace signorini {
 /// from every second line. Weights are positive; those of a row sum to one, or to less where a scalar matrix says that
 /// constants have energy, next to prescribed values. Coarse vectors keep the order of their twins.
 /// @param off components prescribed; vectors without any other one take no part
+/// @param gently split coarse vectors again only where several paths couple them: a line keeps every second one
 template <int B>
-Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off);
+Prolongation classical_interpolation(const BlockMatrix<B>& A, const std::vector<Flags>& off, bool gently = false);
 
 }  // namespace signorini

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "amg/coarsening/classical.hpp"
+#include "amg/coarsening/fourth_order.hpp"
 #include "amg/coarsening/mode_aggregation.hpp"
 #include "amg/coarsening/quadratic.hpp"
 #include "amg/coarsening/reach_from_twins.hpp"
@@ -140,10 +141,42 @@ class Chooser {
 
 }  // namespace
 
+namespace {
+
+/// The levels of an operator of second order, gently coarsened, whose interpolations are rounded off.
+AlgebraicLevels<1> fourth_order_hierarchy(const DiscreteProblem<1>& problem, BlockMatrix<1> root,
+                                          const TransferFactory<1>& transfer, Index enough,
+                                          const AlgebraicSettings& settings) {
+  DiscreteProblem<1> second;
+  second.A = std::move(root);
+  second.fixed = problem.fixed;
+  second.b.assign(problem.b.size(), 0);
+  second.start = second.b;
+  Descent<1> descent(second, {});
+  while (descent.level().vectors > enough) {
+    Prolongation P = classical_interpolation(*descent.level().A, descent.level().off, true);
+    if (P.coarse == 0 || P.coarse > progress * P.fine()) break;
+    descent.go_down(std::move(P), *transfer());
+  }
+  AlgebraicLevels<1> levels = std::move(descent).levels();
+  for (std::size_t k = 0; k < levels.prolongations.size(); ++k) {
+    const bool finest = k + 1 == levels.prolongations.size();
+    levels.prolongations[k] = rounded_off(finest ? second.A : levels.matrices[k + 1].A,
+                                          finest ? second.fixed : levels.matrices[k + 1].off, levels.prolongations[k]);
+  }
+  return galerkin_hierarchy<1>(problem, std::move(levels.prolongations), transfer, settings);
+}
+
+}  // namespace
+
 template <int B>
 AlgebraicLevels<B> algebraic_hierarchy(const DiscreteProblem<B>& problem, const TransferFactory<B>& transfer,
                                        Index enough, const AlgebraicSettings& settings, NearNullSpace near_null,
                                        const Aggregator& aggregator) {
+  if constexpr (B == 1)
+    if (near_null.modes == 0 && settings.coarsening == Coarsening::automatic && problem.A.size() > enough)
+      if (auto root = second_order_root(problem.A, problem.fixed))
+        return fourth_order_hierarchy(problem, std::move(*root), transfer, enough, settings);
   Descent<B> descent(problem, settings);
   Chooser<B> chooser(settings, std::move(near_null), aggregator);
   while (descent.level().vectors > enough) {

@@ -106,13 +106,14 @@ CoarseVectors::CoarseVectors(const std::vector<VectorKind>& part) : number(part.
     }
 }
 
-StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph) {
+StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph, bool by_several) {
   StrengthGraph out;
   out.reserve(coarse.size(), graph.to.size());
   std::vector<double> total(static_cast<std::size_t>(graph.size()), 0.0);
   for (Index p = 0; p < graph.size(); ++p)
     for (const Coupling& c : graph.of(p)) total[p] += c.strength;
   std::vector<double> sum(coarse.vector.size(), 0.0);
+  std::vector<int> paths(coarse.vector.size(), 0);
   std::vector<Index> found;
   double reached = 0;  // by the paths from one vector
   const auto add = [&](Index to, double strength) {
@@ -120,6 +121,7 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     if (q < 0 || strength == 0) return;
     if (sum[q] == 0) found.push_back(q);
     sum[q] += strength;
+    ++paths[q];
     reached += strength;
   };
   for (const Index p : coarse.vector) {
@@ -137,8 +139,10 @@ StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& 
     double largest = 0;
     for (const Index q : found) largest = std::max(largest, sum[q]);
     for (const Index q : found) {
-      if (sum[q] >= by_several_paths * largest) out.add({q, static_cast<float>(sum[q] / largest)});
+      if (sum[q] >= by_several_paths * largest && (!by_several || paths[q] > 1))
+        out.add({q, static_cast<float>(sum[q] / largest)});
       sum[q] = 0;
+      paths[q] = 0;
     }
     out.end_row();
     out.balanced.push_back(reached > 0 ? reached / (reached + ended) : 1);

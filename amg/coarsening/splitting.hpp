@@ -24,6 +24,7 @@ struct CoarseVectors {
 /// How the coarse vectors are coupled among themselves, directly or through one vector between them: couplings by
 /// several paths count, those by a single one of many do not. With the couplings of a five-point stencil these are the
 /// diagonal neighbours of a checkerboard (aggressive coarsening: Stueben, J. Comput. Appl. Math. 128, 2001).
-StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph);
+/// @param by_several leave out also couplings by a single path that are the largest of their row
+StrengthGraph couplings_among(const CoarseVectors& coarse, const StrengthGraph& graph, bool by_several = false);
 
 }  // namespace signorini

@@ -22,6 +22,7 @@
 #include "apps/bench/matrices/again.hpp"
 #include "apps/bench/matrices/aggregates.hpp"
 #include "apps/bench/matrices/algebraic.hpp"
+#include "apps/bench/matrices/fourth_order.hpp"
 #include "apps/bench/matrices/quadratic_matrices.hpp"
 #include "apps/bench/matrices/warm.hpp"
 #include "apps/bench/problems.hpp"
@@ -183,6 +184,7 @@ const Table tables[] = {
      sized<print_quadratic_elements>},
     {"--quadratic-matrices", "only matrices of quadratic elements beside those of linear ones, without meshes",
      sized<print_quadratic_matrices>},
+    {"--fourth-order", "only plates, beams and programmes of CUTEst, without meshes", sized<print_fourth_order>},
     {"--boundary", "only the cost of the plugin boundary", sized<print_boundary>},
     {"--warm", "only the cycles from a solution before, for matrices without meshes", sized<print_warm>},
     {"--again", "only the cost of a second solve with other bounds", sized<print_again>},
