@@ -182,7 +182,8 @@ bool MultigridIteration<B>::loses_patience() const {
 // Bounds of coarse corrections keep contact from spreading too far; where it rests they mostly hold back, and where
 // they are tight, as on algebraic levels, it spreads too slowly with them alone. The gains tell whether they pay after
 // all: where a slender body comes to an obstacle with its tip, or where weights are blocks, which share a distance
-// among so many components that they are asked from the second cycle on.
+// among so many components that they are asked from the second cycle on. Smooth interpolation reaches so far that its
+// bounds hold back from the first cycle on.
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
