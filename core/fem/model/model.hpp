@@ -141,7 +141,7 @@ struct ObstacleTerm {
   Slave slave = Slave::body;
   Pairing pairing = Pairing::normal;
   bool resolve = false;  ///< they may overlap however deep at the start
-  bool renew = true;     ///< they find each other where the last load step has moved them to
+  bool renew = true;     ///< bodies, or a body and a rigid obstacle, are looked at where the solution takes them
   double adjust = 0;     ///< gaps and overlaps of bodies that may part, at the start, up to this count as none
   /// Of bodies that are tied to each other how far apart they may be at the start, see Tying; nothing: they may part.
   std::optional<double> tied = {};
