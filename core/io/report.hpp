@@ -54,6 +54,7 @@ struct ContactReport {
   /// contact is claimed, and the largest displacement at these; NaN where the obstacle could not tell.
   double largest_penetration = 0, largest_opening = 0, largest_displacement = 0;
   double depth = 0;                      ///< what contact flattens, see DeformedContact
+  double off = 0;                        ///< likewise
   bool over_edge = false;                ///< of the larger of these: where an edge of the obstacle is
   Index beyond_nodes = 0;                ///< those in contact that the other body is no longer in front of
   double penetration_between_nodes = 0;  ///< see violation_between_nodes(); NaN where it is not measured

@@ -41,6 +41,7 @@ ContactReport totals(const ContactSummary<B>& contact, const std::optional<Defor
   report.largest_penetration = at.penetration;
   report.largest_opening = at.opening;
   report.depth = at.depth;
+  report.off = at.off;
   report.over_edge = at.over_edge;
   report.largest_displacement = at.displacement;
   report.beyond_nodes = at.beyond;

@@ -30,10 +30,7 @@ constexpr double coarse = 0.1;       // of these, between nodes
 constexpr double edged =
     1e-4;  // of what contact flattens: chords up to a hundredth of its width; pressures peak between
 
-double off(const ContactReport& contact) {
-  const double by = std::max(contact.largest_penetration, contact.largest_opening);
-  return noticeably_off(by, contact.largest_displacement, contact.depth);
-}
+double off(const ContactReport& contact) { return contact.off; }
 
 std::string why_off(const ContactReport& contact) {
   if (contact.over_edge) return "there it moves over an edge of the obstacle, behind which conditions are others";

@@ -119,19 +119,39 @@ double size_at(const std::vector<double>& u, Index p) {
   return std::sqrt(square);
 }
 
-/// The diagonal of the box around all displacements.
+/// The box around displacements.
+template <int D>
+class Range {
+ public:
+  Range() {
+    low_.fill(infinity);
+    high_.fill(-infinity);
+  }
+  void add(const double* u) {
+    for (int i = 0; i < D; ++i) {
+      low_[i] = std::min(low_[i], u[i]);
+      high_[i] = std::max(high_[i], u[i]);
+    }
+  }
+  double diagonal() const { return length<D>(difference<D>(high_, low_)); }
+
+ private:
+  Point<D> low_, high_;
+};
+
 template <int D>
 double difference_of_displacements(const std::vector<double>& u) {
-  Point<D> range;
-  for (int i = 0; i < D; ++i) {
-    double low = infinity, high = -infinity;
-    for (std::size_t k = i; k < u.size(); k += D) {
-      low = std::min(low, u[k]);
-      high = std::max(high, u[k]);
-    }
-    range[i] = high - low;
-  }
-  return length<D>(range);
+  Range<D> range;
+  for (std::size_t k = 0; k < u.size(); k += D) range.add(u.data() + k);
+  return range.diagonal();
+}
+
+/// Of the faces of one side.
+template <int D>
+double difference_of_displacements(const Surface<D>& side, const std::vector<double>& u) {
+  Range<D> range;
+  for (const Index p : side.nodes) range.add(u.data() + Offset{p} * D);
+  return side.nodes.empty() ? 0 : range.diagonal();
 }
 
 /// Whether most of what the obstacle's normal turns by, along the way of a node, it turns at one place: halves of the
@@ -191,6 +211,17 @@ double depth(const ContactState<D>& state, Index obstacle, double displacement) 
   return most - least > of_tolerance * std::max(common.norm(), displacement) ? most - least : 0;
 }
 
+/// See DeformedContact::off.
+double off(const DeformedContact& contact, Index touching, double deformed) {
+  const double by = std::max(contact.penetration, contact.opening), moved = contact.displacement;
+  if (!(moved > 0)) return 0;
+  if (touching == 0) return by / (of_tolerance * moved);
+  double flattened = infinity;
+  for (const double of : {contact.depth, deformed})
+    if (of > of_tolerance * moved) flattened = std::min(flattened, of);
+  return by / std::min(of_displacement * moved, of_depth * flattened);
+}
+
 template <int B>
 DeformedContact violation(const ContactState<B>& state, Index obstacle) {
   DeformedContact out;
@@ -245,6 +276,8 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   out.depth = depth(state, obstacle, out.displacement);
   if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
+  const Surface<D> side = term.other ? surface(nodes, paired_faces(nodes.mesh(), term, model.t).slave) : faces;
+  out.off = off(out, state.obstacles[obstacle].nodes, difference_of_displacements(side, u));
   if (all.empty()) out.penetration = out.opening = out.displacement = not_there;
   return out;
 }
@@ -262,11 +295,6 @@ double extent(const Nodes<D>& nodes, const std::vector<Index>& some, const std::
 }
 
 }  // namespace
-
-double noticeably_off(double by, double displacement, double depth) {
-  const double moved = of_displacement * displacement, flattened = of_depth * depth;
-  return moved > 0 ? by / (flattened > 0 ? std::min(moved, flattened) : moved) : 0;
-}
 
 double noticeably_beyond(Index beyond, Index touching) { return touching > 0 ? beyond / (many * touching) : 0; }
 
@@ -294,8 +322,7 @@ double noticeably_off(const std::vector<std::optional<DeformedContact>>& deforme
   double out = 0;
   for (std::size_t k = 0; k < deformed.size(); ++k)
     if (const auto& at = deformed[k])
-      out = std::max({out, noticeably_off(std::max(at->penetration, at->opening), at->displacement, at->depth),
-                      noticeably_beyond(at->beyond, state.obstacles[k].nodes)});
+      out = std::max({out, at->off, noticeably_beyond(at->beyond, state.obstacles[k].nodes)});
   return out;
 }
 

@@ -20,14 +20,14 @@ struct DeformedContact {
   SmoothedOver smoothed{};  ///< likewise
   /// The obstacle's normal turns at once where the vertex moves of the largest of these distances.
   bool over_edge = false;
+  /// How far off linear conditions are, in parts of what is noticeable: of a hundredth of the displacements, and of a
+  /// twentieth of what contact flattens, by about which the largest pressure is wrong. That is less than what deforms
+  /// the faces that may touch: a body may come from far to where it is then pressed in by little. Where nothing touches
+  /// no body is inside another one at all.
+  double off = 0;
 };
 
-/// How far off linear conditions of contact are, in parts of what is noticeable: of a hundredth of the displacements,
-/// and of a twentieth of what contact flattens, by about which the largest pressure is wrong. A body may come from far
-/// to where it is then pressed in by little.
-/// @param by DeformedContact: the larger one of penetration and opening
-double noticeably_off(double by, double displacement, double depth);
-/// The same of nodes that touch and have slid past the other body: of a tenth of all that touch.
+/// How many of the vertices that touch have slid past the other body, in parts of what is noticeable: of a tenth.
 double noticeably_beyond(Index beyond, Index touching);
 
 /// Contact conditions are linear in the displacement, obstacles and boundaries seldom are: the true distances between
@@ -45,7 +45,7 @@ std::vector<std::optional<DeformedContact>> deformed_contacts(const Nodes<D>& no
                                                               const ContactState<B>& state,
                                                               const std::vector<double>& u);
 
-/// The worst of these, see noticeably_off(): above 1 it is noticeable.
+/// The worst of DeformedContact::off and noticeably_beyond(): above 1 it is noticeable.
 template <int B>
 double noticeably_off(const std::vector<std::optional<DeformedContact>>& deformed, const ContactState<B>& state);
 
