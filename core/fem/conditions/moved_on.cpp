@@ -7,6 +7,7 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/conditions/bounds.hpp"
 #include "core/fem/elements/select.hpp"
+#include "core/fem/model/symmetric_motion.hpp"
 
 namespace signorini {
 namespace {
@@ -23,21 +24,35 @@ double left_of(const Bound<D>& bound, const std::vector<double>& u) {
   return std::min(along - bound.lower, bound.upper - along);
 }
 
-/// Nodes that touch a rigid obstacle in a solution.
+/// Nodes that touch a rigid obstacle in a solution, or the nearest one; where nothing touches, but the obstacle is
+/// reached all the same, those that are inside it.
 template <int D>
 class Touching {
  public:
   Touching(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, const std::vector<double>& u)
-      : nodes_(nodes), model_(model), obstacle_(obstacle), u_(u) {
+      : nodes_(nodes),
+        model_(model),
+        obstacle_(obstacle),
+        u_(u),
+        faces_(term().on ? surface(nodes, select_faces(nodes.mesh(), *term().on, model.t)) : surface(nodes)),
+        distance_(distances()) {
     const std::vector<Bound<D>> bounds = bounds_of(nodes, model, obstacle);
     double nearest = infinity, closed = 0;
     for (const Bound<D>& bound : bounds) {
       closed = std::max(closed, std::fabs(along(bound.direction, displacement(bound.vertex))));
       nearest = std::min(nearest, left_of(bound, u));
     }
-    const double reach = std::max(nearest, 0.0) + touching * closed;
-    for (const Bound<D>& bound : bounds)
-      if (left_of(bound, u) <= reach) bounds_.push_back(bound);
+    const double rounding = touching * closed, reach = std::max(nearest, 0.0) + rounding;
+    const auto is_inside = [&](Index p) { return distance(p) < -rounding; };
+    const bool penetrates = std::ranges::any_of(bounds, is_inside, &Bound<D>::vertex);
+    for (const Bound<D>& bound : bounds) {
+      const Index p = bound.vertex;
+      const bool near = left_of(bound, u) <= reach;
+      if (nearest > rounding && penetrates ? is_inside(p) : near) bounds_.push_back(bound);
+      if (near || is_inside(p)) corners_.insert(corners_.end(), {nodes.ends(p)[0], nodes.ends(p)[1]});
+    }
+    std::ranges::sort(corners_);
+    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
   }
 
   bool none() const { return bounds_.empty(); }
@@ -46,7 +61,7 @@ class Touching {
     Point<D> out{};
     for (const Bound<D>& bound : bounds_)
       for (int i = 0; i < D; ++i) out[i] += displacement(bound.vertex)[i] / static_cast<double>(bounds_.size());
-    return out;
+    return symmetric_motion<D>(nodes_.mesh(), model_.plane, out);
   }
 
   /// By how much more some of them have come along their normals than others, but for a motion of all of them.
@@ -68,32 +83,27 @@ class Touching {
     return out;
   }
 
-  /// How far conditions that are linear about a motion of all are from the true distances, at corners of elements:
-  /// there coefficients are displacements. 0: none of them touches.
+  /// How far conditions that are linear about a motion of all are from the true distances, at the corners of elements
+  /// next to them: there coefficients are displacements.
   double error_about(const Point<D>& motion) const {
     Model<D> there = model_;
     there.obstacles[obstacle_].moved = motion;
     const std::vector<Bound<D>> linear = bounds_of(nodes_, there, obstacle_);
-    const ObstacleTerm<D>& term = model_.obstacles[obstacle_];
-    const Surface<D> faces =
-        term.on ? surface(nodes_, select_faces(nodes_.mesh(), *term.on, model_.t)) : surface(nodes_);
-    const std::vector<Point<D>> normals = node_normals(nodes_, faces);
     double out = 0;
-    for (const Bound<D>& bound : bounds_) {
-      const Index p = bound.vertex;
-      const auto place = std::ranges::lower_bound(faces.nodes, p);
-      if (nodes_.ends(p)[0] != nodes_.ends(p)[1] || place == faces.nodes.end() || *place != p) continue;
+    for (const Index p : corners_) {
       double left = infinity;
       for (auto at = std::ranges::lower_bound(linear, p, {}, &Bound<D>::vertex); at != linear.end() && at->vertex == p;
            ++at)
         left = std::min(left, left_of(*at, u_));
-      const double there_is = distance(term, p, normals[static_cast<std::size_t>(place - faces.nodes.begin())]);
+      const double there_is = distance(p);
       if (std::isfinite(there_is) && std::isfinite(left)) out = std::max(out, std::fabs(there_is - left));
     }
     return out;
   }
 
  private:
+  const ObstacleTerm<D>& term() const { return model_.obstacles[obstacle_]; }
+
   Point<D> displacement(Index p) const {
     Point<D> out;
     std::copy_n(u_.data() + Offset{p} * D, D, out.begin());
@@ -102,17 +112,28 @@ class Touching {
 
   static double along(const std::array<double, D>& direction, const Point<D>& by) { return dot(direction, by); }
 
-  /// Of where the node is; infinite where the obstacle cannot tell.
-  double distance(const ObstacleTerm<D>& term, Index p, const Point<D>& normal) const {
-    SurfaceVertex v{};
-    for (int i = 0; i < D; ++i) v.position[i] = nodes_.at(p)[i] + displacement(p)[i];
-    std::copy_n(normal.data(), D, v.normal);
-    LocalConstraint<D> constraint;
+  /// Of where a node is; infinite between corners, and where the obstacle cannot tell.
+  double distance(Index p) const {
+    const auto at = std::ranges::lower_bound(faces_.nodes, p);
+    const bool known = at != faces_.nodes.end() && *at == p && nodes_.ends(p)[0] == nodes_.ends(p)[1];
+    return known ? distance_[static_cast<std::size_t>(at - faces_.nodes.begin())] : infinity;
+  }
+
+  std::vector<double> distances() const {
+    const std::vector<Point<D>> normals = node_normals(nodes_, faces_);
+    std::vector<SurfaceVertex> vertices(normals.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+      const Index p = faces_.nodes[v];
+      for (int i = 0; i < D; ++i) vertices[v].position[i] = nodes_.at(p)[i] + displacement(p)[i];
+      std::copy_n(normals[v].data(), D, vertices[v].normal);
+    }
+    std::vector<LocalConstraint<D>> constraints(vertices.size());
     Status status;
-    term.obstacle->assemble(&v, 1, &constraint, status);
-    double out = infinity;
-    for (int k = 0; status.ok() && k < constraint.directions; ++k)
-      out = std::min({out, -constraint.lower[k], constraint.upper[k]});
+    term().obstacle->assemble(vertices.data(), vertices.size(), constraints.data(), status);
+    std::vector<double> out(vertices.size(), infinity);
+    for (std::size_t v = 0; v < out.size() && status.ok(); ++v)
+      for (int k = 0; k < constraints[v].directions; ++k)
+        out[v] = std::min({out[v], -constraints[v].lower[k], constraints[v].upper[k]});
     return out;
   }
 
@@ -120,7 +141,10 @@ class Touching {
   const Model<D>& model_;
   const Index obstacle_;
   const std::vector<double>& u_;
+  const Surface<D> faces_;
+  const std::vector<double> distance_;  // per node of the faces
   std::vector<Bound<D>> bounds_;
+  std::vector<Index> corners_;  // ascending
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "core/fem/conditions/bounds.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
+#include "core/fem/model/symmetric_motion.hpp"
 #include "core/fem/pairs/added_gap.hpp"
 #include "core/fem/pairs/contact_pairs.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
@@ -391,9 +392,13 @@ Slip<D> slip_past(const Nodes<D>& nodes, const Model<D>& model, Index obstacle, 
     out.length += length[node.node];
     ++count;
   }
-  if (count == 0) return slip_of_sides(nodes, model, obstacle, u);
-  for (double& c : out.mean) c /= count;
-  out.length /= count;
+  if (count == 0) {
+    out = slip_of_sides(nodes, model, obstacle, u);
+  } else {
+    for (double& c : out.mean) c /= count;
+    out.length /= count;
+  }
+  out.mean = symmetric_motion<D>(nodes.mesh(), model.plane, out.mean);
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
+#include "core/fem/model/symmetric_motion.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/geometry/faceted_distance.hpp"
 #include "core/mesh/simplex.hpp"
@@ -188,14 +189,19 @@ bool turns_at_once(const Nodes<D>& nodes, const Surface<D>& at, Index p, const O
 
 /// See DeformedContact. The motion of all vertices is the one next to what they have come by, in the mean.
 template <int D>
-double depth(const ContactState<D>& state, Index obstacle, double displacement) {
+double depth(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& state, Index obstacle,
+             double displacement) {
+  const auto admitted = [&](const ContactNode<D>& node) {
+    return symmetric_motion<D>(nodes.mesh(), model.plane, node.direction);
+  };
   std::vector<const ContactNode<D>*> touch;
   Eigen::Matrix<double, D, D> square = Eigen::Matrix<double, D, D>::Zero();
   Eigen::Matrix<double, D, 1> right = Eigen::Matrix<double, D, 1>::Zero();
   for (const ContactNode<D>& node : state.nodes) {
     if (!node.contact || node.obstacle != obstacle || !std::isfinite(node.start)) continue;
     touch.push_back(&node);
-    const Eigen::Map<const Eigen::Matrix<double, D, 1>> n(node.direction.data());
+    const Point<D> direction = admitted(node);
+    const Eigen::Map<const Eigen::Matrix<double, D, 1>> n(direction.data());
     square += n * n.transpose();
     right += node.start * n;
   }
@@ -204,7 +210,8 @@ double depth(const ContactState<D>& state, Index obstacle, double displacement) 
   const Eigen::Matrix<double, D, 1> common = SymmetricFactors(square).solve(right);
   double least = infinity, most = -infinity;
   for (const ContactNode<D>* node : touch) {
-    const double by = node->start - Eigen::Map<const Eigen::Matrix<double, D, 1>>(node->direction.data()).dot(common);
+    const Point<D> direction = admitted(*node);
+    const double by = node->start - Eigen::Map<const Eigen::Matrix<double, D, 1>>(direction.data()).dot(common);
     least = std::min(least, by);
     most = std::max(most, by);
   }
@@ -273,7 +280,7 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   }
   // Where a body is pressed from behind on something rigid it moves less than what presses it.
   out.displacement = std::max(out.displacement, difference_of_displacements<D>(u));
-  out.depth = depth(state, obstacle, out.displacement);
+  out.depth = depth(nodes, model, state, obstacle, out.displacement);
   if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
   const Surface<D> side = term.other ? surface(nodes, paired_faces(nodes.mesh(), term, model.t).slave) : faces;
