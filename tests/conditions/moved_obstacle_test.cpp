@@ -55,6 +55,40 @@ TEST(MovedObstacle, IsSeenFromThereInASingleStep) {
   EXPECT_GT(linear.force[1], 3 * drawn.force[1]);
 }
 
+/// A half disk that is moved down from `height` above where it touches the obstacle.
+std::string lowered(double height, const std::string& obstacle, const std::string& more = "") {
+  return fmt::format(
+             "[[body]]\nname = \"disk\"\nshape = \"half_disk\"\ncenter = [0, {}]\nradius = 1\nsize = \"0.02 + 0.3 * "
+             "sqrt(x^2 + (y - {})^2)\"\n",
+             height, height - 1) +
+         material(1, 0.3, 2) + fix("disk", "flat", fmt::format("[0, {}]", -height - 0.01)) +
+         "[[obstacle]]\ntype = \"contact\"\nbody = \"disk\"\non = \"curved\"\n" + obstacle + more;
+}
+
+// From its centre all of a hollow circle is equally far, and linear conditions let the disk through it; ten radii above
+// a disk touches with a single node, which flattens nothing.
+TEST(MovedObstacle, IsFoundFromAfar) {
+  const auto circle = [](double radius, bool inside) {
+    return fmt::format("shape = \"sphere\"\ncenter = [0, {}]\nradius = {}\ninside = {}\n",
+                       inside ? radius - 1 : -1 - radius, radius, inside);
+  };
+  for (const auto& [height, obstacle] : {std::pair(3.0, circle(3, true)), std::pair(10.0, circle(1, false))}) {
+    const ContactReport come = contact_of(lowered(height, obstacle)), drawn = contact_of(lowered(0, obstacle));
+    EXPECT_NEAR(come.force[1], drawn.force[1], 0.01 * drawn.force[1]);
+    EXPECT_NEAR(come.max_pressure, drawn.max_pressure, 0.03 * drawn.max_pressure);
+  }
+}
+
+// The half of a symmetric body does not move across the plane of symmetry as a whole.
+TEST(MovedObstacle, IsSeenByAHalfAsByTheWhole) {
+  const std::string obstacle = "shape = \"sphere\"\ncenter = [0, -3]\nradius = 2\n";
+  const ContactReport whole = contact_of(lowered(2, obstacle)),
+                      half = contact_of(lowered(2, obstacle, "[symmetry]\nx = 0\n"));
+  EXPECT_NEAR(half.force[1], whole.force[1], 0.02 * whole.force[1]);
+  EXPECT_NEAR(half.max_pressure, whole.max_pressure, 0.03 * whole.max_pressure);
+  EXPECT_NEAR(half.depth, whole.depth, 0.3 * whole.depth);
+}
+
 // A coefficient is that of where the body was drawn; where it comes to it may mean nothing.
 TEST(MovedObstacle, HasTheFrictionOfWhereTheBodyWasDrawn) {
   const auto friction = [](const std::string& coefficient) {
