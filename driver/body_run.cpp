@@ -259,12 +259,35 @@ void BodyRun<D, B>::take(Solution<B>& solution) {
                                       solution.pressure, slaves_, solver_.shift(), std::move(solution.joints));
 }
 
+namespace {
+
+/// What no body ends like, and else how much it is strained.
+template <int D, int B>
+StrainSizes<D> refuse_nonsense(const Nodes<D>& nodes, const Mesh<D>& coarsest, const Model<B>& model,
+                               const ContactState<B>& contact, const std::vector<double>& u) {
+  StrainSizes<D> out;
+  if constexpr (D == B) {
+    refuse_pulling(nodes, model, contact);
+    out = strains(nodes, model, u);
+    refuse_folded(Nodes(coarsest), model, out);
+    refuse_turned(nodes, model, u);
+  }
+  return out;
+}
+
+}  // namespace
+
 /// How far conditions that are linear about where bodies were looked at are off where these have come to.
 template <int D, int B>
 double BodyRun<D, B>::off(const Solution<B>& solution) const {
   const Model<B> model = solver_.moved(model_);
   const ContactState<B> state = contact_state(nodes(), model, solution.discretization, solution.x);
   const std::vector<double> u = to_global(solution.discretization.problem, solution.x);
+  try {
+    refuse_nonsense(nodes(), hierarchy_.levels.front(), model, state, u);
+  } catch (const Error&) {
+    return infinity;
+  }
   return noticeably_off(deformed_contacts(nodes(), model, state, u), state);
 }
 
@@ -300,12 +323,8 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   look_where_it_came(solution);
   model_ = solver_.moved(model_);
   if constexpr (D == B)
-    if (solution.summary.converged()) {
-      refuse_pulling(nodes(), model_, results_.contact);
-      strains_ = strains(nodes(), model_, results_.u);
-      refuse_folded(Nodes(hierarchy_.levels.front()), model_, strains_);
-      refuse_turned(nodes(), model_, results_.u);
-    }
+    if (solution.summary.converged())
+      strains_ = refuse_nonsense(nodes(), hierarchy_.levels.front(), model_, results_.contact, results_.u);
   StepReport report = step_report<D, B>(scene_, nodes(), probes_, results_, t, solution.summary, body_);
   report.undetermined = solution.undetermined;
   if (!solution.undetermined.empty())
