@@ -2,6 +2,7 @@
 #include "core/fem/conditions/moved_on.hpp"
 
 #include "core/fem/elements/nodes.hpp"
+#include "core/fem/elements/symmetric_motion.hpp"
 #include "tests/bodies/scenes.hpp"
 #include "tests/support/problems.hpp"
 
@@ -98,6 +99,14 @@ TEST(MovedObstacle, HasTheFrictionOfWhereTheBodyWasDrawn) {
   const std::vector<double> even = friction("0.2"), part = friction("\"0.2 * sqrt(2.001 - x) / sqrt(2.001 - x)\"");
   EXPECT_NEAR(part[0], even[0], 1e-6 * even[1]);
   EXPECT_LT(even[0], -0.1 * even[1]);
+}
+
+TEST(SymmetricMotion, StaysOnPlanesAndAxes) {
+  Mesh<3> mesh;
+  mesh.mirrors = {{0, 0.5}, {2, 0}};
+  EXPECT_EQ(symmetric_motion<3>(mesh, Plane::strain, {1, 2, 3}), (Point<3>{0, 2, 0}));
+  EXPECT_EQ(symmetric_motion<2>(Mesh<2>{}, Plane::axisymmetric, {1, 2}), (Point<2>{0, 2}));
+  EXPECT_EQ(symmetric_motion<2>(Mesh<2>{}, Plane::stress, {1, 2}), (Point<2>{1, 2}));
 }
 
 TEST(MovedOn, DoesNothingOnAPlane) {

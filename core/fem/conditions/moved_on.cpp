@@ -7,7 +7,7 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/conditions/bounds.hpp"
 #include "core/fem/elements/select.hpp"
-#include "core/fem/model/symmetric_motion.hpp"
+#include "core/fem/elements/symmetric_motion.hpp"
 
 namespace signorini {
 namespace {

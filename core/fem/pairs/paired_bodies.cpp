@@ -14,7 +14,7 @@
 #include "core/fem/conditions/bounds.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
-#include "core/fem/model/symmetric_motion.hpp"
+#include "core/fem/elements/symmetric_motion.hpp"
 #include "core/fem/pairs/added_gap.hpp"
 #include "core/fem/pairs/contact_pairs.hpp"
 #include "core/fem/pairs/paired_sides.hpp"

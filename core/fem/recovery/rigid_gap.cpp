@@ -10,7 +10,7 @@
 #include "core/base/rounding.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/elements/select.hpp"
-#include "core/fem/model/symmetric_motion.hpp"
+#include "core/fem/elements/symmetric_motion.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/geometry/faceted_distance.hpp"
 #include "core/mesh/simplex.hpp"
