@@ -12,6 +12,7 @@
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rounding.hpp"
+#include "core/fem/elements/across.hpp"
 #include "core/fem/elements/element.hpp"
 #include "core/fem/pairs/paired_sides.hpp"
 #include "core/geometry/smooth_boundary.hpp"
@@ -233,19 +234,21 @@ class Finder {
             origin};
   }
 
-  /// Whether a vertex with that normal is one of a face that is picked, or the image of one.
+  /// Whether a vertex with that normal is one of a face that is picked, or the image of one. On a plane of symmetry it
+  /// is its own image, and has the normals of both.
   static bool holds(const Corners& picked, const std::vector<Mirror>& mirrors, const Site& site) {
-    Point<D> x, normal;
-    std::copy_n(site.x, D, x.begin());
-    std::copy_n(site.n, D, normal.begin());
+    std::vector<std::pair<Point<D>, Point<D>>> images(1);
+    std::copy_n(site.x, D, images.front().first.begin());
+    std::copy_n(site.n, D, images.front().second.begin());
     for (const Mirror& mirror : mirrors)
-      if (x[mirror.axis] < mirror.at) {
-        x[mirror.axis] = 2 * mirror.at - x[mirror.axis];
-        normal[mirror.axis] *= -1;
-      }
-    const auto at = picked.find(x);
-    return at != picked.end() &&
-           std::ranges::any_of(at->second, [&](const Point<D>& n) { return dot(n, normal) > 1 - rounding_of_bases; });
+      for (std::size_t k = images.size(); k-- > 0;)
+        images.emplace_back(reflected<D>(mirror, images[k].first), reflected_direction<D>(mirror, images[k].second));
+    return std::ranges::any_of(images, [&](const auto& image) {
+      const auto at = picked.find(image.first);
+      return at != picked.end() && std::ranges::any_of(at->second, [&](const Point<D>& n) {
+               return dot(n, image.second) > 1 - rounding_of_bases;
+             });
+    });
   }
 
   [[noreturn]] void refuse_none() const {

@@ -159,6 +159,28 @@ TEST(FoundPairs, GoOnBeyondAPlaneOfSymmetry) {
   EXPECT_NEAR(force[1], force[0], 1e-2 * std::abs(force[0]));
 }
 
+// Faces next to the plane see each other, and their images do.
+TEST(FoundPairs, GoOnBeyondAPlaneOnWhichRoundBodiesTouch) {
+  const auto disk = [](const char* name, double middle) {
+    return fmt::format("[[body]]\nname = \"{}\"\nshape = \"disk\"\ncenter = [{}, 0]\nradius = 1\nsize = 0.1\n", name,
+                       middle) +
+           material(1, 0.3, 2);
+  };
+  const auto held = [](const char* name, const char* where, const char* by) {
+    return fmt::format("[[fix]]\nbody = \"{}\"\nwhere = \"{}\"\nvalue = [{}, 0]\n", name, where, by);
+  };
+  std::vector<double> force;
+  for (const std::string symmetry : {"", "[symmetry]\ny = 0\n"}) {
+    Driver driver(scene_of(disk("left", -1) + disk("right", 1) + held("left", "x < -1.5", "0.02") +
+                           held("right", "x > 1.5", "0") + contact() + symmetry));
+    const Report& report = driver.solve();
+    ASSERT_TRUE(report.converged()) << report.reason();
+    force.push_back(std::abs(report.last().contact[0].force[0]));
+  }
+  EXPECT_GT(force[0], 1e-3);
+  EXPECT_NEAR(force[1], force[0], 0.05 * force[0]);
+}
+
 // In space, between a ball and a block, as the obstacle of the scene that picks the same.
 TEST(FoundPairs, OfABallOnABlock) {
   const std::string text =
