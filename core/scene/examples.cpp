@@ -116,7 +116,8 @@ The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
 - One of these lengths is too large: more than 1 % at nodes, or more than 10 % between nodes, which is what elements
   leave. It is compared with the displacements there. If displacements within the body differ by more than that, it is
   compared with their difference. At nodes it is too large as well if it is more than 5 % of `depth`, which is what
-  contact flattens: then the largest pressure is wrong by about as much.
+  contact flattens, or of what deforms the faces that may touch: then the largest pressure is wrong by about as much.
+  Where nothing touches, nothing may be inside.
 - More than a tenth of the nodes in contact are beyond.
 - A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity assumes that
   both are small.
