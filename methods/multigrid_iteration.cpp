@@ -66,7 +66,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       multigrid_(problem, own_.empty() ? prolongations : own_, std::move(components), settings_of<B>(options)),
       recombination_(multigrid_.finest().constraints),
       blocks_(has_blocks(prolongations)),
-      smooth_(!prolongations.empty() && is_smooth(prolongations.back())),
+      smooth_(B == 1 && !prolongations.empty() && is_smooth(prolongations.back())),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear) {
   if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints, options.tolerance);

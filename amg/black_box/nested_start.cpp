@@ -212,7 +212,7 @@ struct Coarser {
   const DiscreteProblem<B>& fine;
   const Prolongation& P;
   std::vector<Index> twin = P.twins();
-  const bool smooth = is_smooth(P);
+  const bool smooth = B == 1 && is_smooth(P);
   std::vector<double> forces, base;  // on the free components of the finer level; what corrections are added to
   DiscreteProblem<B> problem;
 

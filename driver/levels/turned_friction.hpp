@@ -18,11 +18,8 @@ const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>
 
 /// The same in the first step, where a body comes up to another one, or to an obstacle, from farther than what slips:
 /// all that its nodes move along curved surfaces on the way there counts as slip.
-/// @param u global coordinates, B per node
-/// @param shift per obstacle by how much the body was taken to have come; empty, or zero: it is where it was drawn, and
-/// its nodes in contact tell
+/// @param shift per obstacle by how much the body has come; empty: it is where it was drawn
 template <int B>
-const char* doubt_of_approach(const ContactState<B>& now, const std::vector<double>& u,
-                              const std::vector<std::array<double, B>>& shift);
+const char* doubt_of_approach(const ContactState<B>& now, const std::vector<std::array<double, B>>& shift);
 
 }  // namespace signorini

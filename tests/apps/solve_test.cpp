@@ -270,7 +270,7 @@ TEST_F(Solve, MeasuresTheTrueGapOfTheDeformedBody) {
   // A small ball that the block is pressed far onto.
   std::string text = block_on_plane;
   text.replace(text.find("shape = \"plane\""), std::string::npos,
-               "shape = \"sphere\"\ncenter = [0.6, 0.5, -0.5]\nradius = 0.5\n");
+               "shape = \"sphere\"\ncenter = [0.6, 0.5, -0.5]\nradius = 0.5\nrenew = false\n");
   write("ball.toml", text);
   ASSERT_EQ(
       signorini({"solve", "ball.toml", "--out", "r", "--set", "refine.uniform=1", "--set", "load.0.value=[0, 0, -0.1]"})

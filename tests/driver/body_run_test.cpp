@@ -141,7 +141,7 @@ TEST(DirichletNeumann, ComesToTheJointSolution) {
   std::vector<std::vector<double>> u;
   std::vector<double> force, energy;
   for (const char* bodies : {"jumps", "dirichlet-neumann"}) {
-    Setting of(pair(fmt::format("bodies = \"{}\"\ntolerance = 1e-9\n", bodies)));
+    Setting of(pair(fmt::format("bodies = \"{}\"\ntolerance = 1e-9\n", bodies), "type = \"elastic\"\nrenew = false\n"));
     ASSERT_EQ(of.scene.bodies.size(), 1u);
     BodyRun<2, 2> run(of.scene, 0, of.registry, of.quiet, of.times, of.warnings);
     run.begin(0);

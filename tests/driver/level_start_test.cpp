@@ -257,7 +257,7 @@ TEST(TurnedFriction, IsInDoubtWhereABodyComesFromAfar) {
       node.start = way;
     }
     now.obstacles[0].dissipated = 2 * friction * slip;
-    return doubt_of_approach<2>(now, {}, {{0, -way}});
+    return doubt_of_approach<2>(now, {{0, -way}});
   };
   EXPECT_NE(came(1, 0.1, 2), nullptr);
   EXPECT_EQ(came(1, 0.3, 2), nullptr);  // it slips more than on its way
@@ -266,8 +266,8 @@ TEST(TurnedFriction, IsInDoubtWhereABodyComesFromAfar) {
   slides.nodes[0].direction = {0, 1};
   slides.nodes[0].start = 1e-4;
   slides.obstacles[0].dissipated = 2 * 1.5;
-  EXPECT_EQ(doubt_of_approach<2>(slides, {}, {{1.5, -1e-4}}), nullptr);
-  EXPECT_EQ(doubt_of_approach<2>(slides, {0, 0, 1.5, -1e-4}, {}), nullptr);
+  EXPECT_EQ(doubt_of_approach<2>(slides, {{1.5, -1e-4}}), nullptr);
+  EXPECT_EQ(doubt_of_approach<2>(slides, {}), nullptr);
 }
 
 // Before the first step, and where nothing touched in the last one, the node with the least distance is where contact

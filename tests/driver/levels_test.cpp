@@ -277,6 +277,8 @@ TEST_F(Pairs, ConnectLevelsByTheirJumps) {
 // The block slides by more than a quarter of an element: bodies find each other there.
 TEST_F(Pairs, FollowABodyThatSlides) {
   pairs_->find(model_);
+  EXPECT_TRUE(pairs_->would_follow(model_, sunk(1, 0, 0, 0.05)));  // in a first step
+  model_.follows = true;
   pairs_->accept();
   EXPECT_FALSE(pairs_->would_follow(model_, sunk(1, 0, 0, 0.05)));
   EXPECT_TRUE(pairs_->would_follow(model_, sunk(1, 0, 0, 0.2)));

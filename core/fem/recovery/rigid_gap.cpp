@@ -20,6 +20,7 @@ namespace {
 
 constexpr double of_tolerance = 1e-6;                      // of displacements: what tolerances leave, and rounding
 constexpr double of_displacement = 0.01, of_depth = 0.05;  // what is noticeable
+constexpr Index few = 2;                                   // vertices that touch: these flatten nothing
 constexpr double many = 0.1;                               // of the nodes in contact
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
@@ -222,10 +223,9 @@ double depth(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>
 double off(const DeformedContact& contact, Index touching, double deformed) {
   const double by = std::max(contact.penetration, contact.opening), moved = contact.displacement;
   if (!(moved > 0)) return 0;
-  if (touching == 0) return by / (of_tolerance * moved);
-  double flattened = infinity;
-  for (const double of : {contact.depth, deformed})
-    if (of > of_tolerance * moved) flattened = std::min(flattened, of);
+  double flattened = infinity;  // nothing, where contact is flat
+  if (contact.depth > 0 || touching <= few) flattened = std::max(deformed, of_tolerance * moved);
+  if (contact.depth > 0) flattened = std::min(flattened, contact.depth);
   return by / std::min(of_displacement * moved, of_depth * flattened);
 }
 
