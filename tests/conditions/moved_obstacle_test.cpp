@@ -93,7 +93,8 @@ TEST(MovedObstacle, IsSeenByAHalfAsByTheWhole) {
 // A coefficient is that of where the body was drawn; where it comes to it may mean nothing.
 TEST(MovedObstacle, HasTheFrictionOfWhereTheBodyWasDrawn) {
   const auto friction = [](const std::string& coefficient) {
-    std::string text = on_obstacle("[0, 0]", "[2, 1]", "[1.5, -0.01]", arch, "friction = " + coefficient + "\n");
+    std::string text = on_obstacle("[0, 0]", "[2, 1]", "[\"1.5 * t\", \"-0.01 * t\"]", arch,
+                                   "friction = " + coefficient + "\n" + steps);
     return contact_of(text.replace(text.find("\"contact\""), 9, "\"coulomb\"")).force;
   };
   const std::vector<double> even = friction("0.2"), part = friction("\"0.2 * sqrt(2.001 - x) / sqrt(2.001 - x)\"");
