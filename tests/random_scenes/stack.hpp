@@ -158,8 +158,9 @@ class StackText {
     const int low = k - 1, body = way_.swapped ? k : low, other = way_.swapped ? low : k;
     const auto facing = [&](int b, const char* key) { return part(b, b == k ? "bottom" : "top", key); };
     return fmt::format("[[obstacle]]\ntype = \"{}\"\n{}body = \"{}\"\n{}other = \"{}\"\n{}",
-                       stack_.friction > 0 ? "elastic_coulomb" : "elastic", friction(), name(body), facing(body, ""),
-                       name(other), facing(other, "other_"));
+                       stack_.friction > 0 ? "elastic_coulomb" : "elastic",
+                       stack_.friction > 0 ? friction() : "renew = false\n", name(body), facing(body, ""), name(other),
+                       facing(other, "other_"));
   }
 
   const Stack<D>& stack_;
