@@ -190,7 +190,6 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 
 template <int D, int B>
 const char* BodyRun<D, B>::doubt_of_friction(bool followed) const {
-  if (const char* doubt = follows_ ? nullptr : doubt_of_approach<B>(results_.contact, results_.shift)) return doubt;
   return signorini::doubt_of_friction(accepted_contact_, results_.contact, followed);
 }
 

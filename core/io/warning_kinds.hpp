@@ -145,8 +145,8 @@ inline constexpr WarningKind warning_kinds[] = {
     {WarningKind::About::result, "friction-turned",
      "step {}: at t = {} the direction of friction is in doubt: {}, and {}; expected shorter steps ([steps])",
      "nodes that have just come into contact carry most of the friction, and it turned round within the step, or "
-     "contact moved on by more than its size, or the body came to it from afar along a curved surface",
-     "shorter steps; in the first one, bodies that are drawn where they touch, or a step that ends there"},
+     "contact moved on by more than its size",
+     "shorter steps"},
     {WarningKind::About::result, "step-cut", "step {}: from t = {} to {} {}, and it was cut in two: {}",
      "the step could not be solved in one piece, or the direction of friction was in doubt",
      "nothing, if the run ends with 0"},

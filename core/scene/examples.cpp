@@ -100,8 +100,8 @@ such nodes. All keys are in [results.md](results.md).
 A body may slide along a curved obstacle, or come to it from afar. Then the program looks at it where the solution has
 taken it, and solves again. It is shifted for that by the mean motion of the nodes that touch, and not turned. The program
 does so where it would have to warn of too large a length, see below; in the second of `[steps]` and later where a fifth
-of a percent of `depth` is wrong. With `renew = false` it never does. After the solve the nodes of the deformed boundary
-are compared with the true obstacle:
+of a percent of `depth` is wrong. With friction it does so in the second step and later only. With `renew = false` it never
+does. After the solve the nodes of the deformed boundary are compared with the true obstacle:
 
 | key of the report | says |
 | --- | --- |
@@ -117,7 +117,6 @@ The program warns ([warnings.md](warnings.md#about-the-result)) in these cases:
   leave. It is compared with the displacements there. If displacements within the body differ by more than that, it is
   compared with their difference. At nodes it is too large as well if it is more than 5 % of `depth`, which is what
   contact flattens, or of what deforms the faces that may touch: then the largest pressure is wrong by about as much.
-  Where nothing touches, nothing may be inside.
 - More than a tenth of the nodes in contact are beyond.
 - A body turns by more than 0.1 as a whole, or a twentieth of it has strains above 0.2. Linear elasticity assumes that
   both are small.

@@ -71,30 +71,6 @@ const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>
   return nullptr;
 }
 
-template <int B>
-const char* doubt_of_approach(const ContactState<B>& now, const std::vector<std::array<double, B>>& shift) {
-  std::vector<double> sum(shift.size()), on_the_way(shift.size()), nearest(shift.size(), infinity);
-  for (const ContactNode<B>& node : now.nodes) {
-    const std::size_t k = node.obstacle;
-    if (!node.contact || k >= shift.size() || std::isnan(node.start)) continue;
-    const double along = block::dot<B>(shift[k].data(), node.direction.data());
-    const double squared = block::dot<B>(shift[k].data(), shift[k].data()) - along * along;
-    const double friction = block::norm<B>(node.tangential.data());
-    sum[k] += friction;
-    on_the_way[k] += friction * std::sqrt(std::max(squared, 0.0));
-    nearest[k] = std::min(nearest[k], node.start);
-  }
-  for (std::size_t k = 0; k < shift.size(); ++k) {
-    const double dissipated = now.obstacles[k].dissipated;
-    if (dissipated > 0 && on_the_way[k] > most * dissipated && nearest[k] * sum[k] > dissipated)
-      return "the body has come up to what it rubs on from farther than it slips";
-  }
-  return nullptr;
-}
-
-template const char* doubt_of_approach<1>(const ContactState<1>&, const std::vector<std::array<double, 1>>&);
-template const char* doubt_of_approach<2>(const ContactState<2>&, const std::vector<std::array<double, 2>>&);
-template const char* doubt_of_approach<3>(const ContactState<3>&, const std::vector<std::array<double, 3>>&);
 template const char* doubt_of_friction(const ContactState<1>&, const ContactState<1>&, bool);
 template const char* doubt_of_friction(const ContactState<2>&, const ContactState<2>&, bool);
 template const char* doubt_of_friction(const ContactState<3>&, const ContactState<3>&, bool);

@@ -1,7 +1,4 @@
 #pragma once
-#include <array>
-#include <vector>
-
 #include "core/fem/recovery/contact.hpp"
 
 namespace signorini {
@@ -15,11 +12,5 @@ namespace signorini {
 /// @param followed by another step
 template <int B>
 const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed);
-
-/// The same in the first step, where a body comes up to another one, or to an obstacle, from farther than what slips:
-/// all that its nodes move along curved surfaces on the way there counts as slip.
-/// @param shift per obstacle by how much the body has come; empty: it is where it was drawn
-template <int B>
-const char* doubt_of_approach(const ContactState<B>& now, const std::vector<std::array<double, B>>& shift);
 
 }  // namespace signorini

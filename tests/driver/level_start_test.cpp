@@ -247,29 +247,6 @@ TEST(TurnedFriction, IsThatOfNewcomersAgainstWhatItWas) {
   EXPECT_NE(doubt_of_friction(open, rubbing({{3, -2}}), true), nullptr);
 }
 
-// On its way to a round obstacle a body moves along the surface that it comes to: that is no slip.
-TEST(TurnedFriction, IsInDoubtWhereABodyComesFromAfar) {
-  const auto came = [](double way, double slip, double friction) {
-    auto now = rubbing({{1, friction}, {2, -friction}});
-    for (ContactNode<2>& node : now.nodes) {
-      const double angle = node.vertex == 1 ? 0.1 : -0.1;
-      node.direction = {std::sin(angle), std::cos(angle)};
-      node.start = way;
-    }
-    now.obstacles[0].dissipated = 2 * friction * slip;
-    return doubt_of_approach<2>(now, {{0, -way}});
-  };
-  EXPECT_NE(came(1, 0.1, 2), nullptr);
-  EXPECT_EQ(came(1, 0.3, 2), nullptr);  // it slips more than on its way
-  EXPECT_EQ(came(1, 0, 0), nullptr);    // and here not at all
-  auto slides = rubbing({{1, 2}});
-  slides.nodes[0].direction = {0, 1};
-  slides.nodes[0].start = 1e-4;
-  slides.obstacles[0].dissipated = 2 * 1.5;
-  EXPECT_EQ(doubt_of_approach<2>(slides, {{1.5, -1e-4}}), nullptr);
-  EXPECT_EQ(doubt_of_approach<2>(slides, {}), nullptr);
-}
-
 // Before the first step, and where nothing touched in the last one, the node with the least distance is where contact
 // begins.
 TEST(TurnedFriction, IsInDoubtWhereContactIsNoLongerWhereItBegan) {

@@ -21,9 +21,9 @@ struct DeformedContact {
   /// The obstacle's normal turns at once where the vertex moves of the largest of these distances.
   bool over_edge = false;
   /// How far off linear conditions are, in parts of what is noticeable: of a hundredth of the displacements, and of a
-  /// twentieth of what contact flattens, by about which the largest pressure is wrong. That is less than what deforms
-  /// the faces that may touch: a body may come from far to where it is then pressed in by little. Where nothing touches
-  /// no body is inside another one at all.
+  /// twentieth of what contact flattens, by about which the largest pressure is wrong. That is at most what deforms the
+  /// faces that may touch, and this where hardly a vertex touches: a body may come from far to where it is then pressed
+  /// in by little.
   double off = 0;
 };
 
