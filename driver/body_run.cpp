@@ -189,8 +189,16 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 }
 
 template <int D, int B>
-const char* BodyRun<D, B>::doubt_of_friction(bool followed) const {
-  return signorini::doubt_of_friction(accepted_contact_, results_.contact, followed);
+const char* BodyRun<D, B>::doubt_of_friction(const LoadStep& step, bool followed) const {
+  const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed);
+  if constexpr (D == B) {
+    if (turned || !remembers()) return turned;
+    std::vector<double> by = results_.u;
+    for (std::size_t i = 0; i < by.size() && follows_; ++i) by[i] -= accepted_[i];
+    return doubt_of_approach(nodes(), model_, accepted_contact_, results_.contact, results_.masters, by,
+                             std::exp2(-step.halvings));
+  }
+  return turned;
 }
 
 template <int D, int B>

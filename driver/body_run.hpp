@@ -50,9 +50,9 @@ class BodyRun {
   bool depends_on_step() const;
   /// The place in the scene of an obstacle that does not admit that the last step is cut; null: there is none.
   const std::string* veto_against_cutting() const;
-  /// Why the last solve() may be of a step that is too long for friction; null: it is not.
+  /// Why the last solve(), of this step, may be of one that is too long for friction; null: it is not.
   /// @param followed by another step
-  const char* doubt_of_friction(bool followed) const;
+  const char* doubt_of_friction(const LoadStep& step, bool followed) const;
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);

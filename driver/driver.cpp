@@ -293,7 +293,7 @@ const std::string* Driver::veto_against_cutting() const {
 }
 
 const char* Driver::doubt_of_friction(const LoadStep& by, std::size_t body) const {
-  return visit(body, [&](const auto& run) { return run.doubt_of_friction(by.to < scene_.steps.at.back()); });
+  return visit(body, [&](const auto& run) { return run.doubt_of_friction(by, by.to < scene_.steps.at.back()); });
 }
 
 /// A part differs from the whole where something of the body in question depends on t, or on the step.

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/fem/elements/nodes.hpp"
 #include "core/fem/recovery/contact.hpp"
 
 namespace signorini {
@@ -12,5 +13,16 @@ namespace signorini {
 /// @param followed by another step
 template <int B>
 const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed);
+
+/// Likewise where nothing touched an obstacle in the last step: what bodies move along its surface before they touch
+/// counts as slip. Without a doubt where that is less than a fifth of a planned step, or of no matter: where they
+/// hardly move along the surface, or so much that all slips in any case.
+/// @param masters nodes of the other bodies in contact
+/// @param by how nodes have moved since the last step, global, D per node
+/// @param part of a planned step that this one is
+template <int D>
+const char* doubt_of_approach(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& last,
+                              const ContactState<D>& now, const std::vector<ContactNode<D>>& masters,
+                              const std::vector<double>& by, double part);
 
 }  // namespace signorini

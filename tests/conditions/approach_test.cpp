@@ -1,0 +1,62 @@
+// Bodies with friction that come from a distance: what they move along the surface before they touch is no slip.
+#include <gmock/gmock.h>
+
+#include "driver/levels/turned_friction.hpp"
+#include "tests/bodies/scenes.hpp"
+#include "tests/support/problems.hpp"
+
+namespace signorini::test {
+namespace {
+
+using tables::block, tables::fix;
+using testing::Contains, testing::HasSubstr, testing::Not;
+
+constexpr const char* doubt = "bodies came along the surface before they touched";
+
+/// A block whose bottom is at `height`, above a plane at zero or another block, and whose top moves by `by`.
+std::string lowered(double height, const std::string& by, bool on_block, const std::string& more = "") {
+  const std::string upper = block("upper", fmt::format("[0, {}]", height), fmt::format("[1, {}]", height + 0.5),
+                                  "[16, 8]", material(1000, 0.3, 2)) +
+                            fix("upper", "top", by) + more;
+  if (!on_block)
+    return upper + "[[obstacle]]\ntype = \"coulomb\"\nbody = \"upper\"\non = \"bottom\"\nfriction = 0.5\n" +
+           "shape = \"plane\"\nnormal = [0, 1]\n";
+  return upper + block("lower", "[-1, -1]", "[2, 0]", "[24, 8]", material(1000, 0.3, 2)) +
+         fix("lower", "bottom", "[0, 0]") +
+         pair("upper", "bottom", "lower", "top", "friction = 0.5\n", "elastic_coulomb");
+}
+
+Report report_of(const std::string& scene) {
+  Driver driver(scene_of(scene));
+  EXPECT_TRUE(driver.solve().converged()) << driver.report().reason();
+  return driver.report();
+}
+
+// Of the way of the block a tenth is made in contact. All of it counted as slip: friction was 2.8 times too large.
+TEST(Approach, IsNoSlip) {
+  for (const bool on_block : {false, true}) {
+    const ContactReport drawn = report_of(lowered(0, "[0.005, -0.01]", on_block)).last().contact[0];
+    const Report come = report_of(lowered(0.09, "[\"0.05 * t\", \"-0.1 * t\"]", on_block));
+    EXPECT_NEAR(come.last().contact[0].force[1], drawn.force[1], 0.01 * drawn.force[1]);
+    EXPECT_NEAR(come.last().contact[0].force[0], drawn.force[0], -0.1 * drawn.force[0]);
+    EXPECT_THAT(come.warnings, Not(Contains(HasSubstr("the direction of friction is in doubt"))));
+    EXPECT_FALSE(come.failed.empty());
+    // What does not depend on t cannot be cut.
+    const Report whole = report_of(lowered(0.09, "[0.05, -0.1]", on_block));
+    EXPECT_THAT(whole.warnings, Contains(HasSubstr(doubt)));
+    EXPECT_LT(whole.last().contact[0].force[0], 2 * drawn.force[0]);
+  }
+}
+
+TEST(Approach, IsOfNoMatter) {
+  const auto warnings = [](double height, const std::string& by) {
+    return report_of(lowered(height, by, false)).warnings;
+  };
+  EXPECT_THAT(warnings(0, "[0.005, -0.01]"), Not(Contains(HasSubstr(doubt))));      // it touches at first
+  EXPECT_THAT(warnings(0.09, "[0, -0.1]"), Not(Contains(HasSubstr(doubt))));        // straight down
+  EXPECT_THAT(warnings(0.09, "[0.5, -0.1]"), Not(Contains(HasSubstr(doubt))));      // all slips in any case
+  EXPECT_THAT(warnings(0.001, "[0.005, -0.01]"), Not(Contains(HasSubstr(doubt))));  // a small part of the way
+}
+
+}  // namespace
+}  // namespace signorini::test
