@@ -19,6 +19,7 @@
 #include "core/mesh/families.hpp"
 #include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
+#include "driver/levels/approach.hpp"
 #include "driver/levels/turned_friction.hpp"
 #include "driver/reports/error_estimate.hpp"
 #include "driver/scene/build_model.hpp"
@@ -189,16 +190,18 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 }
 
 template <int D, int B>
-const char* BodyRun<D, B>::doubt_of_friction(const LoadStep& step, bool followed) const {
-  const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed);
+auto BodyRun<D, B>::doubt_of_friction(const LoadStep& step, double end, bool followed) const -> FrictionDoubt {
+  if (const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed)) return {turned};
   if constexpr (D == B) {
-    if (turned || !remembers()) return turned;
+    if (!remembers()) return {};
     std::vector<double> by = results_.u;
     for (std::size_t i = 0; i < by.size() && follows_; ++i) by[i] -= accepted_[i];
-    return doubt_of_approach(nodes(), model_, accepted_contact_, results_.contact, results_.masters, by,
-                             std::exp2(-step.halvings));
+    const double rest = (end - step.to) / (step.to - step.from);
+    const double part =
+        part_in_flight(nodes(), model_, accepted_contact_, results_.contact, results_.masters, by, rest);
+    if (part > 0) return {"bodies came along the surface before they touched", part};
   }
-  return turned;
+  return {};
 }
 
 template <int D, int B>

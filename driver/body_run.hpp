@@ -19,6 +19,12 @@
 
 namespace signorini {
 
+/// Why a step may be too long for friction, and where to cut it.
+struct FrictionDoubt {
+  const char* reason = nullptr;  ///< null: it is not
+  double cut_at = 0.5;           ///< of the step
+};
+
 /// One body of a scene: its meshes, the solver that is kept for all steps, and the results of the last one.
 template <int D, int B>
 class BodyRun {
@@ -50,9 +56,10 @@ class BodyRun {
   bool depends_on_step() const;
   /// The place in the scene of an obstacle that does not admit that the last step is cut; null: there is none.
   const std::string* veto_against_cutting() const;
-  /// Why the last solve(), of this step, may be of one that is too long for friction; null: it is not.
+  /// Whether the last solve(), of this step, is in doubt.
+  /// @param end of the planned step
   /// @param followed by another step
-  const char* doubt_of_friction(const LoadStep& step, bool followed) const;
+  FrictionDoubt doubt_of_friction(const LoadStep& step, double end, bool followed) const;
   /// The next step starts from u (global coordinates, B per vertex of the finest mesh). Error(Exit::usage) where that
   /// has another length or is not finite.
   void start_from(const std::vector<double>& u);

@@ -243,14 +243,14 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   StepReport report = at_step(scene_, by.to, [&] { return solve_step(by, warnings); });
   if (progress_.is_ended()) return keep_iterate(std::move(report), std::move(warnings));
   const bool stuck = is_stuck(report);
-  const char* doubt = nullptr;
-  for (std::size_t body = 0; body < bodies() && !stuck && !doubt; ++body) doubt = doubt_of_friction(by, body);
-  const bool parts_differ = (stuck || doubt) && may_be_cut(by, report);
+  FrictionDoubt doubt;
+  for (std::size_t body = 0; body < bodies() && !stuck && !doubt.reason; ++body) doubt = doubt_of_friction(by, body);
+  const bool parts_differ = (stuck || doubt.reason) && may_be_cut(by, report);
   const std::string* veto = parts_differ ? veto_against_cutting() : nullptr;
   if (parts_differ && !veto) {
-    note_failure(by, stuck ? "no solution was found" : doubt, report.summary.iterations,
+    note_failure(by, stuck ? "no solution was found" : doubt.reason, report.summary.iterations,
                  stuck ? report.summary.reason : at_newcomers);
-    const double middle = by.from + (by.to - by.from) / 2;
+    const double middle = by.from + (by.to - by.from) * doubt.cut_at;
     return advance({by.number, by.from, middle, by.halvings + 1}, done) &&
            advance({by.number, middle, by.to, by.halvings + 1}, done);
   }
@@ -259,7 +259,7 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
   if (stuck && veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
-  if (doubt) warnings.push_back(warning<"friction-turned">(by.number, by.to, doubt, at_newcomers));
+  if (doubt.reason) warnings.push_back(warning<"friction-turned">(by.number, by.to, doubt.reason, at_newcomers));
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();
@@ -292,8 +292,9 @@ const std::string* Driver::veto_against_cutting() const {
   return nullptr;
 }
 
-const char* Driver::doubt_of_friction(const LoadStep& by, std::size_t body) const {
-  return visit(body, [&](const auto& run) { return run.doubt_of_friction(by, by.to < scene_.steps.at.back()); });
+FrictionDoubt Driver::doubt_of_friction(const LoadStep& by, std::size_t body) const {
+  const double end = scene_.steps.at[by.number - 1];
+  return visit(body, [&](const auto& run) { return run.doubt_of_friction(by, end, by.to < scene_.steps.at.back()); });
 }
 
 /// A part differs from the whole where something of the body in question depends on t, or on the step.
@@ -301,7 +302,7 @@ bool Driver::may_be_cut(const LoadStep& by, const StepReport& report) const {
   const double middle = by.from + (by.to - by.from) / 2;
   if (by.halvings >= scene_.steps.halvings || !(by.from < middle && middle < by.to)) return false;
   for (std::size_t body = 0; body < bodies(); ++body)
-    if ((!report.bodies[body].summary.converged() || doubt_of_friction(by, body)) &&
+    if ((!report.bodies[body].summary.converged() || doubt_of_friction(by, body).reason) &&
         (uses_t(solved_, solved_.bodies[body]) || visit(body, [](const auto& run) { return run.depends_on_step(); })))
       return true;
   return false;

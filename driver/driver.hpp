@@ -95,7 +95,7 @@ class Driver {
   StepReport solve_step(const LoadStep& by, Warnings& warnings);
   bool is_stuck(const StepReport& report) const;
   const std::string* veto_against_cutting() const;
-  const char* doubt_of_friction(const LoadStep& by, std::size_t body) const;
+  FrictionDoubt doubt_of_friction(const LoadStep& by, std::size_t body) const;
   bool may_be_cut(const LoadStep& by, const StepReport& report) const;
   void note_failure(const LoadStep& by, const char* what, int iterations, const std::string& reason);
   void accept();

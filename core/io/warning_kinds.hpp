@@ -144,8 +144,8 @@ inline constexpr WarningKind warning_kinds[] = {
      "where the pressure acts a joint closes, and where it does not it opens", "smaller elements there"},
     {WarningKind::About::result, "friction-turned",
      "step {}: at t = {} the direction of friction is in doubt: {}, and {}; expected shorter steps ([steps])",
-     "nodes that have just come into contact carry most of the friction, and it turned round within the step, or "
-     "contact moved on by more than its size",
+     "nodes that have just come into contact carry most of the friction, and it turned round within the step, "
+     "contact moved on by more than its size, or bodies came from apart along the surface",
      "shorter steps"},
     {WarningKind::About::result, "step-cut", "step {}: from t = {} to {} {}, and it was cut in two: {}",
      "the step could not be solved in one piece, or the direction of friction was in doubt",

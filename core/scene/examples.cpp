@@ -239,8 +239,8 @@ the steps before it are kept.
 
 **Steps that are too long.** A step that is solved may be cut, too: if friction acts against its direction in the last
 step, and most of it at nodes that have come into contact since. In a long step the slip of these nodes includes
-their motion before they touched, for example where a blade rolls onto a drum. If the step may not be cut any more, a
-warning says so.
+their motion before they touched, for example where a blade rolls onto a drum. A step in which bodies come from apart
+along the surface is cut where they touch. If the step may not be cut any more, a warning says so.
 
 **Steps that are not cut.** Steps are not cut if nothing of the body depends on `t`, or if no obstacle has friction or
 another energy of its own. Such a body has no memory: its step is the same problem, whatever

@@ -1,7 +1,7 @@
 // Bodies with friction that come from a distance: what they move along the surface before they touch is no slip.
 #include <gmock/gmock.h>
 
-#include "driver/levels/turned_friction.hpp"
+#include "driver/levels/approach.hpp"
 #include "tests/bodies/scenes.hpp"
 #include "tests/support/problems.hpp"
 
@@ -20,7 +20,7 @@ std::string lowered(double height, const std::string& by, bool on_block, const s
                             fix("upper", "top", by) + more;
   if (!on_block)
     return upper + "[[obstacle]]\ntype = \"coulomb\"\nbody = \"upper\"\non = \"bottom\"\nfriction = 0.5\n" +
-           "shape = \"plane\"\nnormal = [0, 1]\n";
+           "shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]\n";
   return upper + block("lower", "[-1, -1]", "[2, 0]", "[24, 8]", material(1000, 0.3, 2)) +
          fix("lower", "bottom", "[0, 0]") +
          pair("upper", "bottom", "lower", "top", "friction = 0.5\n", "elastic_coulomb");

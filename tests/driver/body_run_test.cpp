@@ -76,7 +76,7 @@ TEST(BodyRun, SolvesAStep) {
   EXPECT_FALSE(run.remembers());
   EXPECT_FALSE(run.depends_on_step());
   EXPECT_EQ(run.veto_against_cutting(), nullptr);
-  EXPECT_EQ(run.doubt_of_friction(whole, false), nullptr);
+  EXPECT_EQ(run.doubt_of_friction(whole, 1, false).reason, nullptr);
   EXPECT_GT(of.times.assemblies.stiffness, 0);
   // From the accepted one the next step has little to do, and results are those of that step.
   run.accept();
