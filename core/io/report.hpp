@@ -67,6 +67,9 @@ struct ContactReport {
 struct ForceReport {
   int number = 0;  ///< of the scene's [[load]], [[fix]] or [[spring]], from 0
   std::vector<double> force;
+  /// Of a fix or a spring of an elastic body, about the origin, with the undeformed positions: about the z-axis in 2D,
+  /// else three entries; empty for a body of revolution, of which moments cancel.
+  std::vector<double> moment = {};
   std::optional<double> open_area = {};  ///< of a load with `where_open`: what it acts on
 };
 

@@ -314,11 +314,26 @@ std::vector<Row<T>> force_rows(const char* number, const char* of, const char* f
 
 }  // namespace
 
+namespace {
+
+template <class T>
+std::vector<Row<T>> holding_rows(const char* number, const char* of) {
+  auto rows = force_rows<T>(number, of, "what it exerts on the body");
+  rows.push_back({{"moment", Kind::numbers,
+                   "of that about the origin, with the undeformed positions: about the z-axis in 2D, else three "
+                   "entries; elastic bodies that are not of revolution",
+                   false, true},
+                  [](const T& t) { return t.of.moment.empty() ? left_out() : Json(t.of.moment); }});
+  return rows;
+}
+
+}  // namespace
+
 template <>
 struct Table<Reaction> {
   static constexpr const char* name = "reaction";
   static std::vector<Row<Reaction>> rows() {
-    return force_rows<Reaction>("fix", "number of the scene's `[[fix]]`, from 0", "what it exerts on the body");
+    return holding_rows<Reaction>("fix", "number of the scene's `[[fix]]`, from 0");
   }
 };
 
@@ -337,8 +352,7 @@ template <>
 struct Table<SpringForce> {
   static constexpr const char* name = "spring";
   static std::vector<Row<SpringForce>> rows() {
-    return force_rows<SpringForce>("spring", "number of the scene's `[[spring]]`, from 0",
-                                   "what it exerts on the body");
+    return holding_rows<SpringForce>("spring", "number of the scene's `[[spring]]`, from 0");
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/mesh/mirror.hpp"
 #include "core/scene/reference_point.hpp"
+#include "driver/reports/moments.hpp"
 #include "driver/scene/numbers.hpp"
 #include "driver/scene/touching_bodies.hpp"
 
@@ -67,39 +68,12 @@ double radius(int dimension, Plane plane, bool inside, double measure) {
   return of_contact == 2 ? std::sqrt(measure / std::numbers::pi) : std::cbrt(0.75 * measure / std::numbers::pi);
 }
 
-/// Adds the moment of a force at a lever: three entries, or that about the z-axis alone.
-template <int D>
-void add_moment(const Point<D>& lever, const std::array<double, D>& force, std::vector<double>& moment) {
-  moment.back() += lever[0] * force[1] - lever[1] * force[0];
-  if constexpr (D == 3) {
-    moment[0] += lever[1] * force[2] - lever[2] * force[1];
-    moment[1] += lever[2] * force[0] - lever[0] * force[2];
-  }
-}
-
-/// Calls use(x, force) for a force at a point and its images beyond planes of symmetry.
-template <int D, class Use>
-void each_image(const std::vector<Mirror>& mirrors, Planes across, const Point<D>& x,
-                const std::array<double, D>& force, const Use& use) {
-  for (Planes image = 0; image < 1u << mirrors.size(); ++image) {
-    if ((image & across) != image) continue;
-    Point<D> y = x;
-    std::array<double, D> f = force;
-    for (std::size_t m = 0; m < mirrors.size(); ++m) {
-      if (!(image >> m & 1u)) continue;
-      y = reflected<D>(mirrors[m], y);
-      f[mirrors[m].axis] *= -1;
-    }
-    use(y, f);
-  }
-}
-
 template <int D, int B>
 void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& results,
                  std::vector<ContactReport>& reports) {
   if constexpr (B == D) {
     for (ContactReport& report : reports) {
-      report.moment.resize(D == 2 ? 1 : 3);
+      report.moment.resize(moment_entries<D>);
       if (report.pair) report.pair->moment.resize(report.moment.size());
     }
     if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
@@ -109,11 +83,8 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
       Point<D> at = nodes.control_point(node);  // where the bodies found each other
       for (int i = 0; report.pair && on_slave && !results.shift.empty() && i < D; ++i)
         at[i] += results.shift[obstacle][i];
-      each_image<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], at, force,
-                    [&](Point<D> lever, const std::array<double, D>& of_image) {
-                      for (int i = 0; i < D; ++i) lever[i] -= report.moment_about[i];
-                      add_moment<D>(lever, of_image, on_other ? report.pair->moment : report.moment);
-                    });
+      add_moment<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], at, force, report.moment_about,
+                    on_other ? report.pair->moment : report.moment);
     };
     for (const ContactNode<B>& node : results.contact.nodes)
       add(node.vertex, node.obstacle, node.force, results.slaves[node.obstacle].exchanged);

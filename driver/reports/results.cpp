@@ -20,11 +20,63 @@
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/mirror.hpp"
 #include "driver/reports/contact_report.hpp"
+#include "driver/reports/moments.hpp"
 #include "driver/scene/materials.hpp"
 #include "driver/scene/numbers.hpp"
 #include "driver/scene/part_nodes.hpp"
 
 namespace signorini {
+
+namespace {
+
+/// The moment of forces at nodes about the origin; nothing for scalars, and bodies of revolution.
+template <int D, int B>
+class MomentOfForces {
+ public:
+  MomentOfForces(const Nodes<D>& nodes, const Model<B>& model, Planes across, std::vector<double>& sum)
+      : nodes_(nodes), across_(across), sum_(sum) {
+    if (B == D && model.plane != Plane::axisymmetric) sum.resize(moment_entries<D>);
+  }
+  void add(Index node, const std::array<double, B>& force) {
+    if constexpr (B == D)
+      if (!sum_.empty())
+        add_moment<D>(nodes_.mesh().mirrors, across_, nodes_.control_point(node), force, std::vector<double>(D), sum_);
+  }
+
+ private:
+  const Nodes<D>& nodes_;
+  const Planes across_;
+  std::vector<double>& sum_;
+};
+
+template <int D, int B>
+void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, Results<D, B>& out) {
+  out.spring_moments.resize(model.springs.size());
+  for (std::size_t k = 0; k < model.springs.size(); ++k) {
+    std::vector<double> forces(out.u.size());
+    add_spring_forces(nodes, model, model.springs[k], out.u, forces);
+    std::array<double, B>& total = out.forces.springs.emplace_back();
+    MomentOfForces<D, B> moment(nodes, model, out.across.springs[k], out.spring_moments[k]);
+    for (Index p = 0; p < nodes.size(); ++p) {
+      std::array<double, B> force;
+      std::copy_n(forces.data() + Offset{p} * B, B, force.begin());
+      for (int i = 0; i < B; ++i) total[i] += force[i];
+      moment.add(p, force);
+    }
+  }
+}
+
+template <int D, int B>
+void add_moments_of_fixes(const Nodes<D>& nodes, const Model<B>& model, Results<D, B>& out) {
+  out.moments.resize(model.fixes.size());
+  std::vector<MomentOfForces<D, B>> moments;
+  moments.reserve(out.moments.size());
+  for (std::size_t k = 0; k < out.moments.size(); ++k)
+    moments.emplace_back(nodes, model, out.across.fixes[k], out.moments[k]);
+  for (const auto& [node, fix, force] : out.forces.at_fixes) moments[fix].add(node, force);
+}
+
+}  // namespace
 
 template <int D, int B>
 Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discretization<B>& discretization,
@@ -57,7 +109,8 @@ Results<D, B> results(const Nodes<D>& nodes, const Model<B>& model, const Discre
       out.contact.obstacles[k].tangential_force[i] += along[k][i];
     }
   out.forces = forces(model, discretization, out.contact, local);
-  out.forces.springs = spring_forces(nodes, model, out.u);
+  add_spring_forces(nodes, model, out);
+  add_moments_of_fixes(nodes, model, out);
   out.joints = std::move(joints);
   for (std::size_t k = 0; k < out.joints.total.size(); ++k)
     for (int i = 0; i < B; ++i) out.forces.applied[k][i] += out.joints.total[k][i];
@@ -107,11 +160,12 @@ namespace {
 template <int B>
 std::vector<ForceReport> force_reports(const std::vector<int>& numbers,
                                        const std::vector<std::array<double, B>>& forces,
-                                       const std::vector<Mirror>& mirrors, const std::vector<Planes>& across) {
+                                       const std::vector<Mirror>& mirrors, const std::vector<Planes>& across,
+                                       const std::vector<std::vector<double>>& moments = {}) {
   std::vector<ForceReport> reports;
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const auto whole = Whole(mirrors, across[k]).total(forces[k]);
-    reports.push_back({numbers[k], {whole.begin(), whole.end()}});
+    reports.push_back({numbers[k], {whole.begin(), whole.end()}, moments.empty() ? std::vector<double>() : moments[k]});
   }
   return reports;
 }
@@ -226,8 +280,10 @@ StepReport step_report(const Scene& scene, const Nodes<D>& nodes, const Probes<D
   for (std::size_t k = 0; k < report.applied.size(); ++k)
     if (ForceReport& load = report.applied[k]; scene.loads[load.number].where_open && !results.joints.area.empty())
       load.open_area = results.joints.area[k] * Whole(mirrors, results.across.loads[k]).copies();
-  report.reactions = force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes);
-  report.springs = force_reports<B>(numbers_of(scene.springs, body), forces.springs, mirrors, results.across.springs);
+  report.reactions =
+      force_reports<B>(numbers_of(scene.fixes, body), forces.reactions, mirrors, results.across.fixes, results.moments);
+  report.springs = force_reports<B>(numbers_of(scene.springs, body), forces.springs, mirrors, results.across.springs,
+                                    results.spring_moments);
   report.rigid = rigid_reports(numbers_of(scene.rigids, body), results.rigid);
   const bool axisymmetric = body.plane == Plane::axisymmetric;
   report.bodies = {{body.name, report.summary, axisymmetric, axisymmetric && B == D ? on_axis(nodes) : 0,

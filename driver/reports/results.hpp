@@ -24,18 +24,19 @@ struct Results {
   std::vector<double> u;  ///< global coordinates, B per node
   ContactState<B> contact;
   Forces<B> forces;
-  std::vector<std::optional<DeformedContact>> deformed;  ///< per obstacle of the model
-  std::vector<double> between_nodes;                     ///< likewise, see violation_between_nodes()
-  std::vector<double> pressure;                          ///< of NestedSolver::pressure_space()
-  std::vector<RigidMotion<B>> rigid;                     ///< as those of the model
-  std::vector<TieForce<B>> ties;                         ///< tie_forces()
-  std::vector<BoltState> bolts;                          ///< of each tie with pretension
-  std::vector<NodalForce<B>> counterforces;              ///< see there
-  std::vector<ContactNode<B>> masters;                   ///< master_side()
-  std::vector<SlaveChoice> slaves;                       ///< per obstacle of the model
-  std::vector<Point<B>> shift;                           ///< of slaves, see NestedSolver
-  JointLoad<B> joints;                                   ///< see Solution
-  ConditionsAcross across{};                             ///< planes of symmetry; all else is of the part that is meshed
+  std::vector<std::vector<double>> moments, spring_moments;  ///< of fixes and springs, see ForceReport
+  std::vector<std::optional<DeformedContact>> deformed;      ///< per obstacle of the model
+  std::vector<double> between_nodes;                         ///< likewise, see violation_between_nodes()
+  std::vector<double> pressure;                              ///< of NestedSolver::pressure_space()
+  std::vector<RigidMotion<B>> rigid;                         ///< as those of the model
+  std::vector<TieForce<B>> ties;                             ///< tie_forces()
+  std::vector<BoltState> bolts;                              ///< of each tie with pretension
+  std::vector<NodalForce<B>> counterforces;                  ///< see there
+  std::vector<ContactNode<B>> masters;                       ///< master_side()
+  std::vector<SlaveChoice> slaves;                           ///< per obstacle of the model
+  std::vector<Point<B>> shift;                               ///< of slaves, see NestedSolver
+  JointLoad<B> joints;                                       ///< see Solution
+  ConditionsAcross across{};  ///< planes of symmetry; all else is of the part that is meshed
 };
 
 /// @param x the solution in local coordinates

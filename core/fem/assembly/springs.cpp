@@ -89,27 +89,18 @@ void add_springs(const Nodes<D>& nodes, const Model<B>& model, BlockMatrix<B>& A
 }
 
 template <int D, int B>
-std::vector<std::array<double, B>> spring_forces(const Nodes<D>& nodes, const Model<B>& model,
-                                                 const std::vector<double>& u) {
-  std::vector<std::array<double, B>> out;
-  for (const Spring<B>& spring : model.springs) {
-    std::array<double, B>& force = out.emplace_back();
-    each_spring_traction<D, B>(nodes, model, spring, u, [&](const auto& point, const std::array<double, B>& traction) {
-      for (int i = 0; i < B; ++i) force[i] += point.weight * traction[i];
-    });
-  }
-  return out;
+void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const Spring<B>& spring,
+                       const std::vector<double>& u, std::vector<double>& forces) {
+  each_spring_traction<D, B>(nodes, model, spring, u, [&](const auto& point, const std::array<double, B>& traction) {
+    for (std::size_t a = 0; a < point.node.size(); ++a)
+      for (int i = 0; i < B; ++i) forces[Offset{point.node[a]} * B + i] += point.weight * point.value[a] * traction[i];
+  });
 }
 
 template <int D, int B>
 void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                        std::vector<double>& forces) {
-  for (const Spring<B>& spring : model.springs)
-    each_spring_traction<D, B>(nodes, model, spring, u, [&](const auto& point, const std::array<double, B>& traction) {
-      for (std::size_t a = 0; a < point.node.size(); ++a)
-        for (int i = 0; i < B; ++i)
-          forces[Offset{point.node[a]} * B + i] += point.weight * point.value[a] * traction[i];
-    });
+  for (const Spring<B>& spring : model.springs) add_spring_forces(nodes, model, spring, u, forces);
 }
 
 template <int D, int B>
@@ -131,8 +122,8 @@ void each_spring_hold(const Nodes<D>& nodes, const Model<B>& model,
 
 #define SIGNORINI_INSTANTIATE(D, B)                                                                                    \
   template void add_springs(const Nodes<D>&, const Model<B>&, BlockMatrix<B>&);                                        \
-  template std::vector<std::array<double, B>> spring_forces<D, B>(const Nodes<D>&, const Model<B>&,                    \
-                                                                  const std::vector<double>&);                         \
+  template void add_spring_forces(const Nodes<D>&, const Model<B>&, const Spring<B>&, const std::vector<double>&,      \
+                                  std::vector<double>&);                                                               \
   template void add_spring_forces(const Nodes<D>&, const Model<B>&, const std::vector<double>&, std::vector<double>&); \
   template void each_spring_hold(const Nodes<D>&, const Model<B>&, const std::function<void(const SpringHold<B>&)>&);  \
   template std::array<double, B * B> spring_matrix<D, B>(const Spring<B>&, double, const Point<D>&, const Point<D>&,   \

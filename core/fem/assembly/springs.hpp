@@ -16,14 +16,11 @@ namespace signorini {
 template <int D, int B>
 void add_springs(const Nodes<D>& nodes, const Model<B>& model, BlockMatrix<B>& A);
 
-/// What each spring of the model exerts on the body: the integral of -K u. Of an axisymmetric body as Forces has it.
-/// @param u global coordinates, B per node
+/// Adds what a spring exerts on the nodes, of all minus the matrix of add_springs() times u; both in global coordinates
+/// and B per node.
 template <int D, int B>
-std::vector<std::array<double, B>> spring_forces(const Nodes<D>& nodes, const Model<B>& model,
-                                                 const std::vector<double>& u);
-
-/// Adds what all springs exert on the nodes: minus the matrix of add_springs() times u, both in global coordinates and
-/// B per node.
+void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const Spring<B>& spring,
+                       const std::vector<double>& u, std::vector<double>& forces);
 template <int D, int B>
 void add_spring_forces(const Nodes<D>& nodes, const Model<B>& model, const std::vector<double>& u,
                        std::vector<double>& forces);

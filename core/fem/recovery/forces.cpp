@@ -17,9 +17,13 @@ void each_at_fixes(const std::vector<FixedDirections<B>>& fixes, const ContactSt
 
 /// Adds `force` to the reaction of the fix that prescribes direction k; what the axis prescribes has none.
 template <int B>
-void add(std::vector<std::array<double, B>>& reactions, const FixedDirections<B>& fixed, int k, double force) {
+void add(const FixedDirections<B>& fixed, int k, double force, Forces<B>& to) {
   if (fixed.fix[k] < 0) return;
-  for (int i = 0; i < B; ++i) reactions[fixed.fix[k]][i] += force * fixed.direction[k][i];
+  auto& at_node = to.at_fixes.emplace_back(typename Forces<B>::AtNode{fixed.vertex, fixed.fix[k], {}});
+  for (int i = 0; i < B; ++i) {
+    at_node.force[i] = force * fixed.direction[k][i];
+    to.reactions[fixed.fix[k]][i] += at_node.force[i];
+  }
 }
 
 }  // namespace
@@ -38,11 +42,10 @@ Forces<B> forces(const Model<B>& model, const Discretization<B>& discretization,
       std::copy_n(fixes[row].direction[k], B, along);
       if (const double* N = discretization.problem.frames.dual_at(fixes[row].vertex))
         block::transposed_product<B>(N, fixes[row].direction[k], along);
-      add<B>(out.reactions, fixes[row], k, discretization.prescribed.force(static_cast<Index>(row), along, x));
+      add(fixes[row], k, discretization.prescribed.force(static_cast<Index>(row), along, x), out);
     }
   each_at_fixes(fixes, contact, [&](const ContactNode<B>& node, const FixedDirections<B>& fixed) {
-    for (int k = 0; k < fixed.count; ++k)
-      add<B>(out.reactions, fixed, k, -block::dot<B>(node.force.data(), fixed.direction[k]));
+    for (int k = 0; k < fixed.count; ++k) add(fixed, k, -block::dot<B>(node.force.data(), fixed.direction[k]), out);
   });
   return out;
 }

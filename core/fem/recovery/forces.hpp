@@ -8,10 +8,17 @@ namespace signorini {
 /// forces, without a resultant: hoop stresses carry their sum.
 template <int B>
 struct Forces {
+  /// What a fix exerts at a node.
+  struct AtNode {
+    Index node, fix;
+    std::array<double, B> force;
+  };
+
   std::vector<std::array<double, B>> applied;    ///< per load of the model
   std::vector<std::array<double, B>> reactions;  ///< per fix of the model
   std::vector<std::array<double, B>> contact;    ///< per obstacle of the model
-  std::vector<std::array<double, B>> springs{};  ///< per spring of the model: spring_forces()
+  std::vector<std::array<double, B>> springs{};  ///< per spring of the model
+  std::vector<AtNode> at_fixes{};                ///< of these `reactions` are the sums
 };
 
 /// The reaction of a fix is what A x - b of the matrix before elimination leaves along the directions that it
