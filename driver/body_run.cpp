@@ -17,6 +17,7 @@
 #include "core/fem/recovery/rigid_gap.hpp"
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/families.hpp"
+#include "core/mesh/rounding_of_places.hpp"
 #include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "driver/levels/approach.hpp"
@@ -191,14 +192,15 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 
 template <int D, int B>
 auto BodyRun<D, B>::doubt_of_friction(const LoadStep& step, double end, bool followed) const -> FrictionDoubt {
-  if (const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed)) return {turned};
+  if (const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed,
+                                                        rounding_of_places(nodes().mesh())))
+    return {turned};
   if constexpr (D == B) {
     if (!remembers()) return {};
-    std::vector<double> by = results_.u;
-    for (std::size_t i = 0; i < by.size() && follows_; ++i) by[i] -= accepted_[i];
+    const std::vector<double> before = follows_ ? accepted_ : std::vector<double>(results_.u.size());
     const double rest = (end - step.to) / (step.to - step.from);
-    const double part =
-        part_in_flight(nodes(), model_, accepted_contact_, results_.contact, results_.masters, by, rest);
+    const double part = part_in_flight(nodes(), model_, accepted_contact_, results_.contact, results_.masters, before,
+                                       results_.u, rest);
     if (part > 0) return {"bodies came along the surface before they touched", part};
   }
   return {};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/rounding.hpp"
 #include "core/sdk/block.hpp"
 
 namespace signorini {
@@ -27,17 +26,18 @@ struct Drag {
 /// What touches first of an obstacle: nodes as near as the nearest one is before a step, but for rounding.
 class Beginning {
  public:
+  explicit Beginning(double rounding) : rounding_(rounding) {}
   /// @param gap of a node then
   void add(double gap, bool touches) {
-    if (gap < least_ - std::fabs(least_) * rounding_of_differences) stays_ = false;
-    if (gap <= least_ + std::fabs(least_) * rounding_of_differences) stays_ = stays_ || touches;
+    if (gap < least_ - rounding_) stays_ = false;
+    if (gap <= least_ + rounding_) stays_ = stays_ || touches;
     least_ = std::min(least_, gap);
   }
   /// Whether one of them touches after the step.
   bool stays() const { return stays_; }
 
  private:
-  double least_ = infinity;
+  double rounding_, least_ = infinity;
   bool stays_ = false;
 };
 
@@ -52,8 +52,8 @@ const ContactNode<B>* same_node(const ContactState<B>& contact, const ContactNod
 }
 
 template <int B>
-const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed) {
-  std::vector<Beginning> beginning(now.obstacles.size());
+const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed, double rounding) {
+  std::vector<Beginning> beginning(now.obstacles.size(), Beginning(rounding));
   std::vector<Drag<B>> before(now.obstacles.size()), after(now.obstacles.size()), of_newcomers(now.obstacles.size());
   for (const ContactNode<B>& node : last.nodes) before[node.obstacle].add(node);
   for (const ContactNode<B>& node : now.nodes) {
@@ -74,8 +74,8 @@ const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>
 template const ContactNode<1>* same_node(const ContactState<1>&, const ContactNode<1>&);
 template const ContactNode<2>* same_node(const ContactState<2>&, const ContactNode<2>&);
 template const ContactNode<3>* same_node(const ContactState<3>&, const ContactNode<3>&);
-template const char* doubt_of_friction(const ContactState<1>&, const ContactState<1>&, bool);
-template const char* doubt_of_friction(const ContactState<2>&, const ContactState<2>&, bool);
-template const char* doubt_of_friction(const ContactState<3>&, const ContactState<3>&, bool);
+template const char* doubt_of_friction(const ContactState<1>&, const ContactState<1>&, bool, double);
+template const char* doubt_of_friction(const ContactState<2>&, const ContactState<2>&, bool, double);
+template const char* doubt_of_friction(const ContactState<3>&, const ContactState<3>&, bool, double);
 
 }  // namespace signorini

@@ -14,7 +14,8 @@ const ContactNode<B>* same_node(const ContactState<B>& contact, const ContactNod
 /// where a blade rolls onto a drum, that may be more than what they slip, and the other way. Shorter steps tell.
 /// @param last without nodes: nothing has moved before
 /// @param followed by another step
+/// @param rounding of distances
 template <int B>
-const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed);
+const char* doubt_of_friction(const ContactState<B>& last, const ContactState<B>& now, bool followed, double rounding);
 
 }  // namespace signorini

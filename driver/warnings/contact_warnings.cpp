@@ -17,6 +17,7 @@
 #include "core/io/warning_kinds.hpp"
 #include "core/mesh/chords.hpp"
 #include "core/mesh/connected.hpp"
+#include "core/mesh/rounding_of_places.hpp"
 #include "driver/scene/numbers.hpp"
 
 namespace signorini {
@@ -215,13 +216,13 @@ std::vector<MeanTurn> turns(const Model<D>& model, const Nodes<D>& nodes, const 
   return mean_turns(nodes, is_paired(model) ? connected_parts(nodes.mesh()) : std::vector<Index>(), u);
 }
 
-/// The largest motion of vertices in contact along the obstacles' normals.
+/// The largest motion of vertices in contact along the obstacles' normals; 0 where that is rounding.
 template <int D>
-double pressed_in(const Results<D, D>& results) {
+double pressed_in(const Mesh<D>& mesh, const Results<D, D>& results) {
   double most = 0;
   for (const ContactNode<D>& node : results.contact.nodes)
     if (node.contact) most = std::max(most, std::fabs(along_normal(results, node)));
-  return most;
+  return most > rounding_of_places(mesh) ? most : 0;
 }
 
 template <int D>
@@ -249,7 +250,7 @@ Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const Resul
   constexpr double noticeable_turn = 0.1;
   const std::vector<MeanTurn> all = turns(model, nodes, results.u);
   const MeanTurn turn = std::ranges::max(all, {}, &MeanTurn::off_circle);
-  const double most = std::ranges::max(all, {}, &MeanTurn::angle).angle, pressed = pressed_in(results);
+  const double most = std::ranges::max(all, {}, &MeanTurn::angle).angle, pressed = pressed_in(nodes.mesh(), results);
   if (!(most > noticeable_turn || (pressed > 0 && turn.off_circle() > noticeable * pressed))) return {};
   return {warning<"large-turn">(
       model.origin, what_turns(model), turn.angle * 180 / std::numbers::pi, 0.5 * turn.angle * turn.angle,

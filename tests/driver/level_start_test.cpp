@@ -236,15 +236,15 @@ ContactState<2> rubbing(const std::vector<std::pair<Index, double>>& nodes) {
 
 TEST(TurnedFriction, IsThatOfNewcomersAgainstWhatItWas) {
   const auto last = rubbing({{1, 1}, {2, 1}});
-  EXPECT_NE(doubt_of_friction(last, rubbing({{2, 0.5}, {3, -2}, {4, -2}}), true), nullptr);
-  EXPECT_EQ(doubt_of_friction(last, rubbing({{2, 0.5}, {3, 2}, {4, 2}}), true), nullptr);  // the same way
-  EXPECT_EQ(doubt_of_friction(last, rubbing({{1, -2}, {2, -2}, {3, -1}}), true),
-            nullptr);                                                               // at the same nodes: it turned back
-  EXPECT_EQ(doubt_of_friction(last, rubbing({{3, -2}, {4, 1.9}}), true), nullptr);  // without a direction
-  EXPECT_EQ(doubt_of_friction(rubbing({{1, 1}, {2, -1}}), rubbing({{3, -2}}), true), nullptr);  // there was none
+  EXPECT_NE(doubt_of_friction(last, rubbing({{2, 0.5}, {3, -2}, {4, -2}}), true, 1e-12), nullptr);
+  EXPECT_EQ(doubt_of_friction(last, rubbing({{2, 0.5}, {3, 2}, {4, 2}}), true, 1e-12), nullptr);  // the same way
+  EXPECT_EQ(doubt_of_friction(last, rubbing({{1, -2}, {2, -2}, {3, -1}}), true, 1e-12),
+            nullptr);  // at the same nodes: it turned back
+  EXPECT_EQ(doubt_of_friction(last, rubbing({{3, -2}, {4, 1.9}}), true, 1e-12), nullptr);  // without a direction
+  EXPECT_EQ(doubt_of_friction(rubbing({{1, 1}, {2, -1}}), rubbing({{3, -2}}), true, 1e-12), nullptr);  // there was none
   auto open = rubbing({{1, 1}, {3, 0}});
   open.nodes[1].contact = false;  // one that was near is a newcomer all the same
-  EXPECT_NE(doubt_of_friction(open, rubbing({{3, -2}}), true), nullptr);
+  EXPECT_NE(doubt_of_friction(open, rubbing({{3, -2}}), true, 1e-12), nullptr);
 }
 
 // Before the first step, and where nothing touched in the last one, the node with the least distance is where contact
@@ -254,15 +254,15 @@ TEST(TurnedFriction, IsInDoubtWhereContactIsNoLongerWhereItBegan) {
   auto now = rubbing({{1, 0}, {2, 2}, {3, 2}});
   for (ContactNode<2>& node : now.nodes) node.start = 0.1 * node.vertex;
   now.nodes[0].contact = false;
-  EXPECT_STREQ(doubt_of_friction(last, now, false), "contact moved on from where it was");
-  EXPECT_EQ(doubt_of_friction(last, now, true), nullptr);  // the next step tells
-  now.nodes[1].start = now.nodes[0].start;                 // one that is as near stays
-  EXPECT_EQ(doubt_of_friction(last, now, false), nullptr);
+  EXPECT_STREQ(doubt_of_friction(last, now, false, 1e-12), "contact moved on from where it was");
+  EXPECT_EQ(doubt_of_friction(last, now, true, 1e-12), nullptr);  // the next step tells
+  now.nodes[1].start = now.nodes[0].start;                        // one that is as near stays
+  EXPECT_EQ(doubt_of_friction(last, now, false, 1e-12), nullptr);
   last = now;
   for (ContactNode<2>& node : last.nodes) node.contact = false, node.tangential = {}, node.gap = 0.1 * node.vertex;
-  EXPECT_NE(doubt_of_friction(last, now, false), nullptr);
+  EXPECT_NE(doubt_of_friction(last, now, false, 1e-12), nullptr);
   now.nodes[2].tangential = {-2, 0};  // without a direction
-  EXPECT_EQ(doubt_of_friction(last, now, false), nullptr);
+  EXPECT_EQ(doubt_of_friction(last, now, false, 1e-12), nullptr);
 }
 
 }  // namespace
