@@ -21,6 +21,7 @@
 #include "core/solver/attainable.hpp"
 #include "core/solver/local_coordinates.hpp"
 #include "driver/levels/approach.hpp"
+#include "driver/levels/slid.hpp"
 #include "driver/levels/turned_friction.hpp"
 #include "driver/reports/error_estimate.hpp"
 #include "driver/scene/build_model.hpp"
@@ -278,7 +279,7 @@ StrainSizes<D> refuse_nonsense(const Nodes<D>& nodes, const Mesh<D>& coarsest, c
                                const ContactState<B>& contact, const std::vector<double>& u) {
   StrainSizes<D> out;
   if constexpr (D == B) {
-    refuse_pulling(nodes, model, contact);
+    refuse_pulling(nodes, model, contact, u);
     out = strains(nodes, model, u);
     refuse_folded(Nodes(coarsest), model, out);
     refuse_turned(nodes, model, u);
@@ -305,7 +306,10 @@ double BodyRun<D, B>::off(const Solution<B>& solution) const {
 /// In the first step, if need be; others begin where the last one has come to, see NestedSolver::solve_after().
 template <int D, int B>
 void BodyRun<D, B>::look_where_it_came(Solution<B>& solution) {
-  const double was = noticeably_off(results_.deformed, results_.contact);
+  double was = noticeably_off(results_.deformed, results_.contact);
+  if constexpr (D == B)
+    was = std::max(was,
+                   noticeably_slid<D>(nodes(), model_, results_.contact, results_.masters, results_.u, results_.shift));
   const bool rubs = !solution.discretization.functional.empty();  // the way there would count as slip
   if (D != B || turns_ || follows_ || rubs || !solution.summary.converged() || !(was > 1)) return;
   solution.x = to_local(solution.discretization.problem, results_.u);

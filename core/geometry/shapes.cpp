@@ -11,6 +11,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/base/rounding.hpp"
 #include "core/base/types.hpp"
 #include "core/geometry/vector.hpp"
 #include "core/geometry/zero_set.hpp"
@@ -163,13 +164,14 @@ ImplicitFunction around(const Field& distance, const Site& site, int dimension) 
 /// How far a point is from where the function is zero on the line along n.
 double along_normal(const ImplicitFunction& f, const Point<3>& x, const Point<3>& n) {
   const auto at = [&](double s) { return f({x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]}); };
+  const double rounding = rounding_of_differences * norm(x);  // a sum that cancels leaves that
   double s = 0;
   for (int k = 0; k < most_newton_steps; ++k) {
     const Point<3> here{x[0] - s * n[0], x[1] - s * n[1], x[2] - s * n[2]};
     const double step = at(s) / dot(f.gradient(here), n);
     if (!std::isfinite(step)) break;
     s += step;
-    if (std::abs(step) <= settled * std::abs(s)) return s;
+    if (std::abs(step) <= std::max(settled * std::abs(s), rounding)) return s;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/fem/elements/symmetric_motion.hpp"
 #include "core/mesh/mirror.hpp"
 #include "core/scene/reference_point.hpp"
 #include "driver/reports/moments.hpp"
@@ -68,6 +69,39 @@ double radius(int dimension, Plane plane, bool inside, double measure) {
   return of_contact == 2 ? std::sqrt(measure / std::numbers::pi) : std::cbrt(0.75 * measure / std::numbers::pi);
 }
 
+/// Where nodes of both bodies were when these found each other: as they are drawn, or moved by what all of a body's
+/// that touch have moved by in the mean.
+template <int D>
+class WhereTheyMet {
+ public:
+  WhereTheyMet(const Nodes<D>& nodes, Plane plane, const Results<D, D>& results) : nodes_(nodes) {
+    if (results.shift.empty()) return;
+    const auto add = [&](const std::vector<ContactNode<D>>& touch, std::size_t side) {
+      std::vector<double> count(results.shift.size());
+      motion_[side].resize(count.size());
+      for (const ContactNode<D>& node : touch) {
+        if (!node.contact || results.shift[node.obstacle] == Point<D>{}) continue;
+        ++count[node.obstacle];
+        for (int i = 0; i < D; ++i) motion_[side][node.obstacle][i] += results.u[Offset{node.vertex} * D + i];
+      }
+      for (std::size_t k = 0; k < count.size(); ++k)
+        for (double& component : motion_[side][k]) component /= std::max(count[k], 1.0);
+      for (Point<D>& motion : motion_[side]) motion = symmetric_motion<D>(nodes.mesh(), plane, motion);
+    };
+    add(results.contact.nodes, 1);
+    add(results.masters, 0);
+  }
+  Point<D> operator()(Index node, Index obstacle, bool on_slave) const {
+    Point<D> at = nodes_.control_point(node);
+    for (int i = 0; i < D && !motion_[on_slave].empty(); ++i) at[i] += motion_[on_slave][obstacle][i];
+    return at;
+  }
+
+ private:
+  const Nodes<D>& nodes_;
+  std::array<std::vector<Point<D>>, 2> motion_;  // per obstacle; of masters, of slaves
+};
+
 template <int D, int B>
 void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& results,
                  std::vector<ContactReport>& reports) {
@@ -77,12 +111,10 @@ void add_moments(const Nodes<D>& nodes, Plane plane, const Results<D, B>& result
       if (report.pair) report.pair->moment.resize(report.moment.size());
     }
     if (plane == Plane::axisymmetric) return;  // all around the axis they cancel
+    const WhereTheyMet<D> where(nodes, plane, results);
     const auto add = [&](Index node, Index obstacle, const std::array<double, B>& force, bool on_other) {
       ContactReport& report = reports[obstacle];
-      const bool on_slave = on_other == results.slaves[obstacle].exchanged;
-      Point<D> at = nodes.control_point(node);  // where the bodies found each other
-      for (int i = 0; report.pair && on_slave && !results.shift.empty() && i < D; ++i)
-        at[i] += results.shift[obstacle][i];
+      const Point<D> at = where(node, obstacle, on_other == results.slaves[obstacle].exchanged);
       add_moment<D>(nodes.mesh().mirrors, results.across.obstacles[obstacle], at, force, report.moment_about,
                     on_other ? report.pair->moment : report.moment);
     };

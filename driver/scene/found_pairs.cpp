@@ -197,7 +197,7 @@ class Finder {
   using Corners = std::map<Point<D>, std::vector<Point<D>>>;  // normals of faces by vertex
 
   /// Of a side the faces that see the other one, and nothing in front of it: no third one, nothing of their own body.
-  /// Steps may move the bodies on, to where other faces see each other: all of the same surfaces are picked then.
+  /// Bodies may move on, to where other faces see each other: all of the same surfaces are picked then.
   std::shared_ptr<const Corners> picked(const Found& pair, int which) {
     const std::size_t number = which == 0 ? pair.first : pair.second;
     const Side<D>& side = sides_[number];
@@ -212,7 +212,7 @@ class Finder {
       in_sight.push_back(
           std::ranges::all_of(face.vertices, [&](Index v) { return std::isfinite(seen[v]); }) &&
           std::ranges::any_of(face.vertices, [&](Index v) { return seen[v] <= nearest[v] + behind * side.longest; }));
-    if (contact_.renew && scene_.steps.at.size() > 1) spread(side.mesh, in_sight);
+    if (contact_.renew) spread(side.mesh, in_sight);
     auto out = std::make_shared<Corners>();
     for (std::size_t f = 0; f < in_sight.size(); ++f) {
       if (!in_sight[f]) continue;

@@ -84,7 +84,9 @@ Warnings start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool every
 }
 
 template <int D>
-void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact) {
+void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact,
+                    const std::vector<double>& u) {
+  if (!(max_norm(u) > rounding_of_places(nodes.mesh()))) return;
   for (std::size_t k = 0; k < model.obstacles.size(); ++k) {
     const ObstacleTerm<D>& term = model.obstacles[k];
     if (!term.shape) continue;
@@ -262,8 +264,8 @@ Warnings turn_warnings(const Model<D>& model, const Nodes<D>& nodes, const Resul
 
 template void refuse_turned(const Nodes<2>&, const Model<2>&, const std::vector<double>&);
 template void refuse_turned(const Nodes<3>&, const Model<3>&, const std::vector<double>&);
-template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&);
-template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&);
+template void refuse_pulling(const Nodes<2>&, const Model<2>&, const ContactState<2>&, const std::vector<double>&);
+template void refuse_pulling(const Nodes<3>&, const Model<3>&, const ContactState<3>&, const std::vector<double>&);
 template Warnings turn_warnings(const Model<2>&, const Nodes<2>&, const Results<2, 2>&);
 template Warnings turn_warnings(const Model<3>&, const Nodes<3>&, const Results<3, 3>&);
 

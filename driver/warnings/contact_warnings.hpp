@@ -16,7 +16,8 @@ Warnings start_warnings(const Nodes<D>& nodes, const Model<B>& model, bool every
 /// Error(Exit::input) for a rigid obstacle that acts outwards on the faces that it may touch: it lies on the wrong
 /// side.
 template <int D>
-void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact);
+void refuse_pulling(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>& contact,
+                    const std::vector<double>& u);
 
 /// Obstacles between two bodies of which no face of one is in front of the other one's: nothing happens there.
 template <int D, int B>

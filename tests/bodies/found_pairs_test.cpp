@@ -132,6 +132,21 @@ TEST(FoundPairs, GoOnWhereStepsMoveBodiesTo) {
 }
 
 // Gaps and overlaps are closed without strain, or count.
+TEST(FoundPairs, GoOnWhereASingleStepMovesBodiesTo) {
+  const auto force = [](double from, double way) {
+    Driver driver(scene_of(
+        block("base", "[-3, -1]", "[3, 0]", "[24, 4]", material(1000)) +
+        block("punch", fmt::format("[{}, 0]", from), fmt::format("[{}, 0.5]", from + 1), "[6, 3]", material(3000)) +
+        fix("base", "bottom", "[0, 0]") + fix("punch", "top", fmt::format("[{}, -0.01]", way)) +
+        "[contact]\nbetween = \"all\"\n"));
+    const Report& report = driver.solve();
+    EXPECT_TRUE(report.converged()) << report.reason();
+    return report.last().contact[0].force[1];
+  };
+  const double drawn = std::abs(force(1, 0));
+  for (const double way : {0.5, 1.5}) EXPECT_NEAR(std::abs(force(1 - way, way)), drawn, 0.02 * drawn) << way;
+}
+
 TEST(FoundPairs, CloseGapsUpToALength) {
   for (const double gap : {0.01, -0.01})
     for (const bool closed : {false, true}) {

@@ -166,6 +166,21 @@ TEST(Sliding, InOneStepIsSeenInTheReport) {
   EXPECT_GT(drawn, 20 * inside(1, ""));
 }
 
+// Flat faces touch as truly wherever they slide to, but other faces of the other body.
+TEST(Sliding, OfFlatBodiesInOneStepIsThatOfBodiesDrawnThere) {
+  const auto force = [](const std::string& from, const std::string& to, double way, const std::string& more) {
+    Driver driver(scene_of(block("base", "[-3, -1]", "[3, 0]", "[24, 4]", "young = \"x < 0 ? 300 : 6000\"\n") +
+                           block("punch", from, to, "[6, 3]", material(3000)) + fix("base", "bottom", "[0, 0]") +
+                           fix("punch", "top", fmt::format("[{}, -0.01]", way)) +
+                           pair("punch", "bottom", "base", "top", more)));
+    return solved(driver).last().contact[0].force[1];
+  };
+  const double drawn = force("[1, 0]", "[2, 0.5]", 0, "");
+  EXPECT_NEAR(force("[-0.5, 0]", "[0.5, 0.5]", 1.5, ""), drawn, 0.01 * drawn);
+  EXPECT_NEAR(force("[-0.5, 0]", "[0.5, 0.5]", 1.5, "slave = \"other\"\n"), drawn, 0.02 * drawn);
+  EXPECT_NEAR(force("[0.7, 0]", "[1.7, 0.5]", 0.3, ""), drawn, 0.01 * drawn);
+}
+
 // In one step that ends beyond the other body forces are those of the pairs as drawn, which the report does not hide.
 // Without friction bodies are looked at where they have come to: nothing touches there. With friction steps follow
 // them.

@@ -3,6 +3,7 @@
 
 #include "core/fem/elements/nodes.hpp"
 #include "core/fem/elements/symmetric_motion.hpp"
+#include "driver/levels/slid.hpp"
 #include "tests/bodies/scenes.hpp"
 #include "tests/support/problems.hpp"
 
@@ -90,6 +91,15 @@ TEST(MovedObstacle, IsSeenByAHalfAsByTheWhole) {
   EXPECT_NEAR(half.depth, whole.depth, 0.3 * whole.depth);
 }
 
+// A flat body on a step of a hundredth of its way, which is half of what it is pressed in by: the force was twice too
+// large.
+TEST(MovedObstacle, IsSeenByFlatBodies) {
+  const std::string ledge = "shape = \"expression\"\ndistance = \"y + 0.005 / (1 + exp(-20 * x))\"\n";
+  const ContactReport come = contact_of(on_obstacle("[-2.5, 0]", "[-0.5, 0.5]", "[3.5, -0.01]", ledge, "")),
+                      drawn = contact_of(on_obstacle("[1, 0]", "[3, 0.5]", "[0, -0.01]", ledge, ""));
+  EXPECT_NEAR(come.force[1], drawn.force[1], 0.01 * drawn.force[1]);
+}
+
 // A coefficient is that of where the body was drawn; where it comes to it may mean nothing.
 TEST(MovedObstacle, HasTheFrictionOfWhereTheBodyWasDrawn) {
   const auto friction = [](const std::string& coefficient) {
@@ -108,6 +118,34 @@ TEST(SymmetricMotion, StaysOnPlanesAndAxes) {
   EXPECT_EQ(symmetric_motion<3>(mesh, Plane::strain, {1, 2, 3}), (Point<3>{0, 2, 0}));
   EXPECT_EQ(symmetric_motion<2>(Mesh<2>{}, Plane::axisymmetric, {1, 2}), (Point<2>{0, 2}));
   EXPECT_EQ(symmetric_motion<2>(Mesh<2>{}, Plane::stress, {1, 2}), (Point<2>{1, 2}));
+}
+
+// Half of what touches moves by a tenth of its width, the other body's half stays.
+TEST(NoticeablySlid, IsInTwentiethsOfWhatTouches) {
+  const Mesh<2> mesh = cube<2>(0, 1, 4);
+  const Nodes<2> nodes(mesh);
+  Model<2> model;
+  model.obstacles.resize(1);
+  ContactState<2> state;
+  std::vector<ContactNode<2>> masters;
+  std::vector<double> u(Offset{nodes.size()} * 2);
+  for (Index p = 0; p < nodes.size(); ++p) {
+    ContactNode<2> node{};
+    node.vertex = p;
+    node.contact = true;
+    node.direction = {0, 1};
+    if (nodes.at(p)[1] == 0) {
+      state.nodes.push_back(node);
+      u[Offset{p} * 2] = 0.1;
+      u[Offset{p} * 2 + 1] = 7;
+    } else if (nodes.at(p)[1] == 1) {
+      masters.push_back(node);
+    }
+  }
+  EXPECT_NEAR(noticeably_slid<2>(nodes, model, state, masters, u, {}), 2, 1e-12);
+  EXPECT_NEAR(noticeably_slid<2>(nodes, model, state, masters, u, {{0.1, 0}}), 0, 1e-12);
+  model.obstacles[0].tied = 0;
+  EXPECT_EQ(noticeably_slid<2>(nodes, model, state, masters, u, {}), 0);
 }
 
 TEST(MovedOn, DoesNothingOnAPlane) {

@@ -38,7 +38,7 @@ TEST(Moments, OfSpringsIsThatOfTheLoad) {
 TEST(Moments, OfHalfABodyIsThatOfTheWhole) {
   const auto box = [](const std::string& from, const std::string& cells, const std::string& rest) {
     return block("b", from, "[3, 3, 5]", cells, material(100, 0.3, 1)) + fix("b", "left", "[0, 0, 0]") +
-           "[[load]]\nbody = \"b\"\non = \"right\"\nvalue = [0, -0.01, \"0.02 * (y - 2)\"]\n" + rest;
+           "[[load]]\nbody = \"b\"\non = \"right\"\nvalue = [0, -0.01, \"0.02 * (z - 4)\"]\n" + rest;
   };
   const auto moment = [](const std::string& scene) { return report_of(scene).last().reactions[0].moment; };
   const std::vector<double> whole = moment(box("[0, 1, 3]", "[4, 4, 4]", "")),

@@ -122,7 +122,7 @@ double violation_between_nodes(const Nodes<D>& nodes, const Model<B>& model, Ind
                                const ContactState<B>& state, const std::vector<double>& u) {
   const ObstacleTerm<B>& term = model.obstacles[obstacle];
   if constexpr (B == D)
-    if (term.other) return couple_displaced(nodes, model, obstacle, u).deepest.depth;
+    if (term.other) return std::max(couple_displaced(nodes, model, obstacle, u).deepest.depth - term.adjust, 0.0);
   const bool in_body = B == 1 && !term.on;
   if ((B > 1 && !term.shape) || (in_body && nodes.order() == 1)) return unmeasured;
   Points<D, B> points(nodes, obstacle, state, u);

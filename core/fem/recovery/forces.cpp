@@ -19,11 +19,12 @@ void each_at_fixes(const std::vector<FixedDirections<B>>& fixes, const ContactSt
 template <int B>
 void add(const FixedDirections<B>& fixed, int k, double force, Forces<B>& to) {
   if (fixed.fix[k] < 0) return;
-  auto& at_node = to.at_fixes.emplace_back(typename Forces<B>::AtNode{fixed.vertex, fixed.fix[k], {}});
+  typename Forces<B>::AtNode at_node{fixed.vertex, fixed.fix[k], {}};
   for (int i = 0; i < B; ++i) {
     at_node.force[i] = force * fixed.direction[k][i];
     to.reactions[fixed.fix[k]][i] += at_node.force[i];
   }
+  if (B > 1) to.at_fixes.push_back(at_node);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct Forces {
   std::vector<std::array<double, B>> reactions;  ///< per fix of the model
   std::vector<std::array<double, B>> contact;    ///< per obstacle of the model
   std::vector<std::array<double, B>> springs{};  ///< per spring of the model
-  std::vector<AtNode> at_fixes{};                ///< of these `reactions` are the sums
+  std::vector<AtNode> at_fixes{};                ///< of an elastic body: of these `reactions` are the sums
 };
 
 /// The reaction of a fix is what A x - b of the matrix before elimination leaves along the directions that it

@@ -220,11 +220,11 @@ double depth(const Nodes<D>& nodes, const Model<D>& model, const ContactState<D>
 }
 
 /// See DeformedContact::off.
-double off(const DeformedContact& contact, Index touching, double deformed) {
+double off(const DeformedContact& contact, Index touching, double deformed, bool rigid) {
   const double by = std::max(contact.penetration, contact.opening), moved = contact.displacement;
   if (!(moved > 0)) return 0;
-  double flattened = infinity;  // nothing, where contact is flat
-  if (contact.depth > 0 || touching <= few) flattened = std::max(deformed, of_tolerance * moved);
+  double flattened = infinity;  // nothing, where contact is flat; between bodies there are gaps beside their nodes
+  if (contact.depth > 0 || touching <= few || rigid) flattened = std::max(deformed, of_tolerance * moved);
   if (contact.depth > 0) flattened = std::min(flattened, contact.depth);
   return by / std::min(of_displacement * moved, of_depth * flattened);
 }
@@ -284,7 +284,7 @@ std::optional<DeformedContact> true_contact(const Nodes<D>& nodes, const Model<D
   if (!term.other && farthest >= 0) out.over_edge = turns_at_once(nodes, faces, farthest, term, u);
   if (term.other) out.beyond = beyond(state, obstacle, all);
   const Surface<D> side = term.other ? surface(nodes, paired_faces(nodes.mesh(), term, model.t).slave) : faces;
-  out.off = off(out, state.obstacles[obstacle].nodes, difference_of_displacements(side, u));
+  out.off = off(out, state.obstacles[obstacle].nodes, difference_of_displacements(side, u), !term.other);
   if (all.empty()) out.penetration = out.opening = out.displacement = not_there;
   return out;
 }

@@ -233,6 +233,11 @@ TEST(Expression, IsMeasuredAlongTheNormalThatGoesWithIt) {
   EXPECT_EQ(along([](const Site& s) { return s.x[0] < 0.501 ? s.x[1] : s.x[1] + 1; }, {0, 1}), 1);
   EXPECT_NEAR(along([](const Site& s) { return 7 * s.x[1]; }, {0, 2}), 1, 1e-14);
   EXPECT_NEAR(along([](const Site& s) { return s.x[0] * s.x[0] + s.x[1] * s.x[1] - 0.5; }, {0, 1}), 0.5, 1e-11);
+  // Nearly on it all that is left is rounding of the larger terms.
+  const auto circle = [](const Site& s) { return s.x[0] * s.x[0] + (s.x[1] + 20) * (s.x[1] + 20) - 400; };
+  const auto drawn = geometry::expression(expression(circle), Vector{0, 1}, 2, 1, origin);
+  for (const double height : {1e-9, 1e-7, 3e-7, 1e-5})
+    EXPECT_NEAR(at(*drawn, {0.3, std::sqrt(400 - 0.09) - 20 + height, 0}).value, height, 1e-13) << height;
 }
 
 TEST(Shapes, RejectPointsThatAreNotFinite) {
