@@ -69,6 +69,7 @@ MultigridIteration<B>::MultigridIteration(const DiscreteProblem<B>& problem,
       smooth_(B == 1 && !prolongations.empty() && is_smooth(prolongations.back())),
       may_turn_(method_ == Method::automatic && automatic::may_turn(options)),
       nonlinear_(multigrid_.finest().nonlinear) {
+  this->careful_ = multigrid_.of_fourth_order();
   if (problem.following) load_.emplace(*problem.following, multigrid_.finest().constraints, options.tolerance);
   if (this->follows() && problem.loose) stick_everywhere(problem, x);
 }
@@ -105,7 +106,8 @@ typename MultigridIteration<B>::Step MultigridIteration<B>::advance() {
           recombination_.add(this->x_before_, this->x_, from, to);
         });
       });
-  const bool gaining = sums.gain > noise * sums.moved * cycle.rounding;
+  const bool gaining =
+      sums.gain > noise * sums.moved * cycle.rounding && (!this->careful_ || sums.gain > this->storage_energy());
   if (nonlinear_ && this->options_.krylov && !load_) renew_forces();
   if (load_) renew_load(cycle.finest());
   const bool combined = !load_ && this->options_.krylov && method_ != Method::pgs && accelerate(cycle, gaining);
@@ -183,12 +185,13 @@ bool MultigridIteration<B>::loses_patience() const {
 // they are tight, as on algebraic levels, it spreads too slowly with them alone. The gains tell whether they pay after
 // all: where a slender body comes to an obstacle with its tip, or where weights are blocks, which share a distance
 // among so many components that they are asked from the second cycle on. Smooth interpolation reaches so far that its
-// bounds hold back from the first cycle on.
+// bounds hold back from the first cycle on. But what single vectors cut off of it leaves kinks, which an operator of
+// fourth order hardly lets it take: a cycle with bounds then brings these vectors into contact.
 template <int B>
 bool MultigridIteration<B>::goes_without_bounds() const {
   if (method_ == Method::tnnmg) return true;
   if (!may_turn_) return false;
-  if (smooth_) return true;
+  if (smooth_) return !cut_off_;
   const bool may_bend = B > 1;
   if (blocks_ || (rests_ && may_bend)) return !bounds_pay_;
   if (rests_) return true;
@@ -199,6 +202,7 @@ bool MultigridIteration<B>::goes_without_bounds() const {
 template <int B>
 void MultigridIteration<B>::compare_gains(bool free, bool cut_off) {
   const double gain = this->sums_.gain;
+  cut_off_ = free && cut_off;
   if (!free) {
     bounds_pay_ = gain > gain_without_bounds_;
   } else if ((blocks_ || cut_off) && gain > automatic::slow_gain * last_gain_) {

@@ -53,14 +53,14 @@ class MultigridIteration final : public Iteration<B> {
   std::vector<Prolongation> own_;  // empty unless a single level has functionals
   MonotoneMultigrid<B> multigrid_;
   Recombination<B> recombination_;
-  std::optional<LoadRenewal<B>> load_;  // where one follows the solution
-  bool blocks_;                         // among the interpolations' weights
-  bool smooth_;                         // the interpolation to the finest level has no kinks
-  bool may_turn_;                       // "auto" may make corrections without bounds
-  bool nonlinear_;                      // obstacles add to the energy
-  bool rests_ = false;                  // few phases changed in the last cycle
-  bool bounds_pay_ = true;
-  double amplification_ = 0;                               // of rounding in the residual that the last cycle began with
+  std::optional<LoadRenewal<B>> load_;        // where one follows the solution
+  bool blocks_;                               // among the interpolations' weights
+  bool smooth_;                               // the interpolation to the finest level has no kinks
+  bool may_turn_;                             // "auto" may make corrections without bounds
+  bool nonlinear_;                            // obstacles add to the energy
+  bool rests_ = false;                        // few phases changed in the last cycle
+  bool bounds_pay_ = true, cut_off_ = false;  // the latter: the last correction, which had no bounds, by bounds
+  double amplification_ = 0;                  // of rounding in the residual that the last cycle began with
   double last_gain_ = 0, gain_without_bounds_ = infinity;  // the latter: of the correction after which bounds came back
   int cycles_ = 0, bounded_cycles_ = 0;
   ErrorEstimate estimate_;

@@ -1,5 +1,5 @@
 #pragma once
-#include "amg/black_box/two_doubles.hpp"
+#include "core/algebra/two_doubles.hpp"
 #include "core/solver/discrete_problem.hpp"
 
 namespace signorini {

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "amg/black_box/refuse_indefinite.hpp"
-#include "amg/black_box/two_doubles.hpp"
 #include "amg/linear/held_cholesky.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
+#include "core/algebra/two_doubles.hpp"
 #include "core/base/clock.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/convergence.hpp"

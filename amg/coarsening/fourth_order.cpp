@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "amg/linear/masked_cg.hpp"
+#include "core/algebra/products.hpp"
+#include "core/base/dot.hpp"
 
 namespace signorini {
 namespace {
@@ -9,8 +14,9 @@ namespace {
 constexpr double outweighs = 1.05;  // negative couplings over the diagonal; of a beam 4/3, of a plate 8/5
 constexpr double unlike = 0.3;      // norm of what the square of the root lacks, over that of positive couplings
 constexpr double nearly_all = 0.7;  // of the rows
-constexpr double kink_damping =
-    2.0 / 3;  // 4 / (3 lambda), where lambda = 2 bounds the eigenvalues of L over its diagonal
+constexpr double one = 0.999;       // but for rounding: sums of weights
+constexpr int sweeps = 4;           // on each level, after a start that is smooth already
+constexpr double parts = 16;        // of one, which dampings are multiples of
 
 /// Visits q and |a| for the couplings a < 0 between p and others that are free.
 template <class Visit>
@@ -91,6 +97,34 @@ class Comparison {
   std::vector<Index> touched_;      // some more than once: what is left of them is zero then
 };
 
+std::vector<double> interpolated(const Prolongation& P, const std::vector<double>& coarse) {
+  std::vector<double> out(static_cast<std::size_t>(P.fine()), 0.0);
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) out[p] += P.weight[k] * coarse[P.column[k]];
+  return out;
+}
+
+std::vector<double> restricted(const Prolongation& P, const std::vector<double>& forces) {
+  std::vector<double> out(static_cast<std::size_t>(P.coarse), 0.0);
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) out[P.column[k]] += P.weight[k] * forces[p];
+  return out;
+}
+
+/// On the coarsest level.
+std::vector<double> solution(const BlockMatrix<1>& L, const std::vector<Flags>& off, std::vector<double> forces) {
+  std::vector<double> v;
+  apply_mask<1>(off, forces);
+  masked_cg<1>(
+      L, off,
+      [&](const std::vector<double>& r, std::vector<double>& z) {
+        z.assign(r.size(), 0.0);
+        symmetric_gauss_seidel<1>(L, off, r, z);
+      },
+      {.reduction = 1e-3}, forces, v);
+  return v;
+}
+
 }  // namespace
 
 std::optional<BlockMatrix<1>> second_order_root(const BlockMatrix<1>& A, const std::vector<Flags>& off) {
@@ -108,17 +142,64 @@ std::optional<BlockMatrix<1>> second_order_root(const BlockMatrix<1>& A, const s
   return L;
 }
 
-Prolongation rounded_off(const BlockMatrix<1>& L, const std::vector<Flags>& off, const Prolongation& P) {
+std::vector<double> at_twins(const std::vector<double>& v, const Prolongation& P) {
+  std::vector<double> out;
+  for (const Index p : P.twin) out.push_back(v[p]);
+  return out;
+}
+
+std::vector<double> under_even_load(const BlockMatrix<1>& L, const std::vector<Flags>& off,
+                                    std::span<const Prolongation> prolongations,
+                                    std::span<const GalerkinMatrix<1>> matrices) {
+  const std::size_t finest = prolongations.size();
+  std::vector<std::vector<double>> loads(finest + 1);
+  loads[finest].assign(static_cast<std::size_t>(L.size()), 1.0);
+  apply_mask<1>(off, loads[finest]);
+  for (std::size_t k = finest; k-- > 0;) loads[k] = restricted(prolongations[k], loads[k + 1]);
+  std::vector<double> v;
+  for (std::size_t k = 0; k <= finest; ++k) {
+    const BlockMatrix<1>& matrix = k < finest ? matrices[k].A : L;
+    const std::vector<Flags>& mask = k < finest ? matrices[k].off : off;
+    v = k == 0 ? solution(matrix, mask, loads[k]) : interpolated(prolongations[k - 1], v);
+    for (int sweep = 0; k > 0 && sweep < sweeps; ++sweep) symmetric_gauss_seidel<1>(matrix, mask, loads[k], v);
+  }
+  return v;
+}
+
+void fit_near_edges(const std::vector<double>& v, Prolongation& P) {
+  const std::vector<double> found = interpolated(P, at_twins(v, P));
+  for (Index p = 0; p < P.fine(); ++p) {
+    const auto first = P.weight.begin() + P.row[p], last = P.weight.begin() + P.row[p + 1];
+    if (std::accumulate(first, last, 0.0) >= one || !(found[p] > 0 && v[p] > 0)) continue;
+    std::for_each(first, last, [scale = v[p] / found[p]](double& weight) { weight *= scale; });
+  }
+}
+
+double kink_damping(const BlockMatrix<1>& L, const std::vector<Flags>& off, const Prolongation& P,
+                    const std::vector<double>& v) {
+  const std::vector<double> u = interpolated(P, at_twins(v, P));
+  std::vector<double> Lu(u.size()), LDLu(u.size());
+  product<1>(L, u.data(), Lu.data());
+  std::vector<double> DLu = Lu;
+  for (Index p = 0; p < L.size(); ++p) DLu[p] /= *L.diagonal(p);
+  apply_mask<1>(off, DLu);
+  product<1>(L, DLu.data(), LDLu.data());
+  const double along = dot(LDLu, LDLu), best = along > 0 ? dot(Lu, LDLu) / along : 1;
+  return std::clamp(std::round(parts * best), 1.0, parts) / parts;
+}
+
+Prolongation rounded_off(const BlockMatrix<1>& L, const std::vector<Flags>& off, const Prolongation& P,
+                         double damping) {
   Prolongation out;
   out.coarse = P.coarse;
   out.twin = P.twin;
   std::vector<double> sum(static_cast<std::size_t>(P.coarse), 0.0);  // zero between the rows
   std::vector<Index> found;
   for (Index p = 0; p < P.fine(); ++p) {
-    const double of_others = kink_damping / *L.diagonal(p);
+    const double of_others = damping / *L.diagonal(p);
     for (Offset k = L.row[p]; !off[p] && k < L.row[p + 1]; ++k) {
       const Index q = L.column[k];
-      const double part = q == p ? 1 - kink_damping : -of_others * L.value[k];
+      const double part = q == p ? 1 - damping : -of_others * L.value[k];
       for (Offset m = P.row[q]; part > 0 && m < P.row[q + 1]; ++m) {
         if (sum[P.column[m]] == 0) found.push_back(P.column[m]);
         sum[P.column[m]] += part * P.weight[m];

@@ -143,7 +143,8 @@ class Chooser {
 
 namespace {
 
-/// The levels of an operator of second order, gently coarsened, whose interpolations are rounded off.
+/// The levels of an operator of second order, gently coarsened, whose interpolations are right next to prescribed
+/// values and rounded off.
 AlgebraicLevels<1> fourth_order_hierarchy(const DiscreteProblem<1>& problem, BlockMatrix<1> root,
                                           const TransferFactory<1>& transfer, Index enough,
                                           const AlgebraicSettings& settings) {
@@ -159,10 +160,22 @@ AlgebraicLevels<1> fourth_order_hierarchy(const DiscreteProblem<1>& problem, Blo
     descent.go_down(std::move(P), *transfer());
   }
   AlgebraicLevels<1> levels = std::move(descent).levels();
-  for (std::size_t k = 0; k < levels.prolongations.size(); ++k) {
+  const std::vector<double> smooth = under_even_load(second.A, second.fixed, levels.prolongations, levels.matrices);
+  std::vector<double> v = smooth;
+  for (std::size_t k = levels.prolongations.size(); k-- > 0;) {
+    fit_near_edges(v, levels.prolongations[k]);
+    v = at_twins(v, levels.prolongations[k]);
+  }
+  levels = galerkin_hierarchy<1>(second, std::move(levels.prolongations), transfer);
+  v = smooth;
+  for (std::size_t k = levels.prolongations.size(); k-- > 0;) {
     const bool finest = k + 1 == levels.prolongations.size();
-    levels.prolongations[k] = rounded_off(finest ? second.A : levels.matrices[k + 1].A,
-                                          finest ? second.fixed : levels.matrices[k + 1].off, levels.prolongations[k]);
+    const BlockMatrix<1>& L = finest ? second.A : levels.matrices[k + 1].A;
+    const std::vector<Flags>& off = finest ? second.fixed : levels.matrices[k + 1].off;
+    Prolongation& P = levels.prolongations[k];
+    const double damping = kink_damping(L, off, P, v);
+    v = at_twins(v, P);
+    P = rounded_off(L, off, P, damping);
   }
   return galerkin_hierarchy<1>(problem, std::move(levels.prolongations), transfer, settings);
 }

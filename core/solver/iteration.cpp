@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/algebra/careful_residual.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/dot.hpp"
@@ -94,7 +95,10 @@ typename Iteration<B>::Sums Iteration<B>::evaluate(std::vector<double>& x, std::
 template <int B>
 void Iteration<B>::evaluate(std::vector<double>& x, std::vector<double>& r, Index first, Index last, Sums& sums) {
   in_pieces<B>(first, last, [&](Index from, Index to) {
-    residual<B>(problem_.A, x.data(), problem_.b.data(), from, to, r.data() + Offset{from} * B);
+    double* own = r.data() + Offset{from} * B;
+    if (!careful_) residual<B>(problem_.A, x.data(), problem_.b.data(), from, to, own);
+    if constexpr (B == 1)
+      if (careful_) careful_residual(problem_.A, x.data(), problem_.b.data(), from, to, own);
     add_sums(x, r, from, to, sums);
   });
 }
@@ -201,12 +205,24 @@ void Iteration<B>::record(Step step) {
 // What rounding leaves of x'Ax for a rigid motion, which has no energy.
 template <int B>
 double Iteration<B>::rounding_energy() const {
+  return careful_ ? storage_energy() : 16 * std::numeric_limits<double>::epsilon() * energy_of_diagonal();
+}
+
+template <int B>
+double Iteration<B>::storage_energy() const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return epsilon * epsilon * energy_of_diagonal();
+}
+
+// x'Dx on the free components, D the diagonal of A.
+template <int B>
+double Iteration<B>::energy_of_diagonal() const {
   double sum = 0;
   for (Index p = 0; p < problem_.A.size(); ++p)
     for (int k = 0; k < B; ++k)
       if (const double v = x_[Offset{p} * B + k]; !(problem_.fixed[p] >> k & 1u))
         sum += problem_.A.diagonal(p)[k * B + k] * v * v;
-  return 16 * std::numeric_limits<double>::epsilon() * sum;
+  return sum;
 }
 
 template <int B>
@@ -260,8 +276,12 @@ bool Iteration<B>::finished(bool gaining, bool exact) {
 // Found once: near the solution it changes no more.
 template <int B>
 double Iteration<B>::rounding_error() {
-  if (rounding_error_) return *rounding_error_;
   const double enough = negligible * options_.tolerance * size_;
+  if (careful_) {
+    const double stored = std::sqrt(storage_energy());
+    return stored <= enough ? 0 : stored;
+  }
+  if (rounding_error_) return *rounding_error_;
   const double rough = rough_rounding_error(problem_, x_, x_before_, sums_.products.xAx, sums_.correction);
   rounding_error_ = rough <= enough
                         ? 0

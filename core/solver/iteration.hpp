@@ -71,6 +71,8 @@ class Iteration {
   /// Error(Exit::input) where a residual is not finite.
   static void refuse_nan(double residual);
   Index free_unknowns(const Level<B>& level) const;
+  /// x'Ax of what rounding does to the iterate x by storing it.
+  double storage_energy() const;
   /// Whether the natural residual is a small multiple of machine precision times the largest unknown.
   bool is_rounding_of_unknowns() const;
   /// The natural residual over that of the projected zero.
@@ -85,6 +87,7 @@ class Iteration {
   std::vector<double>& x_;
   std::vector<double> r_, x_before_, r_before_;
   Sums sums_;
+  bool careful_ = false;  ///< residuals are rounded once: what is left is that iterates are rounded themselves
   /// What functionals that follow the solution are frozen with at the iterate evaluated last, see Constraints::data:
   /// the natural residual and the energy are those of this phi, gains those of what was frozen. Empty where none
   /// follows.
@@ -101,6 +104,7 @@ class Iteration {
   void measure(double error);
   void record(Step step);
   double rounding_energy() const;
+  double energy_of_diagonal() const;
   double rounding_error();
   bool within_tolerance() const;
   bool finished(bool gaining, bool exact);

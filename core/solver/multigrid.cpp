@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/algebra/careful_residual.hpp"
 #include "core/algebra/energy_along.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/clock.hpp"
@@ -15,6 +16,7 @@
 #include "core/solver/polyhedral_box.hpp"
 #include "core/solver/rounding.hpp"
 #include "core/solver/slide.hpp"
+#include "core/solver/smooth_interpolation.hpp"
 
 namespace signorini {
 
@@ -124,6 +126,7 @@ MonotoneMultigrid<B>::MonotoneMultigrid(const DiscreteProblem<B>& problem, std::
       crew_(std::min(settings.threads, std::max(settings.pre, settings.post) + 2)) {  // no more passes go one way
   levels_.back() = finest_level(problem);
   knows_frames_ = prolongations.empty() || !prolongations.back().local;
+  fourth_order_ = B == 1 && !prolongations.empty() && is_smooth(prolongations.back()) && !levels_.back().nonlinear;
   transfers_.resize(prolongations.size());
   const bool known = problem.galerkin.size() == prolongations.size() &&
                      (settings.rotate == Rotate::all || problem.frames.slot.empty());
@@ -166,8 +169,10 @@ template <int B>
 void MonotoneMultigrid<B>::begin_at(double* x) {
   report_ = {};
   report_.levels.resize(levels_.size());
-  levels_.back().x = x;
-  update_phases(levels_.back(), 0, levels_.back().vectors);
+  Level<B>& level = levels_.back();
+  level.x = x;
+  if (fourth_order_) find_residual(level, 0, level.vectors);
+  update_phases(level, 0, level.vectors, fourth_order_ ? r_.data() : nullptr);
 }
 
 // From zero on, with bounds that hold what is held and no others. What the cycles find grows up to what is sought.
@@ -241,7 +246,7 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
   if (k == 0) {
     down.run(level.chunks, crew_);
     if (finest) {
-      update_phases(level, 0, level.vectors);
+      update_phases(level, 0, level.vectors, nullptr);
       report_.rounding = rounding_of_work(level);
     }
     auto* falling = dynamic_cast<Falling*>(components_.coarse.get());
@@ -255,9 +260,10 @@ void MonotoneMultigrid<B>::descend(std::size_t k, Cycle cycle, const Passes::Run
     coarse.inherited_rounding = level.inherited_rounding;
     down.add([this, k, &level, &coarse](Index first, Index last) {
       in_pieces<B>(first, last, [&](Index from, Index to) {
-        update_phases(level, from, to);
+        find_residual(level, from, to);
+        update_phases(level, from, to, r_.data());
         restrict_residual(k, from, to);
-        coarse.inherited_rounding += rounding_of_work(level, from, to);
+        coarse.inherited_rounding += rounding_of_residual(level, from, to);
       });
     });
     down.run(level.chunks, crew_);
@@ -337,12 +343,11 @@ void MonotoneMultigrid<B>::search(std::size_t k) {
   double energy = 0, work = 0;
   for (Index p = 0; p < level.vectors; ++p) {  // both products while the row is at hand
     const Offset at = Offset{p} * B;
-    double Ad[B], Ax[B];
-    row_product(*level.A, p, step_.data(), Ad);
-    row_product(*level.A, p, level.x, Ax);
+    double Ad[B], r[B];
+    find_products(level, p, Ad, r);
     for (int i = 0; i < B; ++i) {
       energy += step_[at + i] * Ad[i];
-      work += step_[at + i] * (level.b[at + i] - Ax[i]);
+      work += step_[at + i] * r[i];
     }
   }
   if (level.nonlinear) return search_nonlinear(level, energy, work);
@@ -400,18 +405,48 @@ void MonotoneMultigrid<B>::search_nonlinear(Level<B>& level, double energy, doub
 }
 
 template <int B>
+void MonotoneMultigrid<B>::find_residual(const Level<B>& level, Index first, Index last) {
+  r_.resize(static_cast<std::size_t>(last - first) * B);
+  if constexpr (B == 1)
+    if (is_careful(level)) return careful_residual(*level.A, level.x, level.b, first, last, r_.data());
+  residual<B>(*level.A, level.x, level.b, first, last, r_.data());
+}
+
+// Of the row of one vector with the step of a line search, and with the iterate: its residual.
+template <int B>
+void MonotoneMultigrid<B>::find_products(const Level<B>& level, Index p, double* Ad, double* r) const {
+  if constexpr (B == 1)
+    if (is_careful(level)) {
+      *Ad = -careful_residual(*level.A, p, step_.data(), 0);
+      *r = careful_residual(*level.A, p, level.x, level.b[p]);
+      return;
+    }
+  row_product(*level.A, p, step_.data(), Ad);
+  row_product(*level.A, p, level.x, r);
+  for (int i = 0; i < B; ++i) r[i] = level.b[Offset{p} * B + i] - r[i];
+}
+
+// In the units of rounding_of_work(); of a careful one nothing but loads is rounded.
+template <int B>
+double MonotoneMultigrid<B>::rounding_of_residual(const Level<B>& level, Index first, Index last) const {
+  if (!is_careful(level)) return rounding_of_work(level, first, last);
+  return rounding_of_work<B>(level.off, first, last,
+                             [&](Index p, int k) { return std::abs(level.b[Offset{p} * B + k]); });
+}
+
+// From what find_residual() has found.
+template <int B>
 void MonotoneMultigrid<B>::restrict_residual(std::size_t k, Index first, Index last) {
   const Level<B>& fine = levels_[k];
-  r_.resize(static_cast<std::size_t>(last - first) * B);
-  residual<B>(*fine.A, fine.x, fine.b, first, last, r_.data());
   if (fine.nonlinear) fine.subtract_gradient(first, last, r_.data());
   transfers_[k - 1]->restrict_residual(fine, first, last, r_.data(), levels_[k - 1]);
 }
 
 // Distances and critical flags are recomputed from the iterate; what differs from the state the coarser matrices were
 // made with is listed for their local reassembly.
+// @param r residual at these vectors; null where it is not known
 template <int B>
-void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index last) {
+void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index last, const double* r) {
   level.locate(first, last);
   LevelReport& report = report_.levels[static_cast<std::size_t>(&level - levels_.data())];
   const auto [from, to] = slots_between(level.constraints, first, last);
@@ -421,7 +456,8 @@ void MonotoneMultigrid<B>::update_phases(Level<B>& level, Index first, Index las
     const Flags critical = level.phases.critical[slot] & static_cast<Flags>(~level.off[p]);
     report.critical += critical != 0;
     for (int k = 0; k < B; ++k) report.contact[k] += critical >> k & 1u;
-    Flags removed = level.off[p] | truncated(level, slot, critical);
+    const bool free = fourth_order_ && r && critical && !is_pressed(level, slot, r[p - first]);
+    Flags removed = level.off[p] | (free ? Flags{0} : truncated(level, slot, critical));
     const bool turned = level.constraints.has_facets(slot) && hold_facets(level, slot, removed);
     const bool differs = level.truncate(p, removed);
     if (turned && !differs) level.outdated.changed.push_back(p);
@@ -459,7 +495,7 @@ void MonotoneMultigrid<B>::renew_curvature(Level<B>& level, Index slot) {
 template <int B>
 bool MonotoneMultigrid<B>::rests(const Level<B>& level, Index from, Index to, LevelReport& report) const {
   if (level.constraints.size() != level.vectors || !level.constraints.facet.empty() || level.nonlinear || near_ > 0 ||
-      settings_.truncate == Truncation::tangential)
+      fourth_order_ || settings_.truncate == Truncation::tangential)
     return false;
   const Flags kept = settings_.truncate == Truncation::none ? 0 : every_component;
   const Flags *critical = level.phases.critical.data(), *phase = level.phases.phase.data();
@@ -485,6 +521,13 @@ Flags MonotoneMultigrid<B>::truncated(const Level<B>& level, Index slot, Flags c
         critical |= static_cast<Flags>(1u << k);
   if (critical && settings_.truncate == Truncation::tangential) return every_component;
   return critical & every_component;
+}
+
+// Of a scalar in contact.
+template <int B>
+bool MonotoneMultigrid<B>::is_pressed(const Level<B>& level, Index slot, double force) const {
+  const bool below = level.phases.lower[slot] >= 0, above = level.phases.upper[slot] <= 0;
+  return (below && above) || (below && force < 0) || (above && force > 0);
 }
 
 template class MonotoneMultigrid<1>;

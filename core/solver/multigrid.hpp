@@ -82,6 +82,12 @@ class MonotoneMultigrid {
   /// Two vectors that it needs in cycles and not between them.
   std::pair<std::vector<double>&, std::vector<double>&> spare() { return {start_, step_}; }
 
+  /// Whether the interpolation to the finest level is smooth, as operators of fourth order need it (and nothing adds to
+  /// the energy). Their residuals are tiny beside their terms: on that level they are rounded once. What no force
+  /// presses against its bound interpolates there, on all levels: contact that is too wide would only retreat from its
+  /// edge.
+  bool of_fourth_order() const { return fourth_order_; }
+
   const Level<B>& finest() const { return levels_.back(); }
   const std::vector<Level<B>>& levels() const { return levels_; }
 
@@ -94,11 +100,16 @@ class MonotoneMultigrid {
   void search(std::size_t k);
   void search_nonlinear(Level<B>& level, double energy, double work);
   void search_by_coarse_level(Level<B>& level);
-  void update_phases(Level<B>& level, Index first, Index last);
+  bool is_careful(const Level<B>& level) const { return fourth_order_ && &level == &levels_.back(); }
+  void find_residual(const Level<B>& level, Index first, Index last);
+  void find_products(const Level<B>& level, Index p, double* Ad, double* r) const;
+  double rounding_of_residual(const Level<B>& level, Index first, Index last) const;
+  void update_phases(Level<B>& level, Index first, Index last, const double* r);
   bool hold_facets(Level<B>& level, Index slot, Flags& removed);
   void renew_curvature(Level<B>& level, Index slot);
   bool rests(const Level<B>& level, Index from, Index to, LevelReport& report) const;
   Flags truncated(const Level<B>& level, Index slot, Flags critical) const;
+  bool is_pressed(const Level<B>& level, Index slot, double force) const;
   void restrict_residual(std::size_t k, Index first, Index last);
   void assemble_once();
 
@@ -111,7 +122,8 @@ class MonotoneMultigrid {
   Crew crew_;
   CycleReport report_;
   bool line_search_ = false, extended_ = false;
-  bool knows_frames_ = true;  // the interpolation to the finest level
+  bool knows_frames_ = true;   // the interpolation to the finest level
+  bool fourth_order_ = false;  // see of_fourth_order()
   double near_ = 0;
   std::vector<double> r_;                       // residual of one chunk
   std::vector<double> start_, step_;            // of a line search

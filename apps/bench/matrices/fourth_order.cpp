@@ -74,6 +74,14 @@ Programme pentdi(int n, double diagonal) {
   return out;
 }
 
+/// Clamped, pressed onto a floor: as much of it touches for all n.
+Programme beam(int n) {
+  Programme out("beam, even load", diagonals(n, {6, -4, 1}));
+  out.b.setConstant(-3000 / std::pow(n + 1, 4));
+  out.lower.setConstant(-1);
+  return out;
+}
+
 Programme chenhark(int n) {
   Programme out("CHENHARK", diagonals(n, {6, -4, 1}));
   const int half = n / 2, degenerate = n / 10;
@@ -116,6 +124,7 @@ void print_fourth_order(bool quick) {
   const std::vector<int> plates = quick ? std::vector{33, 65, 129, 257} : std::vector{33, 65, 129, 257, 513, 1025};
   for (const bool clamped : {true, false})
     for (const int nodes : plates) row(plate(nodes, clamped));
+  for (const int n : quick ? std::vector{1000, 5000, 50000} : std::vector{1000, 5000, 50000, 200000}) row(beam(n));
   for (const int n : {1000, 5000, 50000}) row(pentdi(n, 6));
   for (const int n : {1000, 5000, 50000}) row(chenhark(n));
   row(pentdi(50000, 12));

@@ -59,7 +59,7 @@ TEST(RoundedOff, KeepsLinearFunctionsAndPositiveWeights) {
   ASSERT_TRUE(L);
   const Prolongation hats = classical_interpolation(*L, problem.fixed, true);
   EXPECT_NEAR(hats.coarse, n / 2, 1);
-  const Prolongation P = rounded_off(*L, problem.fixed, hats);
+  const Prolongation P = rounded_off(*L, problem.fixed, hats, 0.5);
   EXPECT_TRUE(is_smooth(P));
   EXPECT_FALSE(is_smooth(hats));
   EXPECT_EQ(P.twin, hats.twin);
@@ -73,6 +73,79 @@ TEST(RoundedOff, KeepsLinearFunctionsAndPositiveWeights) {
     EXPECT_NEAR(one, 1, 1e-13);
     EXPECT_NEAR(place, p, 1e-11);
   }
+}
+
+/// x (cells - x) along each direction, zero at both ends.
+std::vector<double> arch(int cells, int dimensions) {
+  std::vector<double> out;
+  for (int i = 1; i < cells; ++i)
+    for (int j = 1; j < (dimensions == 1 ? 2 : cells); ++j)
+      out.push_back(static_cast<double>(i * (cells - i)) * (dimensions == 1 ? 1 : j * (cells - j)));
+  return out;
+}
+
+TEST(FitNearEdges, FollowsWhatFallsOffTowardsThem) {
+  constexpr int cells = 20;
+  const DiscreteProblem<1> problem = problem_of(laplacian(cells));
+  const std::vector<double> v = arch(cells, 2);
+  Prolongation P = classical_interpolation(problem.A, problem.fixed, true);
+  const auto sums = [&](Index p, const auto& of) {
+    double sum = 0;
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) sum += P.weight[k] * of(P.column[k]);
+    return sum;
+  };
+  std::vector<double> before;
+  for (Index p = 0; p < P.fine(); ++p) before.push_back(sums(p, [](Index) { return 1; }));
+  fit_near_edges(v, P);
+  const std::vector<double> coarse = at_twins(v, P);
+  int fitted = 0;
+  for (Index p = 0; p < P.fine(); ++p) {
+    const double sum = sums(p, [](Index) { return 1; }), found = sums(p, [&](Index q) { return coarse[q]; });
+    if (before[p] > 0.999) {
+      EXPECT_EQ(sum, before[p]);
+    } else {
+      EXPECT_NEAR(found, v[p], 1e-12 * v[p]);
+      ++fitted;
+    }
+  }
+  EXPECT_GE(fitted, 4 * (cells - 3));
+}
+
+TEST(UnderEvenLoad, IsAboutTheSolution) {
+  constexpr int cells = 64;
+  const Eigen::SparseMatrix<double> L = laplacian(cells);
+  const DiscreteProblem<1> problem = problem_of(L);
+  const Prolongation P = classical_interpolation(problem.A, problem.fixed, true);
+  Eigen::SparseMatrix<double> interpolation(P.fine(), P.coarse);
+  std::vector<Eigen::Triplet<double>> weights;
+  for (Index p = 0; p < P.fine(); ++p)
+    for (Offset k = P.row[p]; k < P.row[p + 1]; ++k) weights.emplace_back(p, P.column[k], P.weight[k]);
+  interpolation.setFromTriplets(weights.begin(), weights.end());
+  const Eigen::SparseMatrix<double> product = interpolation.transpose() * L * interpolation;
+  const std::vector<GalerkinMatrix<1>> matrices = {{problem_of(product).A, std::vector<Flags>(P.coarse, 0)}};
+  const Eigen::VectorXd v = vector(under_even_load(problem.A, problem.fixed, std::span(&P, 1), matrices));
+  const Eigen::VectorXd exact =
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(L).solve(Eigen::VectorXd::Ones(L.rows()));
+  EXPECT_LE((v - exact).norm(), 0.02 * exact.norm());
+}
+
+TEST(KinkDamping, IsOneHalfOnALineAndOneForFivePoints) {
+  constexpr int cells = 64;
+  const auto damping = [](const Eigen::SparseMatrix<double>& L, const std::vector<double>& v) {
+    const DiscreteProblem<1> problem = problem_of(L);
+    Prolongation P = classical_interpolation(problem.A, problem.fixed, true);
+    fit_near_edges(v, P);
+    return kink_damping(problem.A, problem.fixed, P, v);
+  };
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < cells - 1; ++i) {
+    entries.emplace_back(i, i, 2);
+    if (i > 0) entries.emplace_back(i, i - 1, -1), entries.emplace_back(i - 1, i, -1);
+  }
+  Eigen::SparseMatrix<double> line(cells - 1, cells - 1);
+  line.setFromTriplets(entries.begin(), entries.end());
+  EXPECT_EQ(damping(line, arch(cells, 1)), 0.5);
+  EXPECT_EQ(damping(laplacian(cells), arch(cells, 2)), 1);
 }
 
 Eigen::VectorXd by_reference(const Eigen::SparseMatrix<double>& A, const std::vector<double>& b,
@@ -110,6 +183,37 @@ TEST(FourthOrder, PlatesTakeFewCycles) {
     const Eigen::SparseMatrix<double> A = plate(nodes, clamped);
     const std::vector<double> b(n, (clamped ? -3000 : -1000) * std::pow(h, 4)), lower(n, -1.0);
     expect_few_cycles(A, b, lower, by_reference(A, b, lower));
+  }
+}
+
+/// Cycles alone solve it, as far as rounding allows.
+void expect_few_cycles(const Eigen::SparseMatrix<double>& A, double load, int most, double contact) {
+  const auto n = static_cast<std::size_t>(A.rows());
+  SolverOptions options;
+  options.max_iterations = 40;
+  BlackBox solver(A, 1, options);
+  const BlackBox::Result found =
+      solver.solve(std::vector<double>(n, load), std::vector<double>(n, -1.0), std::vector<double>(n, infinity));
+  EXPECT_TRUE(found.summary.converged()) << found.summary.reason;
+  EXPECT_LE(found.summary.stages.front().iterations, most);
+  EXPECT_LE(found.summary.algebraic_error, 2e-8);
+  const auto touching = static_cast<double>(std::ranges::count(found.active, -1));
+  EXPECT_NEAR(touching / static_cast<double>(n), contact, 2e-3);
+}
+
+TEST(FourthOrder, CyclesDoNotGrowWithSupportedPlates) {
+  for (const int nodes : {33, 65, 129}) {
+    SCOPED_TRACE(nodes);
+    const double contact = nodes == 33 ? 77 : nodes == 65 ? 257 : 909;
+    expect_few_cycles(plate(nodes, false), -1000 * std::pow(nodes + 1, -4), 20, contact / (nodes * nodes));
+  }
+}
+
+// What presses the longer one is below what rounding does to the terms of a row: 1e-15, beside 16.
+TEST(FourthOrder, BeamsWhoseLoadsDrownInRoundingAreSolved) {
+  for (const int n : {5000, 40000}) {
+    SCOPED_TRACE(n);
+    expect_few_cycles(five_diagonals(n, 6), -3000 * std::pow(n + 1, -4), 20, 0.2135);
   }
 }
 
