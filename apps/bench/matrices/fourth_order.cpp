@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -106,8 +107,14 @@ std::string cycles(const Programme& p, const char* coarsening) {
   options.coarsening = coarsening;
   options.max_iterations = 60;
   const Summary summary = BlackBox(p.A, 1, options).solve(p.b, p.lower, p.upper).summary;
-  const bool alone = summary.stages.back().linear_solves == 0;
-  return fmt::format("{}{}", summary.iterations, !summary.converged() ? ", unsolved" : alone ? "" : ", then others");
+  const auto solves = [](const Stage& stage) {
+    return stage.linear_solves == 0 && (stage.outcome == Outcome::converged || stage.outcome == Outcome::rounding);
+  };
+  const char* by = !summary.converged()                          ? ", unsolved"
+                   : summary.stages.back().linear_solves == 0    ? ""
+                   : std::ranges::any_of(summary.stages, solves) ? ", refined"
+                                                                 : ", then others";
+  return fmt::format("{}{}", summary.iterations, by);
 }
 
 void row(const Programme& p) {
