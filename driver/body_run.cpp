@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "driver/levels/slid.hpp"
 #include "driver/levels/turned_friction.hpp"
 #include "driver/reports/error_estimate.hpp"
+#include "driver/reports/goals.hpp"
 #include "driver/scene/build_model.hpp"
 #include "driver/scene/problem.hpp"
 #include "driver/scene/touching_bodies.hpp"
@@ -84,7 +86,9 @@ BodyRun<D, B>::BodyRun(const Scene& scene, std::size_t body, const Registry& reg
 template <int D, int B>
 std::unique_ptr<BodyRun<D, B>> BodyRun<D, B>::refined(double growth, Warnings& warnings) const {
   const SolvedOn<D> before{hierarchy_, nodes()};
-  adaptation_->refine(before, estimate_of_element_, growth);
+  std::vector<double> share = goal_of_element_.empty() ? estimate_of_element_ : goal_of_element_;
+  for (double& of_element : share) of_element = std::abs(of_element);
+  adaptation_->refine(before, share, growth);
   auto out = std::make_unique<BodyRun>(scene_, body_, registry_, progress_, times_, warnings, nullptr, adaptation_);
   out->start_from(adaptation_->carried_over(before, results_.u, {out->hierarchy_, out->nodes()}, B));
   return out;
@@ -360,7 +364,7 @@ StepReport BodyRun<D, B>::solve(const LoadStep& step, Warnings& warnings) {
   times_.output += watch.elapsed();
   algebraic_error_ = report.summary.algebraic_error;
   rest_ = rest_of_friction(solution.discretization.problem);
-  add_estimate(report, warnings);
+  add_estimate(report, solution.discretization, warnings);
   solver_.take_back(model_, std::move(solution.discretization));
   if (long_list) give_freed_memory_back();
   restore_elements(hierarchy_);
@@ -377,8 +381,9 @@ Estimate BodyRun<D, B>::estimate(bool cheap, const std::string& estimator) const
 }
 
 template <int D, int B>
-void BodyRun<D, B>::add_estimate(StepReport& report, Warnings& warnings) {
+void BodyRun<D, B>::add_estimate(StepReport& report, const Discretization<B>& discretization, Warnings& warnings) {
   estimate_of_element_.clear();
+  goal_of_element_.clear();
   const std::string& asked = scene_.solver.estimate;
   const std::string estimator = scene_.estimator();
   if (estimator.empty() || !report.summary.converged()) return;
@@ -395,6 +400,24 @@ void BodyRun<D, B>::add_estimate(StepReport& report, Warnings& warnings) {
   if (found.solve_failed) add_once(warning<"bound-not-sharp">(model_.origin), warnings);
   estimate_of_element_ = std::move(found.of_element);
   report.estimate = std::move(found);
+  if (scene_.refine.adaptive && !scene_.refine.is_for_energy()) add_goal(report, discretization);
+}
+
+/// Takes the shares in the goal's error in place of those in the energy's.
+template <int D, int B>
+void BodyRun<D, B>::add_goal(StepReport& report, const Discretization<B>& discretization) {
+  progress_.phase("estimating the error of the goal");
+  const Stopwatch watch;
+  check_goal<D, B>(scene_, body_, model_, solver_.pressure_space() != nullptr);
+  const Quantity<B> goal = goal_of(scene_, nodes(), probes_, discretization, results_, report);
+  GoalReport found{scene_.refine.goal, goal.value, std::numeric_limits<double>::quiet_NaN()};
+  if (const auto z = dual_solution(discretization.problem, goal, rough_solve<B>(registry_))) {
+    const std::string named = scene_.estimator(), id = registry_.estimator(named) ? named : "recovery";
+    goal_of_element_ = dual_weighted(*create_estimator<D, B>(registry_, id), nodes(), model_, results_.u, *z);
+    found.error = std::accumulate(goal_of_element_.begin(), goal_of_element_.end(), 0.0);
+  }
+  report.estimate->goal = std::move(found);
+  report.estimate->seconds += watch.elapsed();
 }
 
 template class BodyRun<2, 1>;

@@ -98,7 +98,8 @@ class BodyRun {
   void take(Solution<B>& solution);
   double off(const Solution<B>& solution) const;
   void look_where_it_came(Solution<B>& solution);
-  void add_estimate(StepReport& report, Warnings& warnings);
+  void add_estimate(StepReport& report, const Discretization<B>& discretization, Warnings& warnings);
+  void add_goal(StepReport& report, const Discretization<B>& discretization);
 
   const Scene& scene_;
   std::size_t body_;
@@ -121,7 +122,7 @@ class BodyRun {
   StrainSizes<D> strains_;      // of an elastic body, once converged
   double algebraic_error_ = 0;  // of the last solve
   std::vector<double> rest_;    // of friction, in it
-  std::vector<double> estimate_of_element_;
+  std::vector<double> estimate_of_element_, goal_of_element_;  // the latter of the goal's error, of either sign
 };
 
 }  // namespace signorini

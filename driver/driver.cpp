@@ -171,6 +171,8 @@ void Driver::solve_steps(const std::function<void()>& done) {
 std::string Driver::why_not_refined(const AdaptiveReport& past) const {
   const Scene::Refine& limits = scene_.refine;
   const AdaptiveStep& last = past.steps.back();
+  if (last.error.goal && !std::isfinite(last.error.goal->relative_error()))
+    return "what the goal depends on could not be found";
   if (std::ssize(past.steps) > limits.max_steps) return fmt::format("refine.max_steps is {}", limits.max_steps);
   if (last.seconds > limits.max_seconds) return fmt::format("refine.max_seconds is {:g}", limits.max_seconds);
   if (static_cast<double>(last.unknowns) * least_growth > limits.max_unknowns)
@@ -195,7 +197,8 @@ bool Driver::refine(double seconds) {
   past.steps.push_back({visit(0, [](const auto& run) { return static_cast<Index>(run.estimate_of_element().size()); }),
                         last.summary.level_unknowns.back(), last.summary.iterations, last.summary.energy, *error,
                         seconds});
-  past.reached = error->relative_estimated() <= scene_.refine.tolerance;
+  const double off = error->goal ? error->goal->relative_error() : error->relative_estimated();
+  past.reached = off <= scene_.refine.tolerance;
   past.reason = past.reached ? "refine.tolerance is reached" : why_not_refined(past);
   if (past.reason.empty()) {
     const double growth =
@@ -218,8 +221,8 @@ bool Driver::refine(double seconds) {
   }
   if (!past.reached)
     report_.warnings.push_back(warning<"accuracy-not-reached">(
-        scene_.refine.source.of("tolerance"), std::isfinite(error->upper) ? "at most" : "about",
-        error->relative_estimated(), scene_.refine.tolerance, past.reason));
+        scene_.refine.source.of("tolerance"), error->goal ? error->goal->name : "energy",
+        std::isfinite(error->upper) && !error->goal ? "at most" : "about", off, scene_.refine.tolerance, past.reason));
   return false;
 }
 

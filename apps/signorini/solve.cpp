@@ -18,6 +18,7 @@
 #include "core/io/output_place.hpp"
 #include "driver/driver.hpp"
 #include "driver/reports/error_estimate.hpp"
+#include "driver/reports/goals.hpp"
 #include "driver/scene/numbers.hpp"
 #include "driver/scene/touching_bodies.hpp"
 
@@ -159,19 +160,36 @@ void print_steps(const Report& report) {
              report.failed.empty() ? "" : fmt::format("; {} more failed and were cut in two", report.failed.size()));
 }
 
-/// The meshes of a run that refines where its error is.
-void print_meshes(const Report& report) {
-  if (!report.adaptive) return;
+/// Of a run that refines for the energy.
+void print_errors(const AdaptiveReport& meshes) {
   const auto bounds = [](const AdaptiveStep& mesh) { return std::isfinite(mesh.error.upper); };
-  const bool some = std::ranges::any_of(report.adaptive->steps, bounds);
+  const bool some = std::ranges::any_of(meshes.steps, bounds);
   fmt::print("{:>4} {:>10} {:>10} {:>15} {:>15} {:>9}\n", "mesh", "unknowns", "iterations",
              some ? "error at least" : "", some ? "at most" : "error estimated", "seconds");
-  for (int number = 1; const AdaptiveStep& mesh : report.adaptive->steps)
+  for (int number = 1; const AdaptiveStep& mesh : meshes.steps)
     fmt::print("{:>4} {:>10} {:>10} {:>15} {:>13.3g} % {:>9.2f}\n", number++, mesh.unknowns, mesh.iterations,
                bounds(mesh) ? fmt::format("{:.3g} %", 100 * mesh.error.relative_lower())
                : some       ? "about"
                             : "",
                100 * mesh.error.relative_estimated(), mesh.seconds);
+}
+
+/// Of one that does so for another goal.
+void print_goals(const AdaptiveReport& meshes) {
+  fmt::print("{:>4} {:>10} {:>10} {:>15} {:>15} {:>9}\n", "mesh", "unknowns", "iterations",
+             meshes.steps.front().error.goal->name, "error estimated", "seconds");
+  for (int number = 1; const AdaptiveStep& mesh : meshes.steps)
+    fmt::print("{:>4} {:>10} {:>10} {:>15.6g} {:>13.3g} % {:>9.2f}\n", number++, mesh.unknowns, mesh.iterations,
+               mesh.error.goal->value, 100 * mesh.error.goal->relative_error(), mesh.seconds);
+}
+
+/// The meshes of a run that refines where its error is.
+void print_meshes(const Report& report) {
+  if (!report.adaptive) return;
+  if (report.adaptive->steps.front().error.goal)
+    print_goals(*report.adaptive);
+  else
+    print_errors(*report.adaptive);
   fmt::print("refined {} times: {}\n", report.adaptive->steps.size() - 1, report.adaptive->reason);
 }
 
@@ -190,6 +208,7 @@ void print_result(const Console& console, const Report& report, const std::vecto
                fmt::join(rigid.displacement, ", "), fmt::join(rigid.rotation, ", "), fmt::join(rigid.force, ", "),
                fmt::join(rigid.torque, ", "));
   if (last.estimate) fmt::print("{}\n", error_text(*last.estimate));
+  if (last.estimate && last.estimate->goal) fmt::print("{}\n", error_text(*last.estimate->goal));
   for (const ProbeReport& probe : last.probes) fmt::print("{}: ({:.9g})\n", probe.name, fmt::join(probe.value, ", "));
   const Times& time = report.time;
   fmt::print(

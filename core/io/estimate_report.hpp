@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +9,15 @@ namespace signorini {
 /// What the upper bound of an error consists of; the sum is that bound. NaN: not known.
 struct EstimateParts {
   double discretisation = 0, algebra = 0, contact = 0, oscillation = 0, geometry = 0, friction = 0;
+};
+
+/// A number that a mesh was refined for.
+struct GoalReport {
+  std::string name;  ///< as the scene has it: "force"
+  double value = 0;
+  double error = 0;  ///< about what is to be added to it; NaN: not known
+
+  double relative_error() const { return std::abs(error) / std::abs(value); }
 };
 
 /// How much energy v has above the true solution u, J(v) - J(u), from below and from above; v is the discrete solution
@@ -20,6 +31,7 @@ struct EstimateReport {
   bool guaranteed = false;
   std::vector<std::string> reasons;  ///< why not
   EstimateParts parts;
+  std::optional<GoalReport> goal{};  ///< nothing: refined for the energy, or not at all
   double seconds = 0;
 
   double relative_lower() const { return lower / energy; }

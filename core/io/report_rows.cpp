@@ -457,6 +457,16 @@ struct Table<EstimateParts> {
   }
 };
 
+template <>
+struct Table<GoalReport> {
+  static constexpr const char* name = "goal";
+  static std::vector<Row<GoalReport>> rows() {
+    using G = GoalReport;
+    return {member("name", &G::name, "as the scene has it"), member("value", &G::value, "what was found"),
+            member("error", &G::error, "about what is missing of that; null: not known")};
+  }
+};
+
 namespace {
 
 /// How large an error is.
@@ -473,7 +483,10 @@ std::vector<Row<EstimateReport>> error_numbers() {
       {{"relative_upper", Kind::number, "and at most"}, [](const E& e) -> Json { return e.relative_upper(); }},
       {{"relative_estimated", Kind::number, "and about"}, [](const E& e) -> Json { return e.relative_estimated(); }},
       member("guaranteed", &E::guaranteed,
-             "whether the true number certainly lies between the bounds, apart from rounding")};
+             "whether the true number certainly lies between the bounds, apart from rounding"),
+      {{"goal", Kind::object, "the number that meshes are refined for; null: the energy", true, false,
+        &object_spec<GoalReport>},
+       [](const E& e) { return e.goal ? as_object(*e.goal) : Json(nullptr); }}};
 }
 
 }  // namespace

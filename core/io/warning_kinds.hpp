@@ -176,7 +176,7 @@ inline constexpr WarningKind warning_kinds[] = {
      "strains are over `0.2` in more than a twentieth of a body",
      "smaller loads; or use the results only as numbers that are proportional to the loads"},
     {WarningKind::About::result, "accuracy-not-reached",
-     "{}: the energy error is {} {:.3g} of the energy, but {:g} was asked for: {}",
+     "{}: the error of the {} is {} {:.3g} of it, but {:g} was asked for: {}",
      "an adaptive run ended before it was as accurate as `refine.tolerance` says",
      "more `refine.max_unknowns`, `max_steps` or `max_seconds`, or a larger `tolerance`"},
     {WarningKind::About::result, "bound-not-sharp",

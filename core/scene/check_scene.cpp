@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -253,6 +254,28 @@ void check_symmetry(const Scene& scene) {
                                 in_quotes(body.name)));
 }
 
+/// What an adaptive run is for.
+void check_goal(const Scene& scene) {
+  const Scene::Refine& refine = scene.refine;
+  if (refine.is_for_energy()) return;
+  const auto fail = [&](const std::string& what) { input_error(refine.source.of("goal"), what); };
+  if (!refine.adaptive) fail("'goal' has no meaning without adaptive = true");
+  if (const std::string name = refine.goal_probe(); !name.empty()) {
+    std::vector<std::string> names;
+    for (const Scene::Probe& probe : scene.probes) names.push_back(probe.name);
+    if (std::ranges::find(names, name) != names.end()) return;
+    const std::string near = did_you_mean(name, names);
+    fail(fmt::format("there is no probe {}{}", in_quotes(name),
+                     near.empty() ? fmt::format(" (probes: {})", fmt::join(names, ", ")) : near));
+  }
+  const std::vector<std::string> goals{"energy", "force", "peak_pressure", "probe NAME"};
+  if (refine.goal != goals[1] && refine.goal != goals[2])
+    fail(fmt::format("unknown goal {}{} (goals: {})", in_quotes(refine.goal), did_you_mean(refine.goal, goals),
+                     fmt::join(goals, ", ")));
+  if (scene.obstacles.empty() && !scene.contact)
+    fail(fmt::format("goal = \"{}\" is what an obstacle exerts, and there is no [[obstacle]]", refine.goal));
+}
+
 void check_common_dimension(const Scene& scene) {
   for (const Scene::Body& body : scene.bodies)
     if (const int found = dimension_of(body); found != 0 && found != scene.dimension)
@@ -361,6 +384,7 @@ void check_scene(const Scene& scene, const std::string& place) {
   check_contact(scene);
   check_held(scene, place);
   check_symmetry(scene);
+  check_goal(scene);
   check_common_dimension(scene);
   if (scene.dimension != 0) check_dimension(scene, scene.dimension);
 }

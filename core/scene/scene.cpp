@@ -93,7 +93,7 @@ void read_settings(const RawDocument& document, const std::filesystem::path& fol
   scene.refine = {refine.integer("uniform"),      refine.source(),
                   refine.flag("adaptive"),        refine.number("tolerance"),
                   refine.integer("max_unknowns"), refine.integer("max_steps"),
-                  refine.number("max_seconds")};
+                  refine.number("max_seconds"),   refine.text("goal")};
   scene.symmetry = read_symmetry(reader("symmetry"));
   scene.steps = read_steps(reader("steps"));
   const TableReader output = reader("output");
@@ -128,6 +128,11 @@ const std::string& Scene::Source::of(std::string_view key) const {
 
 const Scene::Body& Scene::body(std::string_view body_name) const {
   return *std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == body_name; });
+}
+
+std::string Scene::Refine::goal_probe() const {
+  constexpr std::string_view kind = "probe ";
+  return goal.starts_with(kind) ? goal.substr(kind.size()) : std::string();
 }
 
 bool Scene::looks_for_pairs(const Body& body) const {

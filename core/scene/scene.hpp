@@ -220,10 +220,15 @@ struct Scene {
     int uniform = 0;
     Source source;
     bool adaptive = false;    ///< refine where the error is, until one of the following
-    double tolerance = 0.01;  ///< of the upper bound of the energy error, relative
+    double tolerance = 0.01;  ///< of the upper bound of the energy error, or of the goal's error, relative
     int max_unknowns = 1000000;
     int max_steps = 30;  ///< meshes beside the first one
     double max_seconds = 3600;
+    std::string goal = "energy";  ///< what it is for: energy, force, peak_pressure or "probe NAME"
+
+    bool is_for_energy() const { return goal == "energy"; }
+    /// The name in "probe NAME"; empty: another goal.
+    std::string goal_probe() const;
   };
 
   /// All bodies are symmetric about these planes, and the part on one side is meshed.
@@ -267,7 +272,7 @@ struct Scene {
   /// Whether `contact` looks for obstacles of that body.
   bool looks_for_pairs(const Body& body) const;
   /// The id of the estimator of the error that `solver.estimate` and `refine.adaptive` ask for: "certificate" of what
-  /// asks for bounds; empty: none.
+  /// asks for bounds, "recovery" where goals other than the energy do not need these; empty: none.
   std::string estimator() const;
 };
 

@@ -150,6 +150,7 @@ std::string solver_options_page() {
 std::string Scene::estimator() const {
   const std::string& asked = solver.estimate;
   if (asked == "false" && !refine.adaptive) return {};
+  if (asked == "false" && !refine.is_for_energy()) return "recovery";
   return asked == "false" || asked == "true" || asked == "auto" || asked == "cheap" ? "certificate" : asked;
 }
 

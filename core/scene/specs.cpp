@@ -284,7 +284,10 @@ constexpr KeySpec refine[] = {
     {"max_unknowns", integer, "1000000", "[1, 2000000000]", "", "or where the next mesh would have more unknowns"},
     {"max_steps", integer, "30", "[0, 1000]", "", "or after so many refinements"},
     {"max_seconds", number, "3600", "(0, inf)", "", "or where this time is over"},
-    {"goal", text, "", "", every_value, "what meshes are refined for, in place of the energy"},
+    {"goal", text, "energy", "energy | force | peak_pressure | ...", "",
+     "what meshes are refined for, and what `tolerance` is a part of. energy: all of the solution; force: the largest "
+     "normal force of an obstacle; peak_pressure: the largest pressure of contact; \"probe NAME\": how far a probe "
+     "moves, or its value. These three are estimated, with no bounds"},
 };
 
 constexpr KeySpec symmetry[] = {

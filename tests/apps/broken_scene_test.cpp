@@ -130,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"WrongPluginForElasticity", punch, "type = \"contact\"", "type = \"scalar\"", 2,
                "obstacle.0.type: the obstacle type 'scalar' is for scalar unknowns, and body 'b' has equation = "
                "'elasticity'; expected a type for elastic bodies, such as 'contact'"},
-        Broken{"Goal", membrane, "uniform = 3", "goal = 'force'", 2, "not available in this version"},
+        Broken{"GoalOfAUniformMesh", membrane, "uniform = 3", "goal = 'force'", 2,
+               "refine.goal: 'goal' has no meaning without adaptive = true"},
         Broken{"MisspeltMethod", membrane, "[refine]", "[solver]\nmethod = \"monotne\"\n[refine]", 2,
                "solver.method: expected one of auto | monotone | tnnmg | pgs | pdas | newton, found 'monotne', did you "
                "mean "

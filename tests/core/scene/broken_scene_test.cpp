@@ -174,6 +174,19 @@ const std::vector<Broken> broken = {
     {ball, "uniform = 2", "uniform = 2.0", {"scene.toml:35: refine.uniform", "whole number in [0, 30], found 2.0"}},
     {ball, "uniform = 2", "uniform = 99999999999999", {"scene.toml:35: refine.uniform", "[0, 30]"}},
     {ball, "uniform = 2", "adaptive = 1", {"scene.toml:35: refine.adaptive", "true or false", "found 1"}},
+    {ball, "uniform = 2", "goal = 'force'", {"scene.toml:35: refine.goal", "no meaning without adaptive = true"}},
+    {ball,
+     "uniform = 2",
+     "adaptive = true\ngoal = 'forces'",
+     {"scene.toml:36: refine.goal: unknown goal 'forces', did you mean 'force'?", "energy, force, peak_pressure"}},
+    {ball,
+     "uniform = 2",
+     "adaptive = true\ngoal = 'probe polle'",
+     {"scene.toml:36: refine.goal: there is no probe 'polle', did you mean 'pole'?"}},
+    {ball,
+     "uniform = 2",
+     "adaptive = true\ngoal = 'probe x'",
+     {"scene.toml:36: refine.goal: there is no probe 'x' (probes: pole)"}},
     {ball, "[solver]", "[steps]\ncount = 0\n[solver]", {"scene.toml:32: steps.count", "found 0"}},
     {ball,
      "[solver]",
@@ -237,23 +250,6 @@ TEST(BrokenScene, WithoutFixAndObstacleNothingHoldsTheBody) {
 TEST(BrokenScene, EmptyFilesHaveNoBody) {
   EXPECT_THAT(test::outcome([] { test::parse(""); }).message, HasSubstr("there is no [[body]]"));
   EXPECT_THAT(test::outcome([] { test::parse("# nothing\n"); }).message, HasSubstr("there is no [[body]]"));
-}
-
-/// What is promised for later: understood, and refused.
-struct Later {
-  const std::string& scene;
-  const char* assignment;
-};
-
-const std::vector<Later> later = {{membrane, "refine.goal=force"}};
-
-TEST(BrokenScene, WhatLaterVersionsBringIsNotAvailable) {
-  for (const Later& l : later) {
-    const test::Outcome result = test::outcome([&] { test::parse(l.scene, {l.assignment}); });
-    EXPECT_EQ(result.status, Exit::input) << l.assignment;
-    EXPECT_THAT(result.message, HasSubstr("is not available in this version")) << l.assignment;
-    EXPECT_THAT(result.message, HasSubstr(l.assignment));
-  }
 }
 
 TEST(BrokenScene, FacesOfASecondBodyThatIsNotNamed) {
