@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -414,7 +413,7 @@ void BodyRun<D, B>::add_goal(StepReport& report, const Discretization<B>& discre
   if (const auto z = dual_solution(discretization.problem, goal, rough_solve<B>(registry_))) {
     const std::string named = scene_.estimator(), id = registry_.estimator(named) ? named : "recovery";
     goal_of_element_ = dual_weighted(*create_estimator<D, B>(registry_, id), nodes(), model_, results_.u, *z);
-    found.error = std::accumulate(goal_of_element_.begin(), goal_of_element_.end(), 0.0);
+    found.error = goal_error(nodes(), discretization.problem, goal, goal_of_element_);
   }
   report.estimate->goal = std::move(found);
   report.estimate->seconds += watch.elapsed();

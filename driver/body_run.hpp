@@ -119,9 +119,9 @@ class BodyRun {
   bool follows_ = false;
   double t_ = 0, accepted_t_ = 0;  // of the last step, and of the last one accepted
   Results<D, B> results_;
-  StrainSizes<D> strains_;      // of an elastic body, once converged
-  double algebraic_error_ = 0;  // of the last solve
-  std::vector<double> rest_;    // of friction, in it
+  StrainSizes<D> strains_;                                     // of an elastic body, once converged
+  double algebraic_error_ = 0;                                 // of the last solve
+  std::vector<double> rest_;                                   // of friction, in it
   std::vector<double> estimate_of_element_, goal_of_element_;  // the latter of the goal's error, of either sign
 };
 

@@ -1,5 +1,8 @@
 #include "estimators/goal.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/dot.hpp"
 #include "core/fem/assembly/discretize.hpp"
 #include "core/solver/local_coordinates.hpp"
@@ -54,9 +57,54 @@ std::vector<double> dual_weighted(const Estimator<D, B>& by, const Nodes<D>& nod
   return out;
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                            \
-  template std::vector<double> dual_weighted(const Estimator<D, B>&, const Nodes<D>&, const Model<B>&,         \
-                                             const std::vector<double>&, const std::vector<double>&);
+namespace {
+
+/// The nodes of elements in which some nodes that an obstacle may reach are held otherwise than others.
+template <int D, int B>
+std::vector<char> at_edges(const Nodes<D>& nodes, const DiscreteProblem<B>& problem, const Quantity<B>& goal) {
+  std::vector<char> out(static_cast<std::size_t>(nodes.size()));
+  if (problem.constraints.slot.empty()) return out;
+  with_order(nodes, [&](auto order) {
+    for (const auto& vertices : nodes.template elements<order>()) {
+      const auto element = nodes.of(vertices);
+      std::optional<Flags> held;
+      bool differ = false;
+      for (const Index p : element) {
+        if (problem.constraints.slot[p] < 0) continue;
+        differ = differ || (held && *held != goal.held[p]);
+        held = goal.held[p];
+      }
+      for (const Index p : element) out[p] = out[p] || differ;
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+template <int D, int B>
+double goal_error(const Nodes<D>& nodes, const DiscreteProblem<B>& problem, const Quantity<B>& goal,
+                  const std::vector<double>& share) {
+  const std::vector<char> edge = at_edges(nodes, problem, goal);
+  double sum = 0, around_edges = 0;
+  with_order(nodes, [&](auto order) {
+    const auto& elements = nodes.template elements<order>();
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      const auto element = nodes.of(elements[e]);
+      if (std::ranges::any_of(element, [&](Index p) { return edge[p] != 0; }))
+        around_edges += std::abs(share[e]);
+      else
+        sum += share[e];
+    }
+  });
+  return std::abs(sum) + around_edges;
+}
+
+#define SIGNORINI_INSTANTIATE(D, B)                                                                    \
+  template std::vector<double> dual_weighted(const Estimator<D, B>&, const Nodes<D>&, const Model<B>&, \
+                                             const std::vector<double>&, const std::vector<double>&);  \
+  template double goal_error(const Nodes<D>&, const DiscreteProblem<B>&, const Quantity<B>&,           \
+                             const std::vector<double>&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

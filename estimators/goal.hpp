@@ -36,4 +36,11 @@ template <int D, int B>
 std::vector<double> dual_weighted(const Estimator<D, B>& by, const Nodes<D>& nodes, const Model<B>& model,
                                   const std::vector<double>& u, const std::vector<double>& z);
 
+/// About how large the error of a goal is, by the shares of elements. They add up, with their signs; but around the
+/// edges of what is held those have no meaning: where an edge lies within an element is not known.
+/// @param share dual_weighted()
+template <int D, int B>
+double goal_error(const Nodes<D>& nodes, const DiscreteProblem<B>& problem, const Quantity<B>& goal,
+                  const std::vector<double>& share);
+
 }  // namespace signorini

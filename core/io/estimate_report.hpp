@@ -15,7 +15,7 @@ struct EstimateParts {
 struct GoalReport {
   std::string name;  ///< as the scene has it: "force"
   double value = 0;
-  double error = 0;  ///< about what is to be added to it; NaN: not known
+  double error = 0;  ///< about how far off it is; NaN: not known
 
   double relative_error() const { return std::abs(error) / std::abs(value); }
 };

@@ -463,7 +463,7 @@ struct Table<GoalReport> {
   static std::vector<Row<GoalReport>> rows() {
     using G = GoalReport;
     return {member("name", &G::name, "as the scene has it"), member("value", &G::value, "what was found"),
-            member("error", &G::error, "about what is missing of that; null: not known")};
+            member("error", &G::error, "about how far off that is; null: not known")};
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
+#include "core/fem/recovery/fit_limits.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
@@ -83,7 +84,8 @@ template <int D, int B>
 void ask_for_force(const Nodes<D>& nodes, const Results<D, B>& results, const StepReport& report, HeldNodes<B>& held,
                    Quantity<B>& goal) {
   std::vector<double> size;
-  for (const ContactReport& contact : report.contact) size.push_back(std::sqrt(dot(contact.normal_force, contact.normal_force)));
+  for (const ContactReport& contact : report.contact)
+    size.push_back(std::sqrt(dot(contact.normal_force, contact.normal_force)));
   const auto obstacle = static_cast<Index>(std::ranges::max_element(size) - size.begin());
   goal.value = size[obstacle];
   Direction<B> along{};
@@ -98,7 +100,30 @@ void ask_for_force(const Nodes<D>& nodes, const Results<D, B>& results, const St
     if (node.obstacle == obstacle && is_in_contact(node)) held.ask(node, along);
 }
 
-/// The largest pressure, by the mean over the node that has it and its neighbours.
+/// Nodes of an obstacle's contact within so many rings of neighbours, as pressures are recovered from.
+template <int D, int B>
+std::vector<const ContactNode<B>*> pressed_around(const Nodes<D>& nodes, const std::vector<ContactNode<B>>& all,
+                                                  const ContactNode<B>& top) {
+  std::vector<const ContactNode<B>*> pressed(static_cast<std::size_t>(nodes.size()));
+  for (const ContactNode<B>& node : all)
+    if (node.obstacle == top.obstacle && is_in_contact(node)) pressed[node.vertex] = &node;
+  std::vector<char> reached(pressed.size());
+  reached[top.vertex] = true;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> before = reached;
+    for (std::size_t e = 0; e < nodes.mesh().elements.size(); ++e) {
+      const auto corners = nodes.of_simplex(e);
+      if (std::ranges::none_of(corners, [&](Index p) { return before[p] != 0; })) continue;
+      for (const Index p : corners) reached[p] = pressed[p] != nullptr;
+    }
+  }
+  std::vector<const ContactNode<B>*> out;
+  for (std::size_t p = 0; p < pressed.size(); ++p)
+    if (reached[p] != 0) out.push_back(pressed[p]);
+  return out;
+}
+
+/// The largest pressure, by the mean around the node that has it.
 template <int D, int B>
 void ask_for_pressure(const Nodes<D>& nodes, const Results<D, B>& results, HeldNodes<B>& held, Quantity<B>& goal) {
   const auto& all = results.contact.nodes;
@@ -106,21 +131,9 @@ void ask_for_pressure(const Nodes<D>& nodes, const Results<D, B>& results, HeldN
   const auto top = std::ranges::max_element(all, {}, recovered);
   if (top == all.end() || !is_in_contact(*top)) return;
   goal.value = top->recovered;
-  std::vector<Index> around;
-  for (std::size_t e = 0; e < nodes.mesh().elements.size(); ++e) {
-    const auto corners = nodes.of_simplex(e);
-    if (std::ranges::find(corners, top->vertex) != corners.end())
-      around.insert(around.end(), corners.begin(), corners.end());
-  }
-  std::ranges::sort(around);
-  std::vector<const ContactNode<B>*> patch;
+  const auto patch = pressed_around(nodes, all, *top);
   double area = 0;
-  for (const ContactNode<B>& node : all) {
-    if (node.obstacle != top->obstacle || !is_in_contact(node) || !std::ranges::binary_search(around, node.vertex))
-      continue;
-    patch.push_back(&node);
-    area += node.area * node.covered;
-  }
+  for (const ContactNode<B>* node : patch) area += node->area * node->covered;
   for (const ContactNode<B>* node : patch) {
     Direction<B> along = node->direction;
     for (double& d : along) d /= area;
@@ -163,7 +176,7 @@ void check_goal(const Scene& scene, std::size_t body, const Model<B>& model, boo
 
 template <int D, int B>
 Quantity<B> goal_of(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes,
-                const Discretization<B>& discretization, const Results<D, B>& results, const StepReport& report) {
+                    const Discretization<B>& discretization, const Results<D, B>& results, const StepReport& report) {
   Quantity<B> goal;
   HeldNodes<B> held(discretization, goal);
   for (const ContactNode<B>& node : results.contact.nodes)
@@ -184,10 +197,10 @@ std::string error_text(const GoalReport& goal) {
   return fmt::format("{} {:.6g}, error estimated as {:.2g} %", goal.name, goal.value, 100 * goal.relative_error());
 }
 
-#define SIGNORINI_INSTANTIATE(D, B)                                                                          \
-  template void check_goal<D, B>(const Scene&, std::size_t, const Model<B>&, bool);                          \
-  template Quantity<B> goal_of(const Scene&, const Nodes<D>&, const Probes<D>&, const Discretization<B>&,        \
-                           const Results<D, B>&, const StepReport&);
+#define SIGNORINI_INSTANTIATE(D, B)                                                                       \
+  template void check_goal<D, B>(const Scene&, std::size_t, const Model<B>&, bool);                       \
+  template Quantity<B> goal_of(const Scene&, const Nodes<D>&, const Probes<D>&, const Discretization<B>&, \
+                               const Results<D, B>&, const StepReport&);
 SIGNORINI_INSTANTIATE(2, 1)
 SIGNORINI_INSTANTIATE(3, 1)
 SIGNORINI_INSTANTIATE(2, 2)

@@ -17,7 +17,7 @@ void check_goal(const Scene& scene, std::size_t body, const Model<B>& model, boo
 /// @param report of the results, with contact and probes
 template <int D, int B>
 Quantity<B> goal_of(const Scene& scene, const Nodes<D>& nodes, const Probes<D>& probes,
-                const Discretization<B>& discretization, const Results<D, B>& results, const StepReport& report);
+                    const Discretization<B>& discretization, const Results<D, B>& results, const StepReport& report);
 
 /// "force 0.01568, error about 0.02 %"
 std::string error_text(const GoalReport& goal);
