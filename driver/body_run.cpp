@@ -196,16 +196,22 @@ const std::string* BodyRun<D, B>::veto_against_cutting() const {
 
 template <int D, int B>
 auto BodyRun<D, B>::doubt_of_friction(const LoadStep& step, double end, bool followed) const -> FrictionDoubt {
+  constexpr const char* at_newcomers =
+      "most of friction acts at nodes that came into contact in this step, and what they moved before they touched "
+      "counts, too";
   if (const char* turned = signorini::doubt_of_friction(accepted_contact_, results_.contact, followed,
                                                         rounding_of_places(nodes().mesh())))
-    return {turned};
+    return {turned, at_newcomers};
   if constexpr (D == B) {
     if (!remembers()) return {};
     const std::vector<double> before = follows_ ? accepted_ : std::vector<double>(results_.u.size());
     const double rest = (end - step.to) / (step.to - step.from);
     const double part = part_in_flight(nodes(), model_, accepted_contact_, results_.contact, results_.masters, before,
                                        results_.u, rest);
-    if (part > 0) return {"bodies came along the surface before they touched", part};
+    if (part > 0) return {"bodies came along the surface before they touched", at_newcomers, part};
+    if (!follows_ && !followed && slid() > 1)
+      return {"bodies slid past each other by a noticeable part of what touches",
+              "where there is friction the first step sees them where they are drawn"};
   }
   return {};
 }
@@ -306,13 +312,19 @@ double BodyRun<D, B>::off(const Solution<B>& solution) const {
   return noticeably_off(deformed_contacts(nodes(), model, state, u), state);
 }
 
+/// See noticeably_slid().
+template <int D, int B>
+double BodyRun<D, B>::slid() const {
+  if constexpr (D == B)
+    return noticeably_slid<D>(nodes(), model_, results_.contact, results_.masters, results_.u, results_.shift);
+  return 0;
+}
+
 /// In the first step, if need be; others begin where the last one has come to, see NestedSolver::solve_after().
 template <int D, int B>
 void BodyRun<D, B>::look_where_it_came(Solution<B>& solution) {
   double was = noticeably_off(results_.deformed, results_.contact);
-  if constexpr (D == B)
-    was = std::max(was,
-                   noticeably_slid<D>(nodes(), model_, results_.contact, results_.masters, results_.u, results_.shift));
+  was = std::max(was, slid());
   const bool rubs = !solution.discretization.functional.empty();  // the way there would count as slip
   if (D != B || turns_ || follows_ || rubs || !solution.summary.converged() || !(was > 1)) return;
   solution.x = to_local(solution.discretization.problem, results_.u);

@@ -22,7 +22,8 @@ namespace signorini {
 /// Why a step may be too long for friction, and where to cut it.
 struct FrictionDoubt {
   const char* reason = nullptr;  ///< null: it is not
-  double cut_at = 0.5;           ///< of the step
+  const char* why = "";
+  double cut_at = 0.5;  ///< of the step
 };
 
 /// One body of a scene: its meshes, the solver that is kept for all steps, and the results of the last one.
@@ -97,6 +98,7 @@ class BodyRun {
   Solution<B> solve_or_take_turns(const Model<B>& model, const LoadStep& step);
   void take(Solution<B>& solution);
   double off(const Solution<B>& solution) const;
+  double slid() const;
   void look_where_it_came(Solution<B>& solution);
   void add_estimate(StepReport& report, const Discretization<B>& discretization, Warnings& warnings);
   void add_goal(StepReport& report, const Discretization<B>& discretization);

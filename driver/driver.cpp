@@ -28,11 +28,6 @@ namespace {
 /// Of the unknowns: meshes that are hardly finer are not made.
 constexpr double least_growth = 1.1;
 
-/// See doubt_of_friction().
-const std::string at_newcomers =
-    "most of friction acts at nodes that came into contact in this step, and what they moved before they touched "
-    "counts, too";
-
 }  // namespace
 
 const Progress& Driver::waiting() {
@@ -252,7 +247,7 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
   const std::string* veto = parts_differ ? veto_against_cutting() : nullptr;
   if (parts_differ && !veto) {
     note_failure(by, stuck ? "no solution was found" : doubt.reason, report.summary.iterations,
-                 stuck ? report.summary.reason : at_newcomers);
+                 stuck ? report.summary.reason : doubt.why);
     const double middle = by.from + (by.to - by.from) * doubt.cut_at;
     return advance({by.number, by.from, middle, by.halvings + 1}, done) &&
            advance({by.number, middle, by.to, by.halvings + 1}, done);
@@ -262,7 +257,7 @@ bool Driver::advance(const LoadStep& by, const std::function<void()>& done) {
     report.summary.reason += fmt::format("; this is the part from t = {} to {} of a step that was cut in two {} times",
                                          by.from, by.to, by.halvings);
   if (stuck && veto) report.summary.reason += fmt::format("; {} does not admit that the step is cut in two", *veto);
-  if (doubt.reason) warnings.push_back(warning<"friction-turned">(by.number, by.to, doubt.reason, at_newcomers));
+  if (doubt.reason) warnings.push_back(warning<"friction-turned">(by.number, by.to, doubt.reason, doubt.why));
   report_.warnings = std::move(warnings);
   add_step(std::move(report));
   if (done) done();

@@ -232,8 +232,8 @@ struct Table<ContactReport> {
                "the part of `force` along the obstacle's normals, as a sum of vectors"),
         member("tangential_force", &C::tangential_force, "and the part across them"),
         member("moment", &C::moment,
-               "of `force`, with undeformed positions (of two bodies that steps have moved past each other: where they "
-               "touch): about the z-axis in 2D, else three entries; of scalar bodies none"),
+               "of `force`, with undeformed positions (of bodies that have moved past each other or an obstacle: "
+               "where they touch): about the z-axis in 2D, else three entries; of scalar bodies none"),
         member("moment_about", &C::moment_about,
                "the point that the moment is about: the `point` of a plane, the `center` of a round shape, else the "
                "origin"),

@@ -143,13 +143,13 @@ inline constexpr WarningKind warning_kinds[] = {
      "smaller elements",
      "where the pressure acts a joint closes, and where it does not it opens", "smaller elements there"},
     {WarningKind::About::result, "friction-turned",
-     "step {}: at t = {} the direction of friction is in doubt: {}, and {}; expected shorter steps ([steps])",
+     "step {}: at t = {} friction is in doubt: {}, and {}; expected shorter steps ([steps])",
      "nodes that have just come into contact carry most of the friction, and it turned round within the step, "
-     "contact moved on by more than its size, or bodies came from apart along the surface",
+     "contact moved on by more than its size, or bodies came from apart along the surface; or bodies slid past each "
+     "other in the first step",
      "shorter steps"},
     {WarningKind::About::result, "step-cut", "step {}: from t = {} to {} {}, and it was cut in two: {}",
-     "the step could not be solved in one piece, or the direction of friction was in doubt",
-     "nothing, if the run ends with 0"},
+     "the step could not be solved in one piece, or friction was in doubt", "nothing, if the run ends with 0"},
     {WarningKind::About::result, "undetermined-force",
      "{}: {} of {} nodes in contact are also held along the obstacle's normal by a fix, or pressed on by other "
      "obstacles along directions that depend on each other{}. How the force divides between them is not determined; "

@@ -11,8 +11,10 @@
 namespace signorini {
 namespace {
 
-constexpr double noticeable = 0.2;  // of what friction may hold back, and of what is left of a step
-constexpr double steep = 4;         // times what friction may hold back: beyond that all slips
+constexpr double noticeable = 0.05;  // of what friction may hold back
+constexpr double steep = 4;          // times that: beyond it all slips
+constexpr double short_time = 0.2;   // in contact, of that left of a planned step: what follows puts right
+constexpr double touching = 1e-6;    // in contact: what bodies do that only just touch at the end
 
 template <int D>
 Point<D> at(const std::vector<double>& u, Index node) {
@@ -119,7 +121,7 @@ class Approach {
     const double part = std::min(of.apart / nearer, 1.0), left = 1 - part + rest;
     const double held = of.limit / of.pressed * of.straight;
     const bool matters = part * of.along > noticeable * held * left && of.along < steep * held;
-    return matters && 1 - part > noticeable * left ? part : 0;
+    return matters && 1 - part > std::max(short_time * left, touching) ? part : 0;
   }
 
  private:

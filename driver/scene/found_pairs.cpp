@@ -32,7 +32,7 @@ using Distances = std::vector<double>;
 
 /// The boundary of one body.
 template <int D>
-struct Side {
+struct BodySide {
   const Scene::Body* body;
   Mesh<D> mesh;
   std::vector<Index> faces;  // all
@@ -40,7 +40,7 @@ struct Side {
   double longest = 0;        // edge of its faces
   Distances itself;          // how far its own surface is, in front of it
 
-  Side(const Scene& scene, std::size_t number)
+  BodySide(const Scene& scene, std::size_t number)
       : body(&scene.bodies[number]), mesh(coarsest_mesh<D>(scene, number, D, nullptr, Progress())) {
     faces.resize(mesh.boundary.size());
     std::iota(faces.begin(), faces.end(), Index{0});
@@ -117,7 +117,7 @@ class Finder {
   }
 
   void look_at(std::size_t i, std::size_t j) {
-    const Side<D>&a = sides_[i], &b = sides_[j];
+    const BodySide<D>&a = sides_[i], &b = sides_[j];
     const double reach = contact_.reach.value_or(std::max(a.longest, b.longest));
     double extent = 0, apart = 0;  // of both, and of their boxes
     for (int k = 0; k < D; ++k) {
@@ -137,8 +137,8 @@ class Finder {
     if (out.least <= out.reach) found_.push_back(std::move(out));
   }
 
-  Distances distances(const Side<D>& from, const Side<D>& to, double reach, double depth) const {
-    const auto corners = [](const Side<D>& side) {
+  Distances distances(const BodySide<D>& from, const BodySide<D>& to, double reach, double depth) const {
+    const auto corners = [](const BodySide<D>& side) {
       std::vector<std::array<Index, D>> out;
       for (const Face<D>& face : side.mesh.boundary) out.push_back(face.vertices);
       return out;
@@ -159,7 +159,7 @@ class Finder {
 
   /// How far the body's own surface is in front of it, as across a bore: what is behind that is out of sight.
   const Distances& itself(std::size_t number) {
-    Side<D>& side = sides_[number];
+    BodySide<D>& side = sides_[number];
     if (side.itself.empty()) {
       side.itself = distances(side, side, length<D>(difference<D>(side.high, side.low)), 0);
       for (double& distance : side.itself)
@@ -200,7 +200,7 @@ class Finder {
   /// Bodies may move on, to where other faces see each other: all of the same surfaces are picked then.
   std::shared_ptr<const Corners> picked(const Found& pair, int which) {
     const std::size_t number = which == 0 ? pair.first : pair.second;
-    const Side<D>& side = sides_[number];
+    const BodySide<D>& side = sides_[number];
     Distances nearest = itself(number);
     for (const Found& any : found_)
       for (const int k : {0, 1})
@@ -263,7 +263,7 @@ class Finder {
 
   const Scene& scene_;
   const Scene::Contact contact_;
-  std::vector<Side<D>> sides_;
+  std::vector<BodySide<D>> sides_;
   std::vector<Found> found_;
   double nearest_ = infinity;
 };
