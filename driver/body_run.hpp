@@ -124,7 +124,7 @@ class BodyRun {
   StrainSizes<D> strains_;                                     // of an elastic body, once converged
   double algebraic_error_ = 0;                                 // of the last solve
   std::vector<double> rest_;                                   // of friction, in it
-  std::vector<double> estimate_of_element_, goal_of_element_;  // the latter of the goal's error, of either sign
+  std::vector<double> estimate_of_element_, goal_of_element_;  // the latter of the goal's error; empty: not known
 };
 
 }  // namespace signorini

@@ -166,8 +166,6 @@ void Driver::solve_steps(const std::function<void()>& done) {
 std::string Driver::why_not_refined(const AdaptiveReport& past) const {
   const Scene::Refine& limits = scene_.refine;
   const AdaptiveStep& last = past.steps.back();
-  if (last.error.goal && !std::isfinite(last.error.goal->relative_error()))
-    return "what the goal depends on could not be found";
   if (std::ssize(past.steps) > limits.max_steps) return fmt::format("refine.max_steps is {}", limits.max_steps);
   if (last.seconds > limits.max_seconds) return fmt::format("refine.max_seconds is {:g}", limits.max_seconds);
   if (static_cast<double>(last.unknowns) * least_growth > limits.max_unknowns)

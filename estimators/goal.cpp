@@ -39,6 +39,7 @@ std::optional<std::vector<double>> dual_solution(const DiscreteProblem<B>& probl
   std::vector<double> z(dual.b.size());
   if (!solve(dual, z)) return {};
   for (std::size_t i = 0; i < z.size(); ++i) z[i] += dual.start[i];
+  if (max_norm(z) == 0) return {};
   return to_global(problem, std::move(z));
 }
 

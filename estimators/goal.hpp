@@ -21,7 +21,7 @@ struct Quantity {
 
 /// The dual solution z of a goal, in global coordinates: a(v, z) is how the goal depends on each v that is zero where
 /// contact holds it, and there z is what the goal asks of the forces, with the other sign. Nothing where `solve` could
-/// not.
+/// not, or where all that the goal depends on is held: on a coarse mesh that says nothing.
 /// @param problem with prescribed values that are eliminated
 template <int B>
 std::optional<std::vector<double>> dual_solution(const DiscreteProblem<B>& problem, const Quantity<B>& goal,

@@ -7,7 +7,6 @@
 
 #include "core/base/dot.hpp"
 #include "core/base/error.hpp"
-#include "core/fem/recovery/fit_limits.hpp"
 #include "core/solver/local_coordinates.hpp"
 
 namespace signorini {
@@ -100,7 +99,11 @@ void ask_for_force(const Nodes<D>& nodes, const Results<D, B>& results, const St
     if (node.obstacle == obstacle && is_in_contact(node)) held.ask(node, along);
 }
 
-/// Nodes of an obstacle's contact within so many rings of neighbours, as pressures are recovered from.
+/// Of neighbours, around the largest pressure. The mean over one of them has errors that the recovery of pressures
+/// smoothes away; that over all of the recovery's rings has lost some which that has.
+constexpr int rings_of_mean = 2;
+
+/// Nodes of an obstacle's contact within these rings.
 template <int D, int B>
 std::vector<const ContactNode<B>*> pressed_around(const Nodes<D>& nodes, const std::vector<ContactNode<B>>& all,
                                                   const ContactNode<B>& top) {
@@ -109,7 +112,7 @@ std::vector<const ContactNode<B>*> pressed_around(const Nodes<D>& nodes, const s
     if (node.obstacle == top.obstacle && is_in_contact(node)) pressed[node.vertex] = &node;
   std::vector<char> reached(pressed.size());
   reached[top.vertex] = true;
-  for (int ring = 0; ring < rings; ++ring) {
+  for (int ring = 0; ring < rings_of_mean; ++ring) {
     const std::vector<char> before = reached;
     for (std::size_t e = 0; e < nodes.mesh().elements.size(); ++e) {
       const auto corners = nodes.of_simplex(e);
