@@ -118,14 +118,14 @@ INSTANTIATE_TEST_SUITE_P(Estimated, Goals,
                                   std::to_string(param.param.order);
                          });
 
-/// With a quarter of the unknowns.
+/// A third of the error, with a quarter of the unknowns.
 TEST(Goal, IsNearerThanOnUniformMeshes) {
   const GoalCase of{"Cylinder", round_cylinder, "force", 2, 8000};
   const double exact = refined_for(of, 64000, 2).adaptive->steps.back().error.goal->value;
   const Report uniform = adaptive_run(round_cylinder(), {"refine.uniform=4"});
   const Report found = refined_for(of, uniform.last().summary.level_unknowns.back() / 4, 2);
   EXPECT_LT(std::abs(found.last().estimate->goal->value - exact),
-            std::abs(value_of_goal("force", uniform.last()) - exact) / 10);
+            std::abs(value_of_goal("force", uniform.last()) - exact) / 3);
 }
 
 TEST(Goal, EndsARunAtItsTolerance) {
