@@ -69,37 +69,35 @@ double radius(int dimension, Plane plane, bool inside, double measure) {
   return of_contact == 2 ? std::sqrt(measure / std::numbers::pi) : std::cbrt(0.75 * measure / std::numbers::pi);
 }
 
-/// Where nodes of both bodies were when these found each other: as they are drawn, or moved by what all of a body's
-/// that touch have moved by in the mean.
+/// Where nodes of both bodies were when these found each other: as they are drawn, or masters moved by what those that
+/// touch have moved by in the mean, and slaves past them.
 template <int D>
 class WhereTheyMet {
  public:
-  WhereTheyMet(const Nodes<D>& nodes, Plane plane, const Results<D, D>& results) : nodes_(nodes) {
-    if (results.shift.empty()) return;
-    const auto add = [&](const std::vector<ContactNode<D>>& touch, std::size_t side) {
-      std::vector<double> count(results.shift.size());
-      motion_[side].resize(count.size());
-      for (const ContactNode<D>& node : touch) {
-        if (!node.contact || results.shift[node.obstacle] == Point<D>{}) continue;
-        ++count[node.obstacle];
-        for (int i = 0; i < D; ++i) motion_[side][node.obstacle][i] += results.u[Offset{node.vertex} * D + i];
-      }
-      for (std::size_t k = 0; k < count.size(); ++k)
-        for (double& component : motion_[side][k]) component /= std::max(count[k], 1.0);
-      for (Point<D>& motion : motion_[side]) motion = symmetric_motion<D>(nodes.mesh(), plane, motion);
-    };
-    add(results.contact.nodes, 1);
-    add(results.masters, 0);
+  WhereTheyMet(const Nodes<D>& nodes, Plane plane, const Results<D, D>& results)
+      : nodes_(nodes), shift_(results.shift), of_masters_(shift_.size()) {
+    std::vector<double> count(shift_.size());
+    for (const ContactNode<D>& node : results.masters) {
+      if (shift_.empty() || !node.contact || shift_[node.obstacle] == Point<D>{}) continue;
+      ++count[node.obstacle];
+      for (int i = 0; i < D; ++i) of_masters_[node.obstacle][i] += results.u[Offset{node.vertex} * D + i];
+    }
+    for (std::size_t k = 0; k < count.size(); ++k) {
+      for (double& component : of_masters_[k]) component /= std::max(count[k], 1.0);
+      of_masters_[k] = symmetric_motion<D>(nodes.mesh(), plane, of_masters_[k]);
+    }
   }
   Point<D> operator()(Index node, Index obstacle, bool on_slave) const {
     Point<D> at = nodes_.control_point(node);
-    for (int i = 0; i < D && !motion_[on_slave].empty(); ++i) at[i] += motion_[on_slave][obstacle][i];
+    for (int i = 0; i < D && !shift_.empty(); ++i)
+      at[i] += of_masters_[obstacle][i] + (on_slave ? shift_[obstacle][i] : 0);
     return at;
   }
 
  private:
   const Nodes<D>& nodes_;
-  std::array<std::vector<Point<D>>, 2> motion_;  // per obstacle; of masters, of slaves
+  const std::vector<Point<D>>& shift_;
+  std::vector<Point<D>> of_masters_;  // per obstacle
 };
 
 template <int D, int B>
