@@ -4,12 +4,12 @@
 #include <optional>
 #include <utility>
 
-#include "amg/linear/masked_cg.hpp"
 #include "core/algebra/energy_along.hpp"
 #include "core/base/clock.hpp"
 #include "core/base/error.hpp"
 #include "core/solver/admissible.hpp"
 #include "core/solver/interpolate.hpp"
+#include "core/solver/masked_cg.hpp"
 #include "core/solver/multigrid.hpp"
 #include "core/solver/smooth_interpolation.hpp"
 #include "core/solver/sticking.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "amg/linear/held_cholesky.hpp"
-#include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/random_vector.hpp"
+#include "core/solver/masked_cg.hpp"
 #include "core/solver/weights.hpp"
 
 namespace signorini {

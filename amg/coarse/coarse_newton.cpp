@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "amg/coarse/allowed_motions.hpp"
-#include "amg/linear/masked_cg.hpp"
 #include "amg/linear/unit_diagonal.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/dense.hpp"
 #include "core/base/dot.hpp"
 #include "core/solver/functional.hpp"
+#include "core/solver/masked_cg.hpp"
 #include "core/solver/rounding.hpp"
 
 namespace signorini {

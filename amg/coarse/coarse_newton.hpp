@@ -1,8 +1,8 @@
 #pragma once
 #include "amg/linear/held_cholesky.hpp"
-#include "amg/linear/masked_cg.hpp"
 #include "core/solver/components.hpp"
 #include "core/solver/falling.hpp"
+#include "core/solver/masked_cg.hpp"
 
 namespace signorini {
 

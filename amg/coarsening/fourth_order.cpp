@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "amg/linear/masked_cg.hpp"
 #include "core/algebra/products.hpp"
 #include "core/base/dot.hpp"
+#include "core/solver/masked_cg.hpp"
 
 namespace signorini {
 namespace {

@@ -1,6 +1,6 @@
 #include "amg/linear/amg_cg.hpp"
 
-#include "amg/linear/masked_cg.hpp"
+#include "core/solver/masked_cg.hpp"
 
 namespace signorini {
 

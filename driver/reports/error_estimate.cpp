@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "amg/linear/algebraic_cycle.hpp"
-#include "amg/linear/masked_cg.hpp"
+#include "core/solver/masked_cg.hpp"
 
 namespace signorini {
 namespace {

@@ -169,10 +169,10 @@ TEST(Sliding, InOneStepIsSeenInTheReport) {
 // Flat faces touch as truly wherever they slide to, but other faces of the other body.
 TEST(Sliding, OfFlatBodiesInOneStepIsThatOfBodiesDrawnThere) {
   const auto force = [](const std::string& from, const std::string& to, double way, const std::string& more) {
-    Driver driver(scene_of(block("base", "[-3, -1]", "[3, 0]", "[24, 4]", "young = \"x < 0 ? 300 : 6000\"\npoisson = 0.3\n") +
-                           block("punch", from, to, "[6, 3]", material(3000)) + fix("base", "bottom", "[0, 0]") +
-                           fix("punch", "top", fmt::format("[{}, -0.01]", way)) +
-                           pair("punch", "bottom", "base", "top", more)));
+    Driver driver(
+        scene_of(block("base", "[-3, -1]", "[3, 0]", "[24, 4]", "young = \"x < 0 ? 300 : 6000\"\npoisson = 0.3\n") +
+                 block("punch", from, to, "[6, 3]", material(3000)) + fix("base", "bottom", "[0, 0]") +
+                 fix("punch", "top", fmt::format("[{}, -0.01]", way)) + pair("punch", "bottom", "base", "top", more)));
     return solved(driver).last().contact[0].force[1];
   };
   const double drawn = force("[1, 0]", "[2, 0.5]", 0, "");

@@ -10,6 +10,7 @@
 #include "apps/scenes/tables.hpp"
 #include "core/base/error.hpp"
 #include "driver/driver.hpp"
+#include "driver/reports/goals.hpp"
 
 namespace signorini::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "amg/coarse/coarse_newton.hpp"
-#include "amg/linear/masked_cg.hpp"
 #include "core/base/dense.hpp"
+#include "core/solver/masked_cg.hpp"
 #include "core/solver/multigrid.hpp"
 #include "tests/support/pdas.hpp"
 #include "tests/support/problems.hpp"

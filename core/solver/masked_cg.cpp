@@ -1,4 +1,4 @@
-#include "amg/linear/masked_cg.hpp"
+#include "core/solver/masked_cg.hpp"
 
 #include <algorithm>
 #include <cmath>
