@@ -24,11 +24,11 @@ struct TouchingNodes {
       normal[i] += node.direction[i];
     }
   }
-  /// Largest less least coordinate along a direction.
-  double reach(const Nodes<D>& all, const Point<D>& along) const {
+  /// Largest less least component along a direction of what `at` has at the nodes.
+  double range(const Point<D>& along, const auto& at) const {
     double low = infinity, high = -infinity;
     for (const Index p : nodes) {
-      const double x = dot(all.at(p), along);
+      const double x = dot(at(p), along);
       low = std::min(low, x);
       high = std::max(high, x);
     }
@@ -58,8 +58,16 @@ double noticeably_slid(const Nodes<D>& nodes, const Model<D>& model, const Conta
     normalise(normal);
     const double across = dot(slip, normal);
     for (int i = 0; i < D; ++i) slip[i] -= across * normal[i];
-    const double way = normalise(slip), reach = slave[k].reach(nodes, slip);
-    if (reach > 0) out = std::max(out, way / (noticeable * reach));
+    const double way = normalise(slip);
+    const auto motion = [&](Index p) {
+      Point<D> by;
+      std::copy_n(u.data() + Offset{p} * D, D, by.begin());
+      return by;
+    };
+    const double reach = slave[k].range(slip, [&](Index p) { return nodes.at(p); });
+    // Where nodes of one side move as differently as both do no body has slid as a whole.
+    const double spread = slave[k].range(slip, motion) + master[k].range(slip, motion);
+    if (reach > 0) out = std::max(out, way / std::max(noticeable * reach, spread));
   }
   return out;
 }

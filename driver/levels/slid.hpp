@@ -5,8 +5,9 @@
 namespace signorini {
 
 /// How far bodies have slid past each other since they found each other, in the mean over what touches, in parts of
-/// what is noticeable: of a twentieth of how far that reaches where they slide to. About so much of it touches other
-/// faces than the solution takes.
+/// what is noticeable: of a twentieth of how far that reaches where they slide to, or of how differently nodes of one
+/// side move, if that is more: then no body has slid as a whole. About so much of it touches other faces than the
+/// solution takes.
 /// @param masters nodes of the other bodies in contact
 /// @param u global coordinates, D per node
 /// @param shift by obstacle what they had slid then; empty: not
