@@ -84,7 +84,7 @@ TEST(KeyPage, SaysTypeRangeDefaultAndHowToSetIt) {
                            "signorini solve SCENE.toml --set solver.cycle=W", "full multigrid"})
     EXPECT_THAT(page, HasSubstr(text));
   EXPECT_THAT(key_page(keys_named("body.young").front()), HasSubstr("young = 210000"));
-  for (const char* text : {"energy | force | peak_pressure", "goal = \"force\"", "\nforce: the largest normal force"})
+  for (const char* text : {"energy | force | peak_pressure", "goal = \"force\"", "\n  force: the largest normal force"})
     EXPECT_THAT(key_page(keys_named("refine.goal").front()), HasSubstr(text));
 }
 
