@@ -190,7 +190,7 @@ void NestedSolver<D, B>::follow(const Model<B>& model, double was, const std::fu
     follow_on(model, found);
     place.now = std::move(found.solution);
     Summary& summary = place.now.summary;
-    if (summary.converged() && !(off(place.now) < std::max(truer * was, 1.0))) {  // 1: not noticeably
+    if (summary.converged() && !(off(place.now) < truer * was)) {
       summary.outcome = Outcome::stuck;
       summary.reason = "contact is no truer about where bodies have come to";
     }
