@@ -44,6 +44,7 @@ double diagonal_of_root(const BlockMatrix<1>& A, const std::vector<Flags>& off, 
 
 BlockMatrix<1> root_of(const BlockMatrix<1>& A, const std::vector<Flags>& off) {
   std::vector<double> d;
+  d.reserve(static_cast<std::size_t>(A.size()));
   for (Index p = 0; p < A.size(); ++p) d.push_back(diagonal_of_root(A, off, p));
   BlockMatrix<1> L;
   for (Index p = 0; p < A.size(); ++p) {
